@@ -4,7 +4,7 @@
 #include <string.h>
 #include <stickslip.h>
 
-#include "morlet/fft/blocks.h"
+#include "map/fft/blocks.h"
 #include "morlet_plan.h"
 #include "new_signal.h"
 #include "unit.h"

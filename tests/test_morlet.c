@@ -3,7 +3,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include "morlet/fft/blocks.h"
+#include "map/fft/blocks.h"
 #include "morlet_plan.h"
 #include "unit.h"
 

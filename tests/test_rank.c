@@ -5,10 +5,10 @@
 #include <stickslip.h>
 #include "foreign.h"
 #include "shipped.h"
-#include "study/rank/candidate.h"
-#include "study/rank/cycle.h"
-#include "study/rank/held.h"
-#include "study/rank/samples.h"
+#include "fit/candidate.h"
+#include "fit/cycle.h"
+#include "fit/held.h"
+#include "fit/samples.h"
 #include "unit.h"
 
 enum { MODELS = 4, HEAVY = 0, LIGHT, COULOMB, STATE };      /* as shipped */

@@ -1,7 +1,7 @@
 /* hdf5.c -- HDF5 when a file needs it.
  *
  * HDF5 brings some 35 libraries, and loading these takes more processor time than most runs of a
- * tool.  So tools are not linked with the store (src/store): these functions have its names, open
+ * tool.  So tools are not linked with the store (src/io/hdf5): these functions have its names, open
  * the shared library libstickslip where the store is, and call the same function there. */
 #include <dlfcn.h>
 #include <limits.h>

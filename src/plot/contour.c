@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/range.h"
-#include "morlet/wavelet.h"
+#include "map/wavelet.h"
 
 const ss_range ss_contour_levels = { 1, CONTOUR_LEVELS }, ss_contour_spans = { 1e-3, 1000 },
     ss_contour_tops = { -2000, 2000 };

@@ -2,7 +2,7 @@
 #include "plot/contour.h"
 
 #include <math.h>
-#include "morlet/wavelet.h"
+#include "map/wavelet.h"
 
 #define RISE 3.0                /* [dB] of a ridge above the saddles beside it */
 

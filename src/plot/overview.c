@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/largest.h"
 #include "base/versions.h"
-#include "morlet/wavelet.h"
+#include "map/wavelet.h"
 #include "plot/extremes.h"
 #include "plot/noise_level.h"
 

@@ -16,11 +16,11 @@ scratch=$PWD
 cd "$SRC"
 grep -rlE --include='*.[ch]' 'gsl_odeiv2\.h' src tools
 grep -rlE --include='*.[ch]' 'include.*(fftw3|fft/plan)\.h' src tools | sort
-grep -rlE --include='*.[ch]' 'hdf5(_hl)?\.h' src tools | grep -v '^src/store' || true
+grep -rlE --include='*.[ch]' 'hdf5(_hl)?\.h' src tools | grep -v '^src/io/hdf5' || true
 
 # Arrows between folders go down this list only, by includes and by what each object file defines and
 # uses; within a folder no files need each other in a circle.  What is printed breaks this.
-list='base signal scene motion morlet features study stream store plot load'
+list='base signal scene motion map find fit study io plot'
 grep -rnE --include='*.[ch]' '^#include ("|<stickslip/)' src | sed -E 's/^src\/([^:]*)\.[ch]:[0-9]*:#include ["<](.*)\.h[">].*/includes \1 \2/' > "$scratch/arrows"
 cd "$scratch"
 find "$BUILD/src" -name '*.o' | while read -r object; do
@@ -33,9 +33,11 @@ awk -v list="$list" '
     # A public header belongs to the folder that defines what it declares.
     function folder(file) {
         sub(/^stickslip\/sim$/, "motion/", file)
-        sub(/^stickslip\/(rank|sweep|trade)$/, "study/", file)
-        sub(/^stickslip\/spikes$/, "features/", file)
-        sub(/^stickslip\/(overlay|table)$/, "stream/", file)
+        sub(/^stickslip\/morlet$/, "map/", file)
+        sub(/^stickslip\/(features|spikes)$/, "find/", file)
+        sub(/^stickslip\/rank$/, "fit/", file)
+        sub(/^stickslip\/(sweep|trade)$/, "study/", file)
+        sub(/^stickslip\/(overlay|table|store|load)$/, "io/", file)
         sub(/^stickslip\/(status|number)$/, "base/", file)
         sub(/^stickslip\//, "", file)
         sub(/\/.*/, "", file)

@@ -1,14 +1,14 @@
 # A format is added by one file and one row of the list: then every tool reads a signal in it, and each
 # that writes signals, coefficients or rows writes it.  It has a line FISH, then its rate, names and
 # numbers with a bar between.
-mkdir -p src/stream bin
-sed 's/^    row(npy)$/    row(npy) \\\n    row(fish)/' "$SRC/src/stream/format.h" > src/stream/format.h
-diff "$SRC/src/stream/format.h" src/stream/format.h | grep -c '^> ' || true
-cat > src/stream/fish.c <<'C'
+mkdir -p src/io bin
+sed 's/^    row(npy)$/    row(npy) \\\n    row(fish)/' "$SRC/src/io/format.h" > src/io/format.h
+diff "$SRC/src/io/format.h" src/io/format.h | grep -c '^> ' || true
+cat > src/io/fish.c <<'C'
 #include <stdlib.h>
 #include <string.h>
-#include "stream/format.h"
-#include "stream/reader.h"
+#include "io/format.h"
+#include "io/reader.h"
 
 static ss_status
 read_fish(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
@@ -73,7 +73,7 @@ const struct format ss_format_fish = {
     .begin = begin_fish, .number = format_fish, .separator = '|'
 };
 C
-for file in "$SRC"/src/stream/*.c src/stream/fish.c; do
+for file in "$SRC"/src/io/*.c src/io/fish.c; do
     # shellcheck disable=SC2086  # flags are a list
     $CC -std=c11 -D_XOPEN_SOURCE=700 -Isrc -I"$SRC/include" -I"$SRC/src" $INCLUDES -c "$file"
 done

@@ -13,7 +13,7 @@ done
 # shellcheck disable=SC2086  # flags are lists
 $CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iinclude -I"$SRC/include" -I"$SRC/src" $INCLUDES -c steady.c meter.c \
     "$SRC/src/study/sweep/sweep.c" "$SRC/tools/ss-sweep.c"
-$CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iinclude -I"$SRC/include" -I"$SRC/src" -c -o rows.o "$SRC/src/stream/sweep.c"
+$CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iinclude -I"$SRC/include" -I"$SRC/src" -c -o rows.o "$SRC/src/io/sweep.c"
 # shellcheck disable=SC2086  # a list
 parts=$(printf "$BUILD/tools/%s.o " $TOOL_PARTS)
 # what is linked first takes the place of the library's own

@@ -10,7 +10,7 @@
 #include <stickslip/sweep.h>
 #include "base/error.h"
 #include "base/progress.h"
-#include "features/numbers.h"
+#include "find/numbers.h"
 #include "motion/engine.h"
 #include "study/curve.h"
 #include "study/trade/common.h"

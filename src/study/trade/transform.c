@@ -13,7 +13,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
-#include "morlet/plan.h"
+#include "map/plan.h"
 #include "study/trade/runs.h"
 
 /* The first and the last accuracy are those of ss_trade_tolerance. */

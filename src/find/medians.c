@@ -1,0 +1,101 @@
+/* medians.c -- medians over slips and sticks, with errors that count what all of these have in common.
+ *
+ * If the errors of single values are larger than their scatter, they are not by chance: all values have a part
+ * of them in common, and this part does not become less with the number of values. */
+#include "find/medians.h"
+
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+#include "base/gauss.h"
+
+#define DEVIATION_SD 1.17       /* relative error of a median deviation, times the root of the number of
+                                   values */
+#define SHORT 0.2               /* part of the time that falls may take, so that the rest may be stick */
+
+/* The median of the errors that are known, and their number in *known; 0: none is known. */
+static double
+median_error(size_t *known, const ss_value *v, size_t n, double *scratch)
+{
+    *known = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(v[i].value) && isfinite(v[i].error))
+            scratch[(*known)++] = v[i].error;
+    return *known > 0 ? gsl_stats_median(scratch, 1, *known) : 0;
+}
+
+ss_median
+ss_median_of(const ss_value *v, size_t n, double *scratch)
+{
+    size_t used = 0, known;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(v[i].value))
+            scratch[used++] = v[i].value;
+    if (used < 2)
+        return (ss_median){ used > 0 ? scratch[0] : NAN, NAN, NAN };
+    double median = gsl_stats_median(scratch, 1, used);
+    for (size_t i = 0; i < used; i++)
+        scratch[i] = fabs(scratch[i] - median);
+    double scatter = gsl_stats_median(scratch, 1, used) / GAUSS_MEDIAN;
+    double error = median_error(&known, v, n, scratch);
+    double common = sqrt(fmax(0, error * error - scatter * scatter));
+    return (ss_median){ median, hypot(sqrt(M_PI / 2 / (double)used) * scatter, common), scatter };
+}
+
+/* The median of one number of all loadings, which is offset bytes behind their starts; `common` is the part
+ * of the variance of each that all share. */
+static ss_median
+median_over(const ss_features *out, size_t offset, double common, ss_value *v, double *scratch)
+{
+    size_t known;
+    for (size_t i = 0; i < out->n; i++)
+        memcpy(&v[i], (const char *)&out->loading[i] + offset, sizeof *v);
+    ss_median m = ss_median_of(v, out->n, scratch);
+    if (common > 0 && isfinite(m.error))
+        m.error = fmax(m.error, sqrt(common) * median_error(&known, v, out->n, scratch));
+    return m;
+}
+
+/* Add to the error of k/m the part that all slips share.  k/m is a property of the rig.  If slips disagree on it
+ * by more than their errors, at three standard deviations, they are not quite slips of the model: a misfit
+ * may shift all of them alike, which their scatter does not show. */
+static void
+add_misfit(ss_median *k_over_m, double common, const ss_value *v, size_t n, double *scratch)
+{
+    size_t known;
+    double error = sqrt(1 - common) * median_error(&known, v, n, scratch), scatter = k_over_m->scatter;
+    if (known > 1 && scatter > error * (1 + 3 * DEVIATION_SD / sqrt((double)known)))
+        k_over_m->error = hypot(k_over_m->error, sqrt(scatter * scatter - error * error));
+}
+
+void
+ss_loading_medians(ss_features *out, const ss_drop *drop, double common, ss_value *v, double *scratch)
+{
+    size_t slips = 0;
+    double falling = 0;
+    for (size_t i = 0; i < out->n; i++) {
+        slips += (size_t)isfinite(out->loading[i].drop.value);
+        falling += drop[i].end - drop[i].t;
+    }
+    int is_typical = 2 * slips >= out->n;
+    int is_short = out->n > 1 && falling <= SHORT * (drop[out->n - 1].end - drop[0].t);
+    if (is_typical || is_short) {
+        out->slope = median_over(out, offsetof(ss_loading, slope), 0, v, scratch);
+        out->stiffness = median_over(out, offsetof(ss_loading, stiffness), 0, v, scratch);
+    }
+    if (!is_typical)
+        return;
+    const struct { ss_median *to; size_t offset; double common; } of_slips[] = {
+        { &out->drop, offsetof(ss_loading, drop), common },
+        { &out->duration, offsetof(ss_loading, duration), common },
+        { &out->recurrence, offsetof(ss_loading, recurrence), 0 },
+        { &out->stick, offsetof(ss_loading, stick), common },
+        { &out->static_friction, offsetof(ss_loading, static_friction), common },
+        { &out->friction, offsetof(ss_loading, friction), common },
+        { &out->k_over_m, offsetof(ss_loading, k_over_m), common },
+    };
+    for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
+        *of_slips[i].to = median_over(out, of_slips[i].offset, of_slips[i].common, v, scratch);
+    add_misfit(&out->k_over_m, common, v, out->n, scratch);     /* v still holds the errors of k/m */
+}

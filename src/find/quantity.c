@@ -1,0 +1,60 @@
+/* quantity.c -- the physical quantity of a column, by its unit or its name.
+ *
+ * A slip is a fall in a force and not in a displacement, and the shape of a signal does not
+ * separate them for certain.  So the quantity follows from the words that people write above columns;
+ * without such words it is unknown. */
+#include "find/quantity.h"
+
+#include <ctype.h>
+#include <string.h>
+
+static const char *const force_units[] = { "N", "kN", "mN", "MN", "uN", "lbf", "kip", "kips", "kgf", "gf",
+                                           "dyn", "dyne", NULL };
+static const char *const motion_words[] = { "velocity", "acceleration", "displacement", "position",
+                                            "slip", "speed", "stroke", "vel", "acc", "disp", "pos",
+                                            "x", "v", "a", NULL };
+static const char *const force_words[] = { "force", "friction", "load", "traction", "f", "fx", "fy",
+                                           "fz", "fn", "ft", NULL };
+
+static int
+is_one_of(const char *const *list, const char *text, size_t length)
+{
+    for (; *list != NULL; list++) {
+        size_t i = 0;
+        while (i < length && (*list)[i] == tolower((unsigned char)text[i]))
+            i++;
+        if (i == length && (*list)[i] == '\0')
+            return 1;
+    }
+    return 0;
+}
+
+/* Does one of the words stand in the name, apart from other letters? */
+static int
+has_word(const char *name, const char *const *list)
+{
+    while (*name != '\0') {
+        size_t length = 0;
+        while (isalpha((unsigned char)name[length]))
+            length++;
+        if (length > 0 && is_one_of(list, name, length))
+            return 1;
+        name += length > 0 ? length : 1;
+    }
+    return 0;
+}
+
+column_quantity
+ss_column_quantity(const ss_column *column)
+{
+    for (const char *const *unit = force_units; *unit != NULL; unit++)
+        if (strcmp(*unit, column->unit) == 0)
+            return QUANTITY_FORCE;
+    /* a unit of length, by whatever time: m, mm/s, (m/s^2), in */
+    const char *unit = column->unit + (column->unit[0] == '(');
+    static const char *const lengths[] = { "m", "mm", "um", "nm", "cm", "km", "in", "ft", NULL };
+    if (is_one_of(lengths, unit, strcspn(unit, "/)")) && strcmp(unit, "M") != 0)
+        return QUANTITY_MOTION;
+    return has_word(column->name, force_words) ? QUANTITY_FORCE
+        : has_word(column->name, motion_words) ? QUANTITY_MOTION : QUANTITY_UNKNOWN;
+}

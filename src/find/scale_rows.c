@@ -1,0 +1,286 @@
+/* scale_rows.c -- |W| along single scales.
+ *
+ * Noise: the rms of |W| in a row, from the median, which events do not move: |W|^2 of Gaussian
+ * noise is exponential, its median ln 2 of its mean.  Not less than what rounding of the samples
+ * makes: of a converter's step, or of the last digit that numbers are trusted to have.
+ *
+ * Threshold: |W| of Gaussian noise crosses the level u (in units of its rms) upwards u exp(-u^2) /
+ * (a sqrt(2 pi)) times a second (Rice 1945, with the spectral width 1 / (sqrt(2) a) of the Morlet
+ * wavelet); summed over the rows that is to be false_alarms.  Neighbouring rows are not
+ * independent, so there are fewer.
+ *
+ * The record is continued oddly about its end points, so that it goes on with the same value and
+ * slope; what is nearer to an end than sqrt(2) a is not used all the same. Nor is what lies within
+ * the reach of a gap, where something of another value and slope may stand. */
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "base/error.h"
+#include "find/scale_rows.h"
+#include <stickslip/morlet.h>
+
+#define ACCURACY 1e-10          /* of W: 200 dB */
+#define QUIET 3.0               /* scales from a spike within which it raises the level */
+#define LEAST 0.1               /* the least part of a row from which its noise is found */
+#define TOGETHER 6.0            /* octaves above an octave that share its spectra */
+#define MARGIN 0.25             /* part of the record: octaves with longer margins share nothing */
+
+/* Does sample i stand in a gap? */
+static int
+missing(const row_source *source, size_t i)
+{
+    return source->n_gaps > 0
+        && ss_gaps_near(source->gap, source->n_gaps, ((double)i + 0.5) / source->rate, 0);
+}
+
+/* The larger of two finite numbers; compilers make no call of it. */
+static inline double
+least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double
+most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* The step of the converter from which the samples come; 0: none is seen.  It is the smallest change, if
+ * nearly all others are multiples of it.  So a signal of few levels that changes seldom counts as one of
+ * steps. */
+static double
+converter_step(const row_source *source)
+{
+    const double *x = source->x;
+    size_t n = source->n, changes = 0, fit = 0;
+    double step = INFINITY, lo = INFINITY, hi = -INFINITY;
+    for (size_t i = 1; i < n; i++)
+        if (x[i] != x[i - 1] && !missing(source, i) && !missing(source, i - 1))
+            step = least(step, fabs(x[i] - x[i - 1]));
+    for (size_t i = 1; i < n; i++) {
+        if (missing(source, i) || missing(source, i - 1))
+            continue;
+        double steps = fabs(x[i] - x[i - 1]) / step;
+        lo = least(lo, least(x[i], x[i - 1]));
+        hi = most(hi, most(x[i], x[i - 1]));
+        changes += steps > 0;
+        fit += steps > 0 && fabs(steps - round(steps)) < 0.1;   /* a fifth of them fits by chance */
+        if (changes - fit > n / 10)
+            return 0;
+    }
+    int seldom = changes < n / 20, few = hi - lo < 64 * step;
+    if (!(hi - lo >= 8 * step) || (seldom && few) || (double)fit < 0.9 * (double)changes)
+        return 0;
+    return step;
+}
+
+ss_status
+ss_row_source_init(row_source *source, const double *x, size_t n, double rate, double precision,
+                   const ss_span *gap, size_t n_gaps, ss_error *err)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    if (n == 0 || n > SIZE_MAX / 64)
+        return ss_fail(err, SS_EINVAL, "a record of %zu samples is out of range 1 ... %zu", n, SIZE_MAX / 64);
+    if (!(rate >= 1e-100 && rate <= 1e100))
+        return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
+    *source = (row_source){ .x = x, .n = n, .rate = rate, .gap = gap, .n_gaps = n_gaps };
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(x[i]))
+            return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
+        if (missing(source, i))
+            continue;
+        lo = least(lo, x[i]);
+        hi = most(hi, x[i]);
+    }
+    if (hi - lo > DBL_MAX)
+        return ss_fail(err, SS_EINVAL, "the samples differ by more than a double holds");
+    source->constant = !(hi > lo);
+    if (hi > lo)
+        source->rounding = fmax(precision * (hi - lo), converter_step(source) / sqrt(12))
+            / sqrt(rate);
+    return SS_OK;
+}
+
+/* The record less its first value, with margin samples more at either end: an odd continuation.  Beyond the
+ * far end of a record that is too short for this, its last value continues. */
+static double *
+continued(const double *x, size_t n, size_t margin)
+{
+    double *y = malloc((n + 2 * margin) * sizeof *y);
+    if (y == NULL)
+        return NULL;
+    double start = x[0], end = x[n - 1] - start;
+    for (size_t i = 0; i < n; i++)
+        y[margin + i] = x[i] - start;
+    for (size_t i = 1; i <= margin; i++) {
+        size_t k = i < n ? i : n - 1;
+        y[margin - i] = start - x[k];
+        y[margin + n - 1 + i] = 2 * end - (x[n - 1 - k] - start);
+    }
+    return y;
+}
+
+/* The maximum of the parabola through three levels, the middle one the largest. */
+static peak
+summit(const double *level, double t, double step)
+{
+    double bend = level[0] - 2 * level[1] + level[2];
+    double off = bend < 0 ? 0.5 * (level[0] - level[2]) / bend : 0;
+    return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
+}
+
+/* The rms of the part of |W| that is noise, from its median. */
+static double
+rms_of(const row_source *source, double middle)
+{
+    return hypot(middle / sqrt(M_LN2), source->rounding);
+}
+
+/* The rms of |W| in the n levels, of which one comes every step from t on, and which change places.  It is
+ * found from the median of the levels that are farther than QUIET scales from all spikes found so far and
+ * out of the reach of gaps, or of all levels if these are less than LEAST of them. */
+static double
+noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t n, double t,
+         double step, double a)
+{
+    double quiet = QUIET * a;
+    size_t left = 0, i = 0;
+    int all = source->n_gaps == 0 && (loud == NULL || loud->n == 0);
+    for (size_t k = 0; k < n && !all; k++) {
+        double at = t + (double)k * step;
+        while (loud != NULL && i < loud->n && loud->spike[i].t + quiet < at)
+            i++;
+        if ((loud != NULL && i < loud->n && loud->spike[i].t - quiet <= at)
+            || (source->n_gaps > 0 && ss_gaps_near(source->gap, source->n_gaps, at, ROW_REACH * a)))
+            continue;
+        double swap = level[left];
+        level[left++] = level[k];
+        level[k] = swap;
+    }
+    if (all || (double)left < LEAST * (double)n)
+        left = n;
+    return rms_of(source, ss_levels_middle(level, left));
+}
+
+/* Find the peaks of the row whose |W| source->level holds.  Levels before t = 0 and behind the record are
+ * not the record's own. */
+static ss_status
+fill_row(row *r, row_source *source, const ss_spikes *loud, const ss_scale *scale,
+         double margin)
+{
+    double *level = source->level;
+    double step = scale->b_num / scale->b_den, cone = sqrt(2) * r->a;
+    double length = (double)(source->n - 1) / source->rate;
+    size_t first = (size_t)ceil((margin + cone) / step);
+    size_t last = (size_t)floor((margin + length - cone) / step);
+    r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak);
+    if (r->peak == NULL)
+        return SS_ENOMEM;
+    for (size_t k = first; k <= last; k++) {
+        if (!((level[k] > level[k - 1]) & (level[k] >= level[k + 1])))  /* one branch, which is seldom taken */
+            continue;
+        double t = ss_scale_b(scale, k) - margin;
+        if (ss_gaps_near(source->gap, source->n_gaps, t, ROW_REACH * r->a))
+            continue;
+        r->peak[r->n] = summit(level + k - 1, t, step);
+        r->top = most(r->top, r->peak[r->n++].level);
+    }
+    r->rms = noise_of(source, loud, level + first, last - first + 1,
+                      ss_scale_b(scale, first) - margin, step, r->a);
+    if (source->keeps_heads && source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
+        row *head = &source->head[source->n_heads++];
+        *head = *r;
+        head->peak = NULL;
+        if (loud != NULL && loud->n > 0)
+            head->rms = rms_of(source, ss_levels_middle(level + first, last - first + 1));
+    }
+    return SS_OK;
+}
+
+/* Prepare the rows of an octave and of those above it. */
+static ss_status
+open_octaves(row_source *source, double octave, ss_error *err)
+{
+    ss_morlet_opts opts = ss_morlet_defaults;
+    double longest = log2(MARGIN * (double)source->n / (ROW_REACH * source->rate));
+    ss_levels_free(&source->rows);
+    source->rows.levels = NULL;
+    source->octave = octave;
+    source->end = octave + fmax(1, fmin(TOGETHER, floor(longest - octave)));
+    opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
+    opts.octaves = 1;
+    opts.m0 = octave, opts.m1 = source->end - 1. / ROW_VOICES;
+    source->margin = (size_t)ceil(ROW_REACH * exp2(opts.m1) * source->rate);
+    double *x = continued(source->x, source->n, source->margin);
+    ss_status st = x == NULL ? SS_ENOMEM
+        : ss_levels_of_samples(&source->rows, x, source->n + 2 * source->margin, source->rate, &opts,
+                               err);
+    free(x);
+    return st;
+}
+
+static ss_status
+make_room(row_source *source, size_t n)
+{
+    free(source->level);
+    source->level = malloc(n * sizeof *source->level);
+    source->room = source->level != NULL ? n : 0;
+    return source->level != NULL ? SS_OK : SS_ENOMEM;
+}
+
+/* The scale is 2^(this / ROW_VOICES) s. */
+static double
+number_of(double f)
+{
+    return round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f)));
+}
+
+ss_status
+ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error *err)
+{
+    double j = number_of(f), octave = floor(j / ROW_VOICES);
+    ss_status st = SS_OK;
+    if (source->rows.levels == NULL || octave < source->octave || octave >= source->end)
+        st = open_octaves(source, octave, err);
+    if (st != SS_OK)
+        return st;
+    size_t index = (size_t)(source->end * ROW_VOICES - 1 - j);          /* long to short */
+    const ss_scale *scale = ss_levels_scale(&source->rows, index);
+    if (scale->n + 1 > source->room && (st = make_room(source, scale->n + 1)) != SS_OK)
+        return st;
+    *r = (row){ .a = scale->a, .f = scale->f };
+    st = ss_levels_fill(&source->rows, &(level_part){ index, 0, scale->n, source->level }, 1);
+    return st == SS_OK ? fill_row(r, source, loud, scale, (double)source->margin / source->rate) : st;
+}
+
+const row *
+ss_row_head(const row_source *source, double f)
+{
+    for (size_t i = 0; i < source->n_heads; i++)
+        if (number_of(source->head[i].f) == number_of(f))
+            return &source->head[i];
+    return NULL;
+}
+
+void
+ss_row_source_free(row_source *source)
+{
+    ss_levels_free(&source->rows);
+    source->rows.levels = NULL;
+    free(source->level);
+    source->level = NULL;
+    source->room = 0;
+}
+
+double
+ss_row_threshold(double length, double shortest, size_t rows, double false_alarms)
+{
+    double count = 0, u = 4;
+    for (size_t i = 0; i < rows; i++)
+        count += length / (shortest * exp2((double)i / ROW_VOICES) * sqrt(2 * M_PI));
+    for (int pass = 0; pass < 30; pass++)
+        u = sqrt(fmax(log(u * count / false_alarms), 1));
+    return u;
+}

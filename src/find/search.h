@@ -1,0 +1,83 @@
+/* search.h -- the state of the search for the features of a signal. */
+#ifndef SEARCH_H
+#define SEARCH_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stickslip/features.h>
+#include "find/cycles.h"
+#include "find/levels.h"
+#include "find/quantity.h"
+#include "find/window.h"
+
+#define CENTER 6.0              /* of the wavelet */
+#define STRONG 20.0             /* [dB] range of the spikes that begin or end a transition */
+enum { FEW = 3 };               /* fewest maxima of a kind that recur */
+enum { CLIPPED = 8 };           /* samples in a row at the largest or least value: the signal is clipped */
+
+static const ss_value unknown = { NAN, NAN };
+static const ss_median no_median = { NAN, NAN, NAN };
+static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
+
+typedef struct search {
+    const ss_signal *signal;
+    double *x;                  /* the column over largest, so that squares stay in range */
+    double largest;
+    size_t n;
+    double rate;
+    size_t n_gaps;
+    ss_span *gap;               /* [s] from the first sample */
+    const ss_features_opts *opts;
+    map_source map;             /* |W| */
+    double top;                 /* its largest outside the cone of influence */
+    struct row_source *rows;    /* of x (scale_rows.h) */
+    ss_maximum *found;          /* all maxima, also slight ones */
+    size_t n_found;
+    column_quantity quantity;
+    ss_cycles cycles;
+    int is_cleaned;             /* x has lost a steady hum: it is not the column any more */
+    int has_offset;             /* a force whose sign is that of its zero, not that of friction */
+    int spiked;                 /* transitions end with their last spike, which may be anywhere before the
+                                   next transition */
+    ss_features *out;
+} search;
+
+static inline int
+is_event(const ss_spike *spike)
+{
+    return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
+}
+
+/* The frequency of the cycles [Hz]. */
+static inline ss_value
+cycle_rate(const search *s)
+{
+    return (ss_value){ s->rate * s->cycles.frequency.value, s->rate * s->cycles.frequency.error };
+}
+
+/* Count the slips, and find their rate, into s->out, which has transitions and repetition_frequency; or say
+ * there why they are not known. */
+void ss_slip_rate_find(search *s);
+
+/* Free the loadings, if there are any, and make all their numbers unknown. */
+void ss_loadings_forget(ss_features *out);
+
+/* Make room for n transitions of which nothing is known, in place of those before. */
+ss_status ss_transitions_new(ss_features *out, size_t n);
+
+/* Find the transitions, in time order, and the frequency and damping of their ringing, if they ring, into
+ * s->out, which has spikes and repetition_frequency.  If there are none, s->out->n is 0. */
+ss_status ss_transitions_find(search *s);
+
+/* Find transitions at the swells of the oscillation that recurs most often among the maxima of at least this
+ * prominence [dB], refined and fitted, into s->out.  If there are none, s->out->n is 0. */
+ss_status ss_ringing_find(search *s, double prominence);
+
+/* Find the ringing behind the transitions in s->out, if there is any. */
+ss_status ss_ringing_behind(search *s);
+
+/* Fit an oscillation of about f to every transition in s->out, each about a sample, its anchor, and judge
+ * the fit.  singly: fit each by itself, as they need not be alike. */
+ss_status ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly);
+
+#endif

@@ -1,0 +1,29 @@
+/* slip.h -- the slip of a pulled slider, seen in the force of its spring. */
+#ifndef SLIP_H
+#define SLIP_H
+
+#include <stickslip/features.h>
+#include "find/window.h"
+
+enum { SLIP_PARTS = 24 };       /* parts of the time from one length of the slip before it to one behind it */
+
+/* Times in samples, forces in the unit of the samples. */
+typedef struct ss_slip {
+    ss_value onset, end;        /* the end of the stick before, and the begin of the next */
+    ss_value drop, duration;    /* between onset and end; duration of the middle part, from 10 to 90 % */
+    ss_value top, middle;       /* the force at the onset; the friction in slip */
+    ss_value k_over_m;          /* [rad^2/sample^2] */
+    double left, power;         /* sums of squares of the samples: of the residuals, and about the mean */
+    double n;                   /* number of samples; 0: not fitted */
+    double variance;            /* of a sample: the errors come from it */
+    double residual[SLIP_PARTS];        /* mean residual of each part over the drop; NaN: no sample lies in
+                                           it */
+} ss_slip;
+
+/* Fit a slip to the fall of x from sample high to sample low, between loadings by so much per sample > 0.
+ * Only samples in room are used.  *is_found becomes 1 if the slip explains the fall; else all of *out is
+ * NaN. */
+ss_status ss_slip_fit(ss_slip *out, int *is_found, const double *x, ss_window room, size_t high,
+                      size_t low, double loading);
+
+#endif

@@ -1,0 +1,229 @@
+/* slip_rate.c -- how many slips a recording has, and how many a second.
+ *
+ * Transitions are sharp events; not each of them is a slip.  So their number is believed if they repeat with
+ * the cycles of the signal, which are found without them.  The falls of a force are slips by themselves. */
+#include <math.h>
+#include <stdlib.h>
+#include "find/search.h"
+#include "signal/gaps.h"
+
+#define JITTER 0.125            /* relative difference of a time from that at which transitions recur */
+#define MOST 0.75               /* the least part of the transitions that must recur */
+#define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
+#define OVERTONES 0.1           /* part of the power: a cycle with less is a sinusoid */
+#define ALIKE 0.05              /* relative scatter of falls that differ by chance only */
+#define CONFIRMS 0.15           /* relative difference of a period from the time between falls */
+
+/* The number of transitions in a second, by the mean of the times between them.  Times with a gap are left
+ * out: it may hide transitions. */
+static ss_value
+mean_rate(const search *s)
+{
+    const ss_features *out = s->out;
+    double sum = 0, squares = 0, m = 0;
+    for (size_t i = 1; i < out->n; i++) {
+        double from = out->transition[i - 1].onset, interval = out->transition[i].onset - from;
+        if (ss_gaps_near(s->gap, s->n_gaps, from + interval / 2, interval / 2))
+            continue;
+        sum += interval;
+        squares += interval * interval;
+        m++;
+    }
+    if (m < 2)
+        return unknown;
+    double mean = sum / m, scatter = fmax(0, squares / m - mean * mean);
+    return (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
+}
+
+/* Do MOST of the transitions come so long before those `step` transitions later, to within JITTER? */
+static int
+recur(const search *s, size_t step, double time)
+{
+    const ss_features *out = s->out;
+    size_t good = 0, all = 0;
+    for (size_t i = 0; i + step < out->n; i++) {
+        double from = out->transition[i].onset, passed = out->transition[i + step].onset - from;
+        if (ss_gaps_near(s->gap, s->n_gaps, from + passed / 2, passed / 2))
+            continue;
+        all++;
+        good += fabs(passed / time - 1) <= JITTER;
+    }
+    return all >= 2 && (double)good >= MOST * (double)all;
+}
+
+/* The number of transitions in a cycle, after which a period has passed.  0: they do not repeat with the
+ * cycle. */
+static size_t
+slips_in_cycle(const search *s)
+{
+    double period = 1 / s->out->repetition_frequency.value, each = round(mean_rate(s).value * period);
+    return each >= 1 && each < (double)s->out->n && recur(s, (size_t)each, period) ? (size_t)each : 0;
+}
+
+/* The least number of slips in a cycle: one, but two if its second half mirrors the first. */
+static size_t
+least_in_cycle(const search *s)
+{
+    return s->cycles.symmetry < -CYCLES_ALIKE ? 2 : 1;
+}
+
+/* Keep the transitions that ring, and those that stand alone.  A contact rings while it sticks: an event that
+ * does not ring and stands beside one that does is an end of this stick, or a micro-slip. */
+static void
+keep_ringing(search *s)
+{
+    ss_features *out = s->out;
+    double apart = ALONE / (out->repetition_frequency.value * (double)least_in_cycle(s));
+    size_t kept = 0;
+    for (size_t i = 0; i < out->n; i++) {
+        const ss_transition *tr = &out->transition[i], *last = &out->transition[kept - (kept > 0)];
+        size_t next = i;
+        while (next < out->n && isnan(out->transition[next].from))
+            next++;
+        int is_beside = (kept > 0 && tr->onset - last->onset < apart)
+            || (next < out->n && out->transition[next].onset - tr->onset < apart);
+        if (!isnan(tr->from) || !is_beside)
+            out->transition[kept++] = *tr;
+    }
+    out->n = kept;
+}
+
+/* May some of the events be no slips, but ends of sticks, or micro-slips?  Events at equal distances are all
+ * of one kind. */
+static int
+is_doubtful(const search *s, size_t each)
+{
+    size_t least = least_in_cycle(s);
+    return each % least != 0
+        || (each > least && !recur(s, 1, 1 / ((double)each * s->out->repetition_frequency.value)));
+}
+
+void
+ss_loadings_forget(ss_features *out)
+{
+    free(out->loading);
+    out->loading = NULL;
+    out->slope = out->stiffness = out->drop = out->duration = out->recurrence = out->stick
+        = out->static_friction = out->friction = out->k_over_m = no_median;
+}
+
+static void
+forget_slips(ss_features *out, const char *why)
+{
+    out->slips.value = NAN;
+    out->slip_rate = unknown;
+    out->why_slips = why;
+}
+
+static void
+forget_ringing(ss_features *out)
+{
+    for (size_t i = 0; i < out->n; i++)
+        out->transition[i].frequency = out->transition[i].damping_ratio = unknown;
+    out->frequency_raw = out->frequency = out->damping_ratio = unknown;
+    out->why_ringing = "the slips are not known";
+}
+
+/* Count a slip in each cycle, as sharp events do not repeat with the cycle.  A cycle of dry friction has a
+ * slip nevertheless.  It has one, unless its second half mirrors the first: then it has as many in either
+ * direction.  A sinusoid may have none. */
+static void
+count_cycles(search *s)
+{
+    ss_features *out = s->out;
+    int more = (double)out->n > (double)s->cycles.n;
+    forget_ringing(out);
+    if (s->quantity == QUANTITY_UNKNOWN && s->cycles.symmetry > -CYCLES_ALIKE
+        && s->cycles.overtones > OVERTONES) {
+        out->n = out->recurring = 0;
+        out->slips.value = (double)s->cycles.n;
+        out->slip_rate = out->repetition_frequency;
+        out->why_slips = "counted as one a cycle, as nothing sharp repeats with it";
+    } else
+        forget_slips(out, more ? "there are more sharp events than slips that could repeat with the cycle"
+            : "there are fewer sharp events than cycles");
+}
+
+/* Each fall of a force ends a cycle.  So a period that is the time between falls needs no other proof. */
+static void
+confirm_repetition(search *s)
+{
+    ss_features *out = s->out;
+    if (isnan(out->repetition_frequency.value)
+        && fabs(out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS) {
+        out->repetition_frequency = cycle_rate(s);
+        out->why_repetition = NULL;
+    }
+}
+
+/* Falls that are alike and evenly spaced repeat with each.  A period of several of them is that of what
+ * disturbs them, such as glitches. */
+static void
+doubt_repetition(search *s)
+{
+    ss_features *out = s->out;
+    if (slips_in_cycle(s) < 2 || !recur(s, 1, 1 / out->slip_rate.value)
+        || !(out->drop.scatter <= ALIKE * out->drop.value))
+        return;
+    out->repetition_frequency = unknown;
+    out->why_repetition = "each fall is like the next one, but the signal repeats only after several";
+}
+
+/* Is the signal no force of one sign, but one with an offset?  It is if it repeats with several falls in a
+ * cycle, or with none, unless someone says that it is such a force. */
+static int
+has_offset(const search *s)
+{
+    return s->quantity == QUANTITY_UNKNOWN && s->opts->drop == 0
+        && !isnan(s->out->repetition_frequency.value)
+        && !(fabs(s->out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS);
+}
+
+void
+ss_slip_rate_find(search *s)
+{
+    ss_features *out = s->out;
+    if (out->why_slips != NULL) {
+        out->slips = unknown;
+        return;
+    }
+    out->slips.value = (double)out->n;
+    out->slip_rate = mean_rate(s);
+    if (out->loading != NULL) {
+        if (has_offset(s)) {
+            ss_loadings_forget(out);
+            out->n = 0;
+            forget_slips(out, "it repeats, but not as falls of a force of one sign: it may have an offset");
+            return;
+        }
+        confirm_repetition(s);
+        doubt_repetition(s);
+        if (out->n > 0 && isnan(out->drop.value))
+            out->why_slips = "most falls of the force are no slips of an evenly pulled slider";
+        else if (out->n > 0 && isnan(out->slope.value))
+            out->why_slips = "the force rises along no lines: it has no slope, and its sticks no length";
+        else if (s->has_offset)
+            out->why_slips = "they are rises: the zero of the force is not that of friction, which is not known";
+        return;
+    }
+    if (isnan(out->repetition_frequency.value)) {
+        if (out->n == 0)
+            out->why_slips = "nothing stands out: slips that are smooth or weak are not seen";
+        else
+            out->why_slips = "counted by what stands out, as nothing repeats that would confirm it";
+        return;
+    }
+    size_t each = slips_in_cycle(s);
+    if (each > least_in_cycle(s) && !isnan(out->frequency.value)) {
+        keep_ringing(s);
+        out->slips.value = (double)out->n;
+        each = slips_in_cycle(s);
+    }
+    if (each == 0)
+        count_cycles(s);
+    else if (is_doubtful(s, each))
+        forget_slips(out, "of several sharp events a cycle some may be no slips of their own");
+    else
+        out->slip_rate = (ss_value){ (double)each * out->repetition_frequency.value,
+                                     (double)each * out->repetition_frequency.error };
+}

@@ -1,0 +1,334 @@
+/* spikes.c -- jumps, kinks and glitches from the maxima of |W| along the shortest scales.
+ *
+ * Rows of |W|, one a scale, are computed from the shortest scale on.  A maximum along a row that is
+ * above the threshold, has one above the threshold beside it in the next row, and lies clear of all
+ * spikes found at shorter scales is a spike.  Once a row shows one, the rows of REACH octaves more
+ * are searched: weaker spikes and blunter ones appear there; a maximum that appears only later is no
+ * longer sharp.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include "base/error.h"
+#include "base/list.h"
+#include "base/sort.h"
+#include "find/breakpoint.h"
+#include "find/scale_rows.h"
+#include <stickslip/spikes.h>
+
+#define DEEPEST 5.0             /* octaves in which the first spike is sought: 100 samples are smooth */
+#define REACH 2.0               /* octaves in which spikes are sought from the first row with a spike on */
+#define CLEAR 2.0               /* the least distance of two spikes, in scales */
+#define DRIFT 0.5               /* the most by which a maximum moves from row to row, in scales */
+#define CONCLUSIVE 6.0          /* the least level of the clearest spike above the threshold [dB] */
+#define FIT 2.0                 /* scales on either side that the fit of a break sees */
+
+const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7, NULL, 0 };
+
+typedef struct spike_search {
+    row_source *source;
+    const ss_spike_opts *opts;
+    size_t n_rows;
+    row *row;
+    double threshold;
+    size_t room;
+    ss_spikes *found;
+} spike_search;
+
+static int
+is_smooth(const ss_spikes *found)
+{
+    for (size_t i = 0; i < found->n; i++)
+        if (found->spike[i].kind != SS_SPIKE_BEND)
+            return 0;
+    return 1;
+}
+
+/* If spikes are there but none is sharp, this is not because of noise. */
+const char *
+ss_spikes_verdict(const ss_spikes *found)
+{
+    if (found == NULL)
+        return NULL;
+    if (found->conclusive)
+        return "counted";
+    return found->n > 0 && is_smooth(found) ? "none to count, the signal is smooth"
+        : "too much noise to count them";
+}
+
+const char *
+ss_spike_kind_name(ss_spike_kind kind)
+{
+    static const char *const name[] = { "glitch", "jump", "kink", "bend" };
+    return (unsigned)kind <= SS_SPIKE_BEND ? name[kind] : "?";
+}
+
+/* --- from row to row ----------------------------------------------------------------------- */
+
+/* The peak of the row nearest to t, or NULL if it is farther than within. */
+static const peak *
+nearest(const row *r, double t, double within)
+{
+    size_t lo = ss_list_from(r->peak, r->n, sizeof *r->peak, t);
+    const peak *best = NULL;
+    if (lo < r->n && r->peak[lo].t - t <= within)
+        best = &r->peak[lo];
+    if (lo > 0 && t - r->peak[lo - 1].t <= within
+        && (best == NULL || t - r->peak[lo - 1].t < best->t - t))
+        best = &r->peak[lo - 1];
+    return best;
+}
+
+static int
+stands_out(const spike_search *s, const row *r, const peak *p)
+{
+    return p != NULL && p->level > s->threshold * r->rms;
+}
+
+/* The slope [dB/octave] along the line of maxima that begins at peak p of row i, over an octave at most.
+ * *clearest becomes its largest level above the noise. */
+static double
+slope_of(const spike_search *s, size_t i, const peak *p, double *clearest)
+{
+    *clearest = p->level / s->row[i].rms;
+    double sum = 0, weight = 0, base = log(p->level);
+    size_t last = i;
+    double level[ROW_VOICES + 1] = { 0 };
+    for (size_t k = i + 1; k < s->n_rows && k <= i + ROW_VOICES; k++) {
+        const peak *next = nearest(&s->row[k], p->t, DRIFT * s->row[k].a);
+        if (next == NULL)
+            break;
+        p = next;
+        *clearest = fmax(*clearest, p->level / s->row[k].rms);
+        level[k - i] = 20 * (log(p->level) - base) / M_LN10;
+        last = k;
+    }
+    double mid = (double)(last - i) / 2;
+    for (size_t k = 0; k <= last - i; k++) {
+        sum += ((double)k - mid) * level[k];
+        weight += ((double)k - mid) * ((double)k - mid);
+    }
+    return weight > 0 ? sum / weight * ROW_VOICES : 0;
+}
+
+/* Is it smooth?  A pulse of some length falls towards longer scales, but does not stand out at the shortest
+ * ones. */
+static ss_spike_kind
+kind_of(double slope, size_t i)
+{
+    if (slope < -1.5)
+        return i < ROW_VOICES ? SS_SPIKE_GLITCH : SS_SPIKE_BEND;
+    return slope < 4 ? SS_SPIKE_JUMP : slope < 22 ? SS_SPIKE_KINK : SS_SPIKE_BEND;
+}
+
+static ss_status
+add_spike(spike_search *s, size_t i, const peak *p)
+{
+    ss_spikes *found = s->found;
+    const row *r = &s->row[i];
+    ss_spike *spike = ss_list_room(found->spike, &s->room, found->n, sizeof *spike);
+    if (spike == NULL)
+        return SS_ENOMEM;
+    found->spike = spike;
+    found->spike[found->n++] = (ss_spike){
+        .t = p->t, .f = r->f, .level = 20 * log10(p->level / r->top), .snr = p->level / r->rms };
+    return SS_OK;
+}
+
+static void
+sort(ss_spikes *found)
+{
+    if (found->n > 1)
+        qsort(found->spike, found->n, sizeof *found->spike, ss_ascending);
+}
+
+/* Is t away from the n spikes found at shorter scales, which are in time order? */
+static int
+is_clear(const ss_spikes *found, size_t n, double t, double distance)
+{
+    size_t lo = ss_list_from(found->spike, n, sizeof *found->spike, t);
+    return !(lo < n && found->spike[lo].t - t < distance)
+        && !(lo > 0 && t - found->spike[lo - 1].t < distance);
+}
+
+/* Does a gap reach the row, or the rows from which its slope is found? */
+static int
+sees_gap(const spike_search *s, const row *r, double t)
+{
+    const row_source *source = s->source;
+    return ss_gaps_near(source->gap, source->n_gaps, t, 2 * ROW_REACH * r->a);
+}
+
+/* Add the spikes that no row shorter than row i shows. */
+static ss_status
+add_row_spikes(spike_search *s, size_t i)
+{
+    const row *r = &s->row[i], *next = &s->row[i + 1];
+    size_t before = s->found->n;
+    for (size_t k = 0; k < r->n; k++) {
+        const peak *p = &r->peak[k];
+        if (!stands_out(s, r, p) || sees_gap(s, r, p->t) || !is_clear(s->found, before, p->t, CLEAR * r->a)
+            || !stands_out(s, next, nearest(next, p->t, DRIFT * next->a)))
+            continue;
+        ss_status st = add_spike(s, i, p);
+        if (st != SS_OK)
+            return st;
+    }
+    sort(s->found);
+    return SS_OK;
+}
+
+static ss_status
+search_rows(spike_search *s, double f, ss_error *err)
+{
+    row_source *src = s->source;
+    double length = (double)(src->n - 1) / src->rate, shortest = ROW_CENTER / (2 * M_PI * f);
+    double octaves = log2(length / (2 * (sqrt(2) + CLEAR) * shortest));
+    if (!(octaves > 0))
+        return SS_OK;           /* it is too short to have spikes */
+    size_t rows = (size_t)(fmin(octaves, DEEPEST) * ROW_VOICES) + 1, last = rows - 1;
+    const size_t reach = (size_t)(REACH * ROW_VOICES);
+    s->threshold = ss_row_threshold(length, shortest, rows, s->opts->false_alarms);
+    s->row = calloc(rows, sizeof *s->row);
+    if (s->row == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i <= last; i++) {
+        double label = f * exp2(-(double)i / ROW_VOICES);
+        ss_status st = ss_row_new(&s->row[i], src, label, s->found, err);
+        if (st != SS_OK)
+            return st;
+        s->n_rows = i + 1;
+        if (s->row[i].top > s->threshold * s->row[i].rms && last == rows - 1)
+            last = i + reach < last ? i + reach : last;
+        if (i > 0 && (st = add_row_spikes(s, i - 1)) != SS_OK)
+            return st;
+    }
+    return SS_OK;
+}
+
+/* --- times and the whole ------------------------------------------------------------------- */
+
+/* Find the time of spike i by a fit, which sees no farther than its neighbours. */
+static double
+refined(const spike_search *s, size_t i)
+{
+    const ss_spikes *found = s->found;
+    const ss_spike *spike = &found->spike[i];
+    double rate = s->source->rate;
+    double a = ROW_CENTER / (2 * M_PI * spike->f) * rate, at = spike->t * rate;
+    double lo = fmax(at - FIT * a, 0), hi = fmin(at + FIT * a, (double)(s->source->n - 1));
+    if (spike->kind == SS_SPIKE_BEND || spike->kind == SS_SPIKE_GLITCH)
+        return spike->t;
+    if (i > 0)
+        lo = fmax(lo, found->spike[i - 1].t * rate + 1);
+    if (i + 1 < found->n)
+        hi = fmin(hi, found->spike[i + 1].t * rate - 1);
+    return ss_breakpoint(s->source->x, (size_t)ceil(lo), (size_t)floor(hi), at, 0.75 * a) / rate;
+}
+
+static void
+classify(spike_search *s, ss_spike *spike)
+{
+    double clearest;
+    size_t i = 0;
+    while (s->row[i].f != spike->f)
+        i++;
+    spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY), &clearest);
+    spike->kind = kind_of(spike->slope, i);
+    if (spike->kind != SS_SPIKE_BEND || i == 0)
+        s->found->floor = fmin(s->found->floor, 20 * log10(s->threshold / clearest));
+}
+
+static void
+finish(spike_search *s)
+{
+    ss_spikes *found = s->found;
+    found->threshold = s->threshold;
+    for (size_t i = 0; i < found->n; i++)
+        classify(s, &found->spike[i]);
+    for (size_t i = 0; i < found->n; i++)
+        found->spike[i].t = refined(s, i);
+    sort(found);
+    for (size_t i = 0; i < found->n; i++)
+        found->f = fmax(found->f, found->spike[i].f);
+    found->conclusive = found->floor <= -CONCLUSIVE;
+}
+
+static ss_status
+check(double rate, const ss_spike_opts *opts, ss_error *err)
+{
+    if (!(opts->fmax >= 0 && opts->fmax <= ROW_HIGHEST * rate / 2 * (1 + 1e-12)))
+        return ss_fail(err, SS_EINVAL, "fmax %g Hz is not at most %g of Nyquist", opts->fmax,
+                       ROW_HIGHEST);
+    if (!(opts->false_alarms > 0 && opts->false_alarms <= 1))
+        return ss_fail(err, SS_EINVAL, "false alarms: %g is not in (0, 1]", opts->false_alarms);
+    if (!(opts->precision >= 0 && opts->precision <= 1))
+        return ss_fail(err, SS_EINVAL, "precision: %g is not in [0, 1]", opts->precision);
+    return SS_OK;
+}
+
+ss_status
+ss_spikes_find(ss_spikes **out, const double *x, size_t n, double rate,
+               const ss_spike_opts *opts, ss_error *err)
+{
+    if (out == NULL || x == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    row_source source;
+    ss_status st = check(rate, opts, err);
+    if (st == SS_OK)
+        st = ss_row_source_init(&source, x, n, rate, opts->precision, opts->gap, opts->n_gaps, err);
+    return st == SS_OK ? ss_spikes_in(out, &source, opts, err) : st;
+}
+
+ss_status
+ss_spikes_in(ss_spikes **out, row_source *source, const ss_spike_opts *opts, ss_error *err)
+{
+    spike_search s = { .source = source, .opts = opts };
+    s.found = calloc(1, sizeof *s.found);
+    if (s.found == NULL)
+        return SS_ENOMEM;
+    ss_status st = SS_OK;
+    if (!source->constant)
+        st = search_rows(&s, opts->fmax > 0 ? opts->fmax : ROW_HIGHEST * source->rate / 2, err);
+    ss_row_source_free(source);
+    if (st == SS_OK)
+        finish(&s);
+    for (size_t i = 0; i < s.n_rows; i++)
+        free(s.row[i].peak);
+    free(s.row);
+    if (st != SS_OK) {
+        ss_spikes_free(s.found);
+        return st;
+    }
+    *out = s.found;
+    return SS_OK;
+}
+
+ss_spike_group
+ss_spikes_within(const ss_spikes *found, double onset, double end, double range)
+{
+    ss_spike_group group = { 0, 0 };
+    if (found == NULL || found->n == 0)
+        return group;
+    /* the largest error of the bluntest spike */
+    double reach = ROW_CENTER / (2 * M_PI * found->f) * exp2(DEEPEST + 1);
+    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, onset - reach);
+    for (; i < found->n && found->spike[i].t <= end + reach; i++) {
+        const ss_spike *spike = &found->spike[i];
+        double a = ROW_CENTER / (2 * M_PI * spike->f);
+        if (spike->kind == SS_SPIKE_GLITCH || spike->kind == SS_SPIKE_BEND
+            || spike->level < -range || spike->t < onset - a || spike->t > end + a)
+            continue;
+        group.n++;
+        group.inside += spike->t > onset + a && spike->t < end - a;
+    }
+    return group;
+}
+
+void
+ss_spikes_free(ss_spikes *found)
+{
+    if (found == NULL)
+        return;
+    free(found->spike);
+    free(found);
+}

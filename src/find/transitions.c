@@ -1,0 +1,205 @@
+/* transitions.c -- where the transitions of a signal begin and end. */
+#include <math.h>
+#include <stdlib.h>
+#include "find/extent.h"
+#include "find/force.h"
+#include "find/scale_rows.h"
+#include "find/search.h"
+
+#define SPIKES 60.0             /* [dB] range of the spikes that are counted in a transition */
+#define APART 6.0               /* [dB] above the next weaker one: such events are no swells of noise */
+#define CLEAR 15.0              /* [dB] range of single events */
+enum { SHORT = 64 };            /* samples: a shorter record has no quiet beside a single event */
+
+static int
+has_strong_event(const ss_spikes *found)
+{
+    for (size_t i = 0; i < found->n; i++)
+        if (is_event(&found->spike[i]) && found->spike[i].level >= -STRONG)
+            return 1;
+    return 0;
+}
+
+/* Find transitions that do not ring.  Each strong spike begins one; the weaker spikes up to the next strong
+ * one belong to it.  Strong spikes nearer than an eighth of the cycle are one. */
+static ss_status
+find_spiked(search *s)
+{
+    ss_features *out = s->out;
+    const ss_spikes *found = out->spikes;
+    double apart = isnan(out->repetition_frequency.value) ? 0 : 0.125 / out->repetition_frequency.value;
+    ss_status st = ss_transitions_new(out, found->n);
+    if (st != SS_OK)
+        return st;
+    out->n = 0;
+    s->spiked = 1;
+    for (size_t i = 0; i < found->n; i++) {
+        const ss_spike *spike = &found->spike[i];
+        ss_transition *last = out->n > 0 ? &out->transition[out->n - 1] : NULL;
+        if (!is_event(spike))
+            continue;
+        if (spike->level >= -STRONG && (last == NULL || spike->t > last->onset + apart)) {
+            last = &out->transition[out->n++];
+            last->onset = spike->t;
+        }
+        if (last != NULL)
+            last->end = spike->t;
+    }
+    return SS_OK;
+}
+
+/* The samples about t, up to the next event or gap on either side. */
+static ss_window
+room_about(const search *s, const ss_bursts *found, size_t i)
+{
+    double from = 0, to = (double)s->n / s->rate, t = found->burst[i].t;
+    double reach = ROW_REACH * ROW_CENTER / (2 * M_PI * found->f);
+    if (i > 0)
+        from = fmin(found->burst[i - 1].t + reach, t);
+    if (i + 1 < found->n)
+        to = fmax(found->burst[i + 1].t - reach, t);
+    for (size_t k = 0; k < s->n_gaps; k++) {
+        if (s->gap[k].to <= t)
+            from = fmax(from, s->gap[k].to);
+        if (s->gap[k].from >= t)
+            to = fmin(to, s->gap[k].from);
+    }
+    return (ss_window){ (size_t)ceil(from * s->rate), (size_t)floor(to * s->rate) };
+}
+
+/* Do several events stand apart from the next weaker one, or from the noise?  Swells of noise have all
+ * strengths. */
+static int
+stand_apart(const ss_bursts *found)
+{
+    double weakest = 0;
+    for (size_t i = 0; i < found->n; i++)
+        weakest = fmin(weakest, found->burst[i].level);
+    return found->n < 2 || weakest - fmax(found->next, found->floor) >= APART;
+}
+
+/* Does x stay at the value between two events, but not most of the time? */
+static int
+stands_between(const search *s, const ss_bursts *found, double value)
+{
+    size_t there = 0;
+    for (size_t i = 0; i < s->n; i++)
+        there += s->x[i] == value;
+    for (size_t k = 1; k < found->n && 2 * there < s->n; k++) {
+        size_t run = 0, i = (size_t)(found->burst[k - 1].t * s->rate);
+        for (; i < (size_t)(found->burst[k].t * s->rate); i++) {
+            run = s->x[i] == value ? run + 1 : 0;
+            if (run == CLIPPED)
+                return 1;
+        }
+    }
+    return 0;
+}
+
+/* May two events be one?  A clipped part of a signal begins and ends sharply. */
+static int
+is_clipped_between(const search *s, const ss_bursts *found)
+{
+    double top = s->x[0], bottom = s->x[0];
+    for (size_t i = 1; i < s->n; i++)
+        top = fmax(top, s->x[i]), bottom = fmin(bottom, s->x[i]);
+    return stands_between(s, found, top) || stands_between(s, found, bottom);
+}
+
+/* Find single events in a record that is quiet elsewhere.  The map is not needed any more. */
+static ss_status
+find_single(search *s)
+{
+    ss_bursts *found = NULL;
+    ss_levels_free(&s->map);
+    s->map = (map_source){ NULL, NULL };
+    ss_status st = ss_bursts_in(&found, s->rows, CLEAR, NULL);
+    if (st == SS_OK && is_clipped_between(s, found))
+        s->out->why_slips = "two events may be one that is clipped: it stands still at an extreme between them";
+    else if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
+        for (size_t i = 0; i < found->n; i++) {
+            ss_transition *tr = &s->out->transition[i];
+            size_t at = (size_t)round(found->burst[i].t * s->rate);
+            ss_window room = room_about(s, found, i);
+            tr->onset = tr->end = found->burst[i].t;
+            if (room.first >= at || room.end <= at)
+                continue;
+            ss_window event = ss_extent(s->x, room, at, s->rate / found->f);
+            if (event.first < at)
+                tr->onset = (double)event.first / s->rate;
+            if (event.end > at)
+                tr->end = (double)event.end / s->rate;
+        }
+    ss_bursts_free(found);
+    return st;
+}
+
+/* The reach of gaps for spikes as blunt as those found. */
+static double
+spike_reach(const ss_spikes *found)
+{
+    double f = INFINITY;
+    for (size_t i = 0; i < found->n; i++)
+        f = is_event(&found->spike[i]) ? fmin(f, found->spike[i].f) : f;
+    return 2 * ROW_REACH * ROW_CENTER / (2 * M_PI * f);
+}
+
+/* The first spike of a transition may lie half a period before the fitted window, and the last one a
+ * period behind it. */
+static void
+count_spikes(const search *s)
+{
+    ss_features *out = s->out;
+    double period = isnan(out->frequency.value) ? 0 : 1 / out->frequency.value;
+    double reach = spike_reach(out->spikes);
+    for (size_t i = 0; i < out->n; i++) {
+        ss_transition *tr = &out->transition[i];
+        double next = i + 1 < out->n ? tr[1].onset : (double)s->n / s->rate;
+        double from = tr->onset - period / 2, to = s->spiked ? next : tr->end + period;
+        tr->spikes = ss_spikes_within(out->spikes, tr->onset, tr->end, SPIKES).n;
+        tr->gap = ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from) + reach);
+    }
+}
+
+/* Find transitions by their ringing, prominent or slight.  If none rings and the signal repeats itself,
+ * find them by their spikes: the period says how far apart the first spikes of two transitions are.
+ * Else find single events, each of which may have many spikes. */
+static ss_status
+find_transitions(search *s)
+{
+    ss_features *out = s->out;
+    int spiked = out->spikes->conclusive && !isnan(out->repetition_frequency.value)
+        && has_strong_event(out->spikes);
+    ss_status st = SS_OK;
+    for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
+        st = ss_ringing_find(s, slight ? 0 : s->opts->threshold);
+        if (slight && spiked && out->recurring == 0 && isnan(out->frequency.value))
+            out->n = 0;                 /* the times of spikes are better */
+    }
+    if (st == SS_OK && out->n == 0 && spiked) {
+        st = find_spiked(s);
+        if (st == SS_OK)
+            st = ss_ringing_behind(s);
+    }
+    if (st == SS_OK && out->n == 0 && !s->cycles.modulated)
+        st = find_single(s);
+    if (st == SS_OK && out->n == 0 && out->spikes->conclusive && s->n < SHORT)
+        st = find_spiked(s);            /* the record is too short for the others */
+    return st;
+}
+
+ss_status
+ss_transitions_find(search *s)
+{
+    int decided;
+    ss_status st = ss_force_find(s, &decided);
+    if (st == SS_OK && !decided)
+        st = find_transitions(s);
+    else if (st == SS_OK && s->out->loading != NULL)
+        s->out->why_ringing = "it is not looked for behind the falls of a force";
+    else if (st == SS_OK)
+        st = ss_ringing_behind(s);
+    if (st == SS_OK)
+        count_spikes(s);
+    return st;
+}

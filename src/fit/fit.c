@@ -1,0 +1,422 @@
+/* fit.c -- find the only compliant scene that moves as a signal does.
+ *
+ * The settled cycle of the scene is fitted to the mean cycle of the signal (candidate.c).  The
+ * search begins at the stiffness and damping that the transitions show; if they show none, in a
+ * wide range about those of the scene.  From the best results of this search, the motion is fitted
+ * to the record (match.c).
+ *
+ * The sum of squares has many minima: a motion with one micro-slip more or less is another motion.
+ * So there are several starts.  The lowest minimum is the answer only if its residual is no more
+ * than noise, and if no other minimum that is as low within the effect of noise has other
+ * parameters. */
+#include <stickslip/rank.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <stickslip/sim.h>
+#include "base/error.h"
+#include "base/progress.h"
+#include "scene/model.h"
+#include "signal/gaps.h"
+#include "fit/candidate.h"
+#include "fit/held.h"
+#include "fit/match.h"
+#include "fit/samples.h"
+
+enum { STARTS = 96, KEEP = 8, STEPS = 150 };
+enum { LONGER = 2 };                    /* the first match takes as long as so many others, and its own time */
+enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at most */
+#define BUDGET 1e8                      /* integration steps of a fit: less than a minute */
+#define NEAR 1.5                        /* factor within which the features' estimates are right */
+#define FAR 10.0                        /* factor of the range that is searched */
+#define LOW 0.1                         /* the least f_k / (k Z_e): below it sticks are too short to fit */
+#define SHORT 0.25                      /* periods of the contact: shorter sticks show no stiffness */
+#define VAGUE 0.3                       /* a parameter with a larger relative error is not determined */
+#define REFUTED 9.                      /* a gain that refutes a term held: three standard errors, as a lag
+                                           puts the other numbers off by more than it can be seen itself */
+
+typedef struct fitting {
+    const double *x;                    /* the column, of n samples */
+    const char *missing;                /* NULL: none */
+    size_t n;
+    double rate;
+    cycle goal;
+    candidate c;
+    rank_record record;                /* the part of it that is fitted */
+    match best;
+    double rival;                       /* residual of the best of other parameters; infinite: none */
+} fitting;
+
+/* --- matches ------------------------------------------------------------------------------- */
+
+/* Narrow the ranges of the contact's stiffness and damping to those about the values that the transitions show;
+ * *is_narrow becomes 0 if they show neither. */
+static ss_status
+narrow_ranges(candidate *c, int *is_narrow, const ss_signal *signal, size_t column, ss_error *err)
+{
+    ss_features *f = NULL;
+    ss_features_opts opts = ss_features_defaults;
+    opts.mass = c->scene.mass;
+    opts.stiffness = c->scene.stiffness;
+    ss_status st = ss_features_find(&f, signal, column, &opts, err);
+    if (st != SS_OK)
+        return st;
+    const double estimate[2] = { f->contact_stiffness.value, f->contact_damping.value };
+    ss_features_free(f);
+    *is_narrow = 0;
+    for (size_t i = 0; i < 2; i++)
+        if (estimate[i] > 0) {                  /* NaN is not */
+            c->lo[CANDIDATE_OWN + i] = log(estimate[i] / NEAR);
+            c->hi[CANDIDATE_OWN + i] = log(estimate[i] * NEAR);
+            *is_narrow = 1;
+        }
+    return SS_OK;
+}
+
+/* The candidate of the fit: all keys are free but k, which is known. */
+static candidate
+candidate_of(const ss_scene *start, ss_quantity quantity)
+{
+    candidate c = ss_candidate_of(start, (int)quantity, FAR);
+    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS] = c.own[CANDIDATE_STIFFNESS];
+    c.lo[CANDIDATE_RATIO] = log(LOW);
+    c.hi[CANDIDATE_RATIO] = start->friction > 0
+        ? log(start->friction / fmax(start->static_friction, start->friction)) : 0;
+    c.budget = BUDGET;
+    return c;
+}
+
+/* Starts near the values that the transitions show, and from all over the range. */
+static ss_status
+search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stretch *progress,
+              ss_error *err)
+{
+    const ss_stretch first = ss_stretch_part(progress, 0, 0.5);
+    const ss_stretch second = ss_stretch_part(progress, 0.5, 1);
+    candidate near = w->c;
+    int is_narrow = 0;
+    ss_status st = narrow_ranges(&near, &is_narrow, signal, column, err);
+    if (st == SS_OK && is_narrow)
+        st = ss_candidate_search(&near, &w->goal, STARTS, KEEP / 2, STEPS, &first);
+    w->c.steps = near.steps;
+    if (st == SS_OK)
+        st = ss_candidate_search(&w->c, &w->goal, STARTS, is_narrow ? KEEP / 2 : KEEP, STEPS, &second);
+    for (size_t i = 0; is_narrow && i < near.n_starts && w->c.n_starts < CANDIDATE_KEPT; i++) {
+        for (size_t k = 0; k < near.n; k++)     /* the ranges hold both */
+            w->c.lo[k] = fmin(w->c.lo[k], near.lo[k]), w->c.hi[k] = fmax(w->c.hi[k], near.hi[k]);
+        w->c.start[w->c.n_starts++] = near.start[i];
+    }
+    return st;
+}
+
+/* The part of the matches' work before the match of start i.  The first match takes the longest, as others
+ * often are found to be the same. */
+static double
+part_before(size_t i, size_t n)
+{
+    return i == 0 ? 0 : (double)(i + LONGER) / (double)(n + LONGER);
+}
+
+static ss_status
+match_all(fitting *w, const ss_stretch *progress)
+{
+    match found[CANDIDATE_KEPT] = { { .left = INFINITY } };
+    size_t best = 0, n = w->c.n_starts;
+    for (size_t i = 0; i < n; i++) {
+        const ss_stretch part = ss_stretch_part(progress, part_before(i, n), part_before(i + 1, n));
+        ss_status st = ss_match_find(&found[i], &w->c, &w->c.start[i], w->goal.period, &w->record,
+                                     found, i, &part);
+        if (st != SS_OK)
+            return st;
+        best = found[i].left < found[best].left ? i : best;
+    }
+    w->best = found[best];
+    w->rival = INFINITY;
+    for (size_t i = 0; i < n; i++)
+        if (found[i].compared > 0 && !ss_match_same(&w->best, &found[i]))
+            w->rival = fmin(w->rival, found[i].left);
+    return SS_OK;
+}
+
+/* --- the scene ----------------------------------------------------------------------------- */
+
+/* The numbers that are adjusted.  Each is the product of so many unknowns of a match. */
+static const struct {
+    const char *name;
+    size_t n, unknown[2];
+} fitted[SS_FIT_KEYS] = {
+    { "friction", 2, { CANDIDATE_RATIO, MATCH_SIZE } }, { "base_amplitude", 1, { MATCH_SIZE } },
+    { "base_frequency", 1, { MATCH_FREQUENCY } }, { "contact_stiffness", 1, { CANDIDATE_OWN } },
+    { "contact_damping", 1, { CANDIDATE_OWN + 1 } } };
+
+/* The standard error of the logarithm of a number. */
+static double
+error_of(const match *m, size_t key)
+{
+    double sum = 0;
+    for (size_t i = 0; i < fitted[key].n; i++)
+        for (size_t k = 0; k < fitted[key].n; k++)
+            sum += m->covariance[fitted[key].unknown[i]][fitted[key].unknown[k]];
+    return sqrt(m->left * sum);
+}
+
+/* The scene from rest, settled and in step with the whole record. */
+static ss_scene
+settled_scene(const fitting *w)
+{
+    ss_scene s = w->best.scene;
+    s.phase = remainder(s.phase + 2 * M_PI * s.base_frequency * (s.settle - w->record.from), 2 * M_PI);
+    s.x0 = s.v0 = 0;
+    s.settle = CANDIDATE_SETTLE / s.base_frequency;
+    s.duration = (double)w->n / w->rate;
+    return s;
+}
+
+static void
+report(ss_fit *fit, const fitting *w)
+{
+    const match *m = &w->best;
+    fit->scene = settled_scene(w);
+    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
+        double value = *ss_scene_number(&fit->scene, fitted[i].name, NULL, NULL);
+        fit->key[i].found = (ss_value){ value, value * error_of(m, i) };
+    }
+    fit->residual_started = sqrt(m->left / m->power);
+    fit->noise = sqrt(fmin(w->record.noise, m->white) / m->power);
+}
+
+/* Find the residual of the whole record: its difference from the settled scene, without their offset. */
+static ss_status
+find_residual(ss_fit *fit, const fitting *w)
+{
+    double *y = malloc((w->n + 1) * sizeof *y), steps = 0;
+    if (y == NULL)
+        return SS_ENOMEM;
+    const rank_record all = { .x = w->x, .missing = w->missing, .n = w->n };
+    const rank_record left = { .x = y, .missing = w->missing, .n = w->n };
+    ss_status st = ss_samples_run(&fit->scene, w->c.pick, SAMPLES_FINE, y, NULL, w->n, &steps);
+    for (size_t i = 0; st == SS_OK && i < w->n; i++)
+        y[i] -= w->x[i];
+    if (st == SS_OK)
+        fit->residual = sqrt(ss_record_power(&left) / ss_record_power(&all));
+    free(y);
+    return st == SS_ENOMEM ? st : SS_OK;
+}
+
+/* --- the verdict --------------------------------------------------------------------------- */
+
+typedef struct sticks {
+    double since, longest;              /* begin of the present stick, NaN in slip; the longest stick [s] */
+} sticks;
+
+static int
+time_stick(const ss_event *e, void *user)
+{
+    sticks *s = user;
+    if (e->kind != SS_STICK && e->t - s->since > s->longest)
+        s->longest = e->t - s->since;
+    s->since = e->kind == SS_STICK ? e->t : NAN;
+    return 0;
+}
+
+/* The longest stick of the fitted motion, in periods of the contact's oscillation. */
+static ss_status
+find_longest_stick(double *periods, const ss_scene *scene)
+{
+    sticks found = { NAN, 0 };
+    ss_sim_opts opts = { .method = "exact", .tol = 1e-9, .events = time_stick, .user = &found };
+    ss_status st = ss_sim_run(scene, &opts, NULL, NULL);
+    double stiffness = scene->stiffness + scene->contact_stiffness;
+    *periods = found.longest * sqrt(stiffness / scene->mass) / (2 * M_PI);
+    return st == SS_ENOMEM ? st : SS_OK;
+}
+
+/* The first parameter that stands at an end of its range, or whose error is too large; NULL: none. */
+static const char *
+vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *error)
+{
+    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
+        size_t k = fitted[i].unknown[0];
+        int ends = k < CANDIDATE_KEYS && (w->best.p[k] <= w->c.lo[k] || w->best.p[k] >= w->c.hi[k]);
+        *value = fit->key[i].found.value;
+        *error = ends ? INFINITY : fit->key[i].found.error;
+        if (!(*error <= VAGUE * *value))
+            return fit->key[i].name;
+    }
+    return NULL;
+}
+
+/* Say which term the signal contradicts most: then the other numbers are wrong, too. */
+static ss_status
+judge_held(ss_fit *fit, const fitting *w)
+{
+    held of[HELD_TERMS];
+    held_term most = 0;
+    ss_status st = ss_held_gains(of, &w->c, &w->best, &w->record);
+    if (st != SS_OK)
+        return st;
+    for (held_term term = 1; term < HELD_TERMS; term++)
+        most = of[term].gain > of[most].gain ? term : most;
+    if (!(of[most].gain > REFUTED))
+        return SS_OK;
+    if (most == HELD_DAMPING)
+        snprintf(fit->why, sizeof fit->why, "the scene's damping is not that of the rig, which may be %.3g",
+                 of[most].nearer);
+    else if (most == HELD_STATIC)
+        snprintf(fit->why, sizeof fit->why, "the scene's static_friction is not that of the rig, which may "
+                 "be %.4g times friction", of[most].nearer);
+    else
+        snprintf(fit->why, sizeof fit->why, "the sensor seems to lag behind the motion: its bandwidth is "
+                 "too low to tell the contact");
+    return SS_OK;
+}
+
+static ss_status
+judge(ss_fit *fit, const fitting *w)
+{
+    const match *m = &w->best;
+    double value, error, periods = 0;
+    ss_status st = find_longest_stick(&periods, &m->scene);
+    const char *vague = vague_parameter(fit, w, &value, &error);
+    if (st != SS_OK)
+        return st;
+    if (m->compared == 0)
+        snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
+    else if (!ss_match_explains(m, w->record.noise))
+        snprintf(fit->why, sizeof fit->why, "the best compliant scene leaves %.3g %% of the signal, "
+                 "%.3g times the noise", 100 * fit->residual_started,
+                 sqrt(ss_match_excess(m, w->record.noise)));
+    else if ((w->rival - m->left) * (double)m->compared < MATCH_DECISIVE * m->left)
+        snprintf(fit->why, sizeof fit->why, "scenes with other parameters leave as little of the "
+                 "signal, %.3g %%", 100 * fit->residual_started);
+    else if (periods < SHORT)
+        snprintf(fit->why, sizeof fit->why, "the longest stick lasts %.2g periods of the contact's "
+                 "oscillation: less than %g shows no stiffness", periods, SHORT);
+    else if (vague != NULL && isinf(error))
+        snprintf(fit->why, sizeof fit->why, "%s = %.3g is at an end of the range searched", vague,
+                 value);
+    else if (vague != NULL)
+        snprintf(fit->why, sizeof fit->why, "%s = %.3g +- %.2g: the signal does not tell it", vague,
+                 value, error);
+    else
+        st = judge_held(fit, w);
+    fit->conclusive = fit->why[0] == '\0';
+    return st;
+}
+
+static void
+list_keys(ss_fit *fit, const ss_scene *start)
+{
+    ss_scene given = *start;
+    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
+        ss_fitted *k = &fit->key[i];
+        k->name = fitted[i].name;
+        k->given = *ss_scene_number(&given, k->name, &k->unit, NULL);
+        k->found = (ss_value){ NAN, NAN };
+    }
+}
+
+/* Take all numbers back: a fit that is not conclusive gives none. */
+static void
+withdraw(ss_fit *fit, const ss_scene *start)
+{
+    fit->scene = *start;
+    list_keys(fit, start);
+}
+
+/* --- all ----------------------------------------------------------------------------------- */
+
+/* The part of a long record that begins after half a cycle.  A fitted motion starts in a slip before its
+ * record, but the record itself may start from rest. */
+static rank_record
+fitted_part(const fitting *w)
+{
+    double samples = w->goal.period * w->rate;
+    size_t first = (double)w->n > 2.5 * samples ? (size_t)(samples / 2) : 0;
+    size_t n = (size_t)fmin(fmin((double)(w->n - first), CYCLES * samples), MOST);
+    return (rank_record){ .x = w->x + first, .n = n, .rate = w->rate,
+                           .missing = w->missing != NULL ? w->missing + first : NULL,
+                           .from = (double)first / w->rate };
+}
+
+/* The part of all work that the search is, in cycles of the motion: for the progress. */
+static double
+search_share(const fitting *w)
+{
+    double runs = 2 * STARTS + 1.5 * KEEP * STEPS, cycles = CANDIDATE_SETTLE + 1;
+    double record = (double)w->record.n / w->rate / w->goal.period + CANDIDATE_SETTLE;
+    return runs * cycles / (runs * cycles + (KEEP + LONGER) * MATCH_RUNS / 3 * record);
+}
+
+static ss_status
+fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, const ss_rank_opts *opts,
+           ss_error *err)
+{
+    const ss_stretch whole = { opts->progress, 0, 1 };
+    w->c = candidate_of(&fit->scene, opts->quantity);
+    w->record = fitted_part(w);
+    double split = search_share(w);
+    const ss_stretch searching = ss_stretch_part(&whole, 0, split);
+    const ss_stretch matching = ss_stretch_part(&whole, split, 1);
+    ss_status st = ss_record_noise(&w->record, w->goal.period * w->rate);
+    if (st == SS_OK)
+        st = search_starts(w, signal, column, &searching, err);
+    if (st == SS_OK)
+        st = match_all(w, &matching);
+    if (st == SS_OK && w->c.steps > BUDGET)
+        return ss_fail(err, SS_EBUDGET, "its fits take more than %.0e integration steps: the contact is "
+                       "too stiff, or too many samples stand in a cycle", BUDGET);
+    if (st != SS_OK)
+        return st;
+    report(fit, w);
+    st = find_residual(fit, w);
+    if (st == SS_OK)
+        st = judge(fit, w);
+    return st;
+}
+
+static ss_status
+check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
+      ss_error *err)
+{
+    if (ss_model_of(start) == NULL || !ss_model_of(start)->has_contact)
+        return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
+                       ss_model_name(start->model));
+    ss_status st = ss_column_check(signal, column, opts, err);
+    if (st == SS_OK)
+        st = ss_column_check_unit(signal, column, opts->quantity, err);
+    return st == SS_OK ? ss_candidate_check(start, err) : st;
+}
+
+ss_status
+ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
+             const ss_rank_opts *opts, ss_error *err)
+{
+    if (fit == NULL || signal == NULL || start == NULL)
+        return SS_FAIL_NULL(err);
+    if (opts == NULL)
+        opts = &ss_rank_defaults;
+    ss_status st = check(signal, column, start, opts, err);
+    if (st != SS_OK)
+        return st;
+    const ss_stretch at_once = { opts->progress, 0, 0 };    /* the fit takes longer */
+    char *missing = NULL;
+    fitting *w = malloc(sizeof *w);
+    *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN, .noise = NAN };
+    list_keys(fit, start);
+    if (w == NULL)
+        return ss_fail_memory(err, NULL);
+    *w = (fitting){ .x = signal->values + column * signal->n, .n = signal->n, .rate = signal->head->rate };
+    st = ss_gaps_missing(&missing, signal);
+    w->missing = missing;
+    if (st == SS_OK)
+        st = ss_cycle_find(&w->goal, fit->why, sizeof fit->why, w->x, missing, w->n, w->rate,
+                           opts->forcing_frequency, &at_once);
+    if (st == SS_OK && w->goal.period > 0)
+        st = fit_signal(fit, w, signal, column, opts, err);
+    if (!fit->conclusive)
+        withdraw(fit, start);
+    free(missing);
+    free(w);
+    return st;
+}

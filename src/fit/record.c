@@ -1,0 +1,180 @@
+/* record.c -- the samples to which a motion is fitted: their power, their noise, their distance
+ * from a sinusoid.
+ *
+ * Fourth differences do not contain slow motion, and differences over one cycle do not contain
+ * what repeats.  So the median size of either is that of the noise, or more. */
+#include "fit/record.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <gsl/gsl_statistics_double.h>
+#include "base/error.h"
+#include "base/gauss.h"
+#include "fit/normal.h"
+
+const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "s", NULL };
+
+const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3,
+                                        .also = { -1, -1, -1, -1, -1 } };
+
+static int
+is_missing(const rank_record *r, size_t i, size_t n)
+{
+    for (size_t k = 0; r->missing != NULL && k < n; k++)
+        if (r->missing[i + k])
+            return 1;
+    return 0;
+}
+
+ss_status
+ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts, ss_error *err)
+{
+    if (column >= signal->head->n_columns)
+        return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
+    if ((unsigned)opts->quantity >= SS_QUANTITIES)
+        return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
+    if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
+        return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
+                       opts->forcing_frequency);
+    for (size_t i = 0; i < signal->n; i++)
+        if (!isfinite(signal->values[column * signal->n + i]))
+            return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
+    return SS_OK;
+}
+
+static const char *const si_units[SS_QUANTITIES][4] = {
+    [SS_DISPLACEMENT] = { "m" }, [SS_VELOCITY] = { "m/s" },
+    [SS_ACCELERATION] = { "m/s^2", "m/s2", "m/s\xc2\xb2", "m/s/s" }, [SS_FORCE] = { "N" }, [SS_SPRING] = { "N" },
+};
+
+ss_status
+ss_column_check_unit(const ss_signal *signal, size_t column, ss_quantity quantity, ss_error *err)
+{
+    const ss_column *c = &signal->head->column[column];
+    const char *const *unit = si_units[quantity];
+    int is_si = c->unit[0] == '\0';
+    for (size_t i = 0; i < sizeof si_units[0] / sizeof *unit && unit[i] != NULL; i++)
+        is_si |= strcmp(c->unit, unit[i]) == 0;
+    return is_si ? SS_OK : ss_fail(err, SS_EDATA, "column %s is in %s, but a scene is in %s: scale it, and name "
+                                   "its unit so", c->name, c->unit, unit[0]);
+}
+
+double
+ss_record_power(const rank_record *r)
+{
+    double mean = 0, sum = 0, n = 0;
+    for (size_t i = 0; i < r->n; i++)
+        if (!is_missing(r, i, 1))
+            mean += r->x[i], n++;
+    mean /= fmax(n, 1);
+    for (size_t i = 0; i < r->n; i++)
+        if (!is_missing(r, i, 1))
+            sum += (r->x[i] - mean) * (r->x[i] - mean);
+    return sum / fmax(n, 1);
+}
+
+/* The variance that n Gaussian numbers with this median size have. */
+static double
+gaussian_variance(double *d, size_t n)
+{
+    if (n == 0)
+        return INFINITY;
+    for (size_t i = 0; i < n; i++)
+        d[i] = fabs(d[i]);
+    double median = gsl_stats_median(d, 1, n) / GAUSS_MEDIAN;
+    return median * median;
+}
+
+/* The variance by fourth differences, which have (1 + 16 + 36 + 16 + 1) times as much: their median contains
+ * neither slow motion nor what happens seldom. */
+static double
+fast_variance(const rank_record *r, double *d)
+{
+    size_t count = 0;
+    for (size_t i = 0; i + 5 <= r->n; i++)
+        if (!is_missing(r, i, 5)) {
+            const double *x = r->x + i;
+            d[count++] = (x[0] - 4 * x[1] + 6 * x[2] - 4 * x[3] + x[4]) / sqrt(70);
+        }
+    return gaussian_variance(d, count);
+}
+
+/* The variance by the differences from one cycle to the next, interpolated between two samples: they contain
+ * no periodic motion, however fast. */
+static double
+cycle_variance(const rank_record *r, double samples, double *d)
+{
+    size_t lag = (size_t)samples, count = 0;
+    double part = samples - floor(samples);
+    for (size_t i = 0; i + lag + 2 <= r->n; i++)
+        if (!is_missing(r, i, 1) && !is_missing(r, i + lag, 2)) {
+            double later = (1 - part) * r->x[i + lag] + part * r->x[i + lag + 1];
+            d[count++] = (r->x[i] - later) / sqrt(1 + (1 - part) * (1 - part) + part * part);
+        }
+    return gaussian_variance(d, count);
+}
+
+/* The variance of a converter's steps: a twelfth of the square of the smallest, and a ninth for noise of a
+ * third of a step.  Medians do not see such noise, as most samples do not leave their step. */
+static double
+step_variance(const rank_record *r)
+{
+    double least = INFINITY;
+    for (size_t i = 1; i < r->n; i++)
+        if (r->x[i] != r->x[i - 1])
+            least = fmin(least, fabs(r->x[i] - r->x[i - 1]));
+    return isfinite(least) ? least * least * (1. / 12 + 1. / 9) : 0;
+}
+
+ss_status
+ss_record_noise(rank_record *r, double samples)
+{
+    double *d = malloc((r->n + 1) * sizeof *d);
+    if (d == NULL)
+        return SS_ENOMEM;
+    double fast = fast_variance(r, d);
+    double repeated = samples > 0 && samples < (double)r->n
+        ? cycle_variance(r, samples, d) : INFINITY;
+    double least = fmin(fast, repeated);
+    r->steps = step_variance(r);
+    r->noise = fmax(isfinite(least) ? least : 0, r->steps);
+    free(d);
+    return SS_OK;
+}
+
+enum { OF_SINUSOID = 3 };       /* cosine, sine and offset */
+
+static void
+sinusoid_at(const rank_record *r, double frequency, size_t i, double row[OF_SINUSOID])
+{
+    double phase = 2 * M_PI * frequency * (double)i / r->rate;
+    row[0] = cos(phase), row[1] = sin(phase), row[2] = 1;
+}
+
+double
+ss_record_sinusoid(const rank_record *r, double frequency)
+{
+    double row[OF_SINUSOID], c[OF_SINUSOID], squares = 0, count = 0;
+    normal e = { .n = OF_SINUSOID };
+    for (size_t i = 0; i < r->n; i++) {
+        if (is_missing(r, i, 1))
+            continue;
+        sinusoid_at(r, frequency, i, row);
+        for (size_t k = 0; k < e.n; k++) {
+            e.g[k] -= row[k] * r->x[i];
+            for (size_t l = 0; l < e.n; l++)
+                e.a[k][l] += row[k] * row[l];
+        }
+    }
+    ss_normal_step(&e, 0, NULL, NULL, c);
+    for (size_t i = 0; i < r->n; i++) {
+        if (is_missing(r, i, 1))
+            continue;
+        sinusoid_at(r, frequency, i, row);
+        double left = r->x[i] - c[0] * row[0] - c[1] * row[1] - c[2] * row[2];
+        squares += left * left;
+        count++;
+    }
+    return squares / fmax(count, 1);
+}

@@ -1,0 +1,201 @@
+/* au.c -- Sun AU: PCM of 8 to 32 bits and floating point, big-endian; 64-bit floating point is
+ * written.
+ *
+ * In the files that we write, the annotation is the header of our text, which has facts that AU
+ * cannot store.  Another program (SoX) may have changed the samples and kept the annotation, so
+ * its rate and columns are used only if they agree with those of the file. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "signal/header.h"
+#include "io/table/clock.h"
+#include "io/format.h"
+#include "io/frames.h"
+#include "io/reader.h"
+
+/* A header within these limits is accepted; its annotation follows the fixed part. */
+enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
+
+#define UNKNOWN_SIZE UINT32_C(0xffffffff)
+
+/* Bytes of a value for each encoding of the file; 0 if it is not supported. */
+static const unsigned width[] = { 0, 0, 1, 2, 3, 4, 4, 8 };
+enum { ENCODING_FLOAT = 6, ENCODING_DOUBLE = 7 };
+
+static uint32_t
+big_endian(const unsigned char *p)
+{
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+}
+
+/* Read our header from the annotation; *out becomes NULL if this is not one.  SS_EDATA: it is malformed. */
+static ss_status
+read_annotation(ss_header **out, const char *magic, char *text, const char **reason)
+{
+    ss_status st = SS_OK;
+    ss_header *head = *out = NULL;
+    size_t length_of_magic = strlen(magic);
+    if (strncmp(text, magic, length_of_magic) != 0 || text[length_of_magic] != '\n')
+        return SS_OK;
+    head = ss_header_new(0, 0);
+    if (head == NULL)
+        return SS_ENOMEM;
+    for (char *line = text + length_of_magic + 1, *next; st == SS_OK && *line == '#'; line = next) {
+        size_t length = strcspn(line, "\n");
+        next = line + length + (line[length] == '\n');
+        line[length] = '\0';
+        st = ss_header_read_line(head, line, reason);
+    }
+    if (st != SS_OK) {
+        ss_header_free(head);
+        return st;
+    }
+    *out = head;
+    return SS_OK;
+}
+
+/* The nearest rate in whole Hz, which is all that AU has; the annotation has the exact rate. */
+static uint32_t
+whole_rate(double rate)
+{
+    return rate < 1 ? 1 : rate < UINT32_MAX ? (uint32_t)rint(rate) : UINT32_MAX;
+}
+
+static ss_status
+make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels, ss_error *err)
+{
+    ss_header *head;
+    const char *reason = "";
+    ss_status st = read_annotation(&head, ss_kind_magic(reader->kind), annotation, &reason);
+    if (st == SS_EDATA)
+        return ss_fail(err, st, "%s: AU annotation: %s", reader->in.name, reason);
+    if (st != SS_OK)
+        return ss_fail_memory(err, reader->in.name);
+    if (head != NULL && head->n_columns == channels) {
+        ss_header_free(reader->head);
+        reader->head = head;
+    } else {
+        ss_header_free(head);
+        st = ss_frames_columns(reader->head, channels);
+    }
+    if (!(reader->head->rate > 0) || whole_rate(reader->head->rate) != rate)
+        reader->head->rate = rate;
+    return st == SS_OK ? st : ss_fail_memory(err, reader->in.name);
+}
+
+static ss_status
+open_au(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+{
+    struct input *in = &reader->in;
+    ss_status st = ss_input_need(in, FIXED_HEADER, err);
+    if (st != SS_OK)
+        return st;
+    if (in->hi - in->lo < FIXED_HEADER)
+        return ss_fail(err, SS_EDATA, "%s: truncated AU header", in->name);
+    const unsigned char *p = (unsigned char *)in->buffer + in->lo;
+    uint32_t field[6];
+    for (int i = 0; i < 6; i++)
+        field[i] = big_endian(p + 4 * i);
+    uint32_t offset = field[1], size = field[2], encoding = field[3], channels = field[5];
+
+    if (offset < FIXED_HEADER || offset > FIXED_HEADER + MAX_ANNOTATION)
+        return ss_fail(err, SS_EDATA, "%s: AU header: impossible offset of the data, %lu", in->name,
+                       (unsigned long)offset);
+    if (encoding >= sizeof width / sizeof *width || width[encoding] == 0)
+        return ss_fail(err, SS_EDATA, "%s: AU encoding %lu is not supported; 2 to 7 are (PCM of 8 to "
+                       "32 bits, floating point)", in->name, (unsigned long)encoding);
+    if (channels < 1 || channels > MAX_CHANNELS || field[4] < 1)
+        return ss_fail(err, SS_EDATA, "%s: AU header: impossible: %lu channels at %lu Hz", in->name,
+                       (unsigned long)channels, (unsigned long)field[4]);
+    st = ss_input_need(in, offset, err);
+    if (st != SS_OK)
+        return st;
+    if (in->hi - in->lo < offset)
+        return ss_fail(err, SS_EDATA, "%s: truncated AU annotation", in->name);
+
+    char *annotation = strndup(in->buffer + in->lo + FIXED_HEADER, offset - FIXED_HEADER);
+    if (annotation != NULL
+        && ss_fail_kind(err, in->name, annotation, strlen(annotation), reader->kind) != SS_OK) {
+        free(annotation);
+        return SS_EKIND;
+    }
+    st = annotation != NULL ? make_header(reader, annotation, field[4], channels, err)
+        : ss_fail_memory(err, in->name);
+    free(annotation);
+    if (st != SS_OK)
+        return st;
+    in->lo += offset;
+    /* a program that meant to fill in the size at the end leaves 0 */
+    ss_frames_begin(reader, (sample_type){ .bytes = width[encoding],
+                                           .is_float = encoding >= ENCODING_FLOAT },
+                    size == UNKNOWN_SIZE || size == 0 ? UINT64_MAX : size, (uint64_t)offset + size);
+    return ss_refuse_clock(in->name, reader->head->rate, opts, err);
+}
+
+/* --- writing ------------------------------------------------------------------------------- */
+
+enum { ANNOTATION_UNIT = 8 };
+
+static void
+encode_big_endian(char *p, uint64_t x, size_t n)
+{
+    for (; n-- > 0; x >>= 8)
+        p[n] = (char)(x & 0xff);
+}
+
+static void
+write_header(FILE *out, const ss_header *head, const char *text, size_t length, size_t padding)
+{
+    char fixed[FIXED_HEADER];
+    uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), UNKNOWN_SIZE,
+                          ENCODING_DOUBLE, whole_rate(head->rate), (uint32_t)head->n_columns };
+    for (int i = 0; i < 6; i++)
+        encode_big_endian(fixed + 4 * i, field[i], 4);
+    fwrite(fixed, 1, sizeof fixed, out);
+    fwrite(text, 1, length, out);
+    fwrite("\0\0\0\0\0\0\0", 1, padding, out);
+}
+
+static ss_status
+begin_au(FILE *out, const ss_header *head, const char *magic, ss_error *err)
+{
+    size_t length;
+    ss_status st = ss_header_check_notes(head, err);
+    if (st != SS_OK)
+        return st;
+    char *text = ss_header_text(head, magic, &length);
+    if (text == NULL)
+        return SS_ENOMEM;
+    size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;        /* at least one NUL */
+    int fits = head->n_columns <= MAX_CHANNELS && length + padding <= MAX_ANNOTATION;
+    if (fits)
+        write_header(out, head, text, length, padding);
+    free(text);
+    if (!fits)
+        return ss_fail(err, SS_EINVAL, "AU holds at most %d columns and a header of %d MiB",
+                       MAX_CHANNELS, MAX_ANNOTATION >> 20);
+    return ferror(out) ? SS_EIO : SS_OK;
+}
+
+static size_t
+encode_number(char *to, double x, int last)
+{
+    (void)last;
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);     /* compilers make one instruction of these eight bytes */
+    to[0] = (char)(bits >> 56), to[1] = (char)(bits >> 48 & 0xff);
+    to[2] = (char)(bits >> 40 & 0xff), to[3] = (char)(bits >> 32 & 0xff);
+    to[4] = (char)(bits >> 24 & 0xff), to[5] = (char)(bits >> 16 & 0xff);
+    to[6] = (char)(bits >> 8 & 0xff), to[7] = (char)(bits & 0xff);
+    return sizeof bits;
+}
+
+const struct format ss_format_au = {
+    .name = "au",
+    .magic = ".snd",
+    .has_header = 1,
+    .open = open_au,
+    .begin = begin_au,
+    .number = encode_number,
+};

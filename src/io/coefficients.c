@@ -1,0 +1,369 @@
+/* coefficients.c -- coefficients that are read.
+ *
+ * The stream's notes hold every option that the grid follows from, so that a reader rebuilds the
+ * grid and holds each row against it: a row that is missing, doubled or out of place is found.
+ * Rows of different scales may come in any order, those of one scale with b ascending.  A stream
+ * written before its length was known says that at its end. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/number.h"
+#include "base/list.h"
+#include "map/plan.h"
+#include "io/coefficient_rows.h"
+#include "io/reader.h"
+
+/* A scale of which rows have been read. */
+typedef struct part {
+    ss_scale scale;             /* n is the grid's, SIZE_MAX until that is known */
+    size_t n, room;             /* rows that have been read; room for rows */
+    size_t tail;                /* n, or the first row whose edge is that of an end not yet known */
+    double *w;
+} part;
+
+typedef struct coefficient_reader {
+    ss_reader in;               /* must be the first member */
+    ss_error *err;
+    ss_coefficients *coef;      /* its n is 0 until the length is known */
+    ss_morlet_opts opts;        /* the options that determine the grid */
+    part *part;
+    size_t n_parts, room, last; /* last: the part of the previous row */
+    size_t *part_of;            /* for every possible j its part, counted from 1; 0: none yet */
+} coefficient_reader;
+
+enum { LARGEST_M = 500 };       /* the largest |log2 a| */
+
+/* SS_EDATA, with the number of the current line of text, or row of AU. */
+SS_PRINTF(2, 3)
+static ss_status
+refuse(const coefficient_reader *r, const char *format, ...)
+{
+    char why[256];
+    unsigned long line = r->in.in.line;
+    va_list args;
+    va_start(args, format);
+    ss_print_text(why, sizeof why, format, args);
+    va_end(args);
+    return ss_fail(r->err, SS_EDATA, "%s:%s%lu: %s", r->in.in.name, line > 0 ? "" : " row ",
+                   line > 0 ? line : (unsigned long)r->in.row, why);
+}
+
+/* --- header */
+
+/* Check that the columns are those of coefficients, and copy the rest of the stream's header. */
+static ss_status
+copy_header(coefficient_reader *r)
+{
+    const ss_header *head = r->in.head;
+    int known = head->n_columns == COEFFICIENT_COLUMNS && !head->has_time;
+    for (size_t i = 0; known && i < COEFFICIENT_COLUMNS; i++)
+        known = strcmp(head->column[i].name, ss_coefficient_columns[i][0]) == 0
+            && strcmp(head->column[i].unit, ss_coefficient_columns[i][1]) == 0;
+    if (!known)
+        return ss_fail_wanted(ss_fail(r->err, SS_EKIND, "%s: the columns are not those of wavelet "
+                                      "coefficients, m a/s b/s f/Hz re im edge", r->in.in.name),
+                              SS_KIND_COEFFICIENTS, r->err);
+    ss_status st = ss_header_select(&r->coef->head, head, NULL, 0, 0);
+    if (st == SS_OK)
+        r->coef->head->has_time = 1;
+    return st;
+}
+
+static ss_status
+required(const coefficient_reader *r, const char *key, const char **value)
+{
+    *value = ss_header_find_note(r->coef->head, key);
+    if (*value == NULL || **value == '\0')
+        return ss_fail(r->err, SS_EDATA, "%s: no line '# %s: ...'", r->in.in.name, key);
+    return SS_OK;
+}
+
+static ss_status
+required_number(const coefficient_reader *r, const char *key, double hi, double *x)
+{
+    const char *value;
+    char *end;
+    ss_status st = required(r, key, &value);
+    if (st != SS_OK)
+        return st;
+    *x = ss_number_parse(value, &end);
+    if (end == value || *end != '\0' || !(*x > 0 && *x <= hi))
+        return ss_fail(r->err, SS_EDATA, "%s: '# %s: %s' is out of range", r->in.in.name, key,
+                       value);
+    return SS_OK;
+}
+
+static int
+says_yes(const coefficient_reader *r, const char *key)
+{
+    const char *value = ss_header_find_note(r->coef->head, key);
+    return value != NULL && strcmp(value, "yes") == 0;
+}
+
+/* Read the options that determine the grid. */
+static ss_status
+read_options(coefficient_reader *r)
+{
+    ss_coefficients *coef = r->coef;
+    const char *column, *unit, *name = r->in.in.name;
+    double samples = 0, voices;
+    ss_status st;
+    r->opts = ss_morlet_defaults;
+    r->opts.dense = says_yes(r, "dense");
+    r->opts.exact = ss_header_find_note(coef->head, "lattice") == NULL;
+    if (!says_yes(r, "stream") && (st = required_number(r, "samples", 0x1p53, &samples)) != SS_OK)
+        return st;
+    if ((st = required_number(r, "center", 1000, &r->opts.center)) != SS_OK
+        || (st = required_number(r, "voices", 1024, &voices)) != SS_OK
+        || (st = required(r, "column", &column)) != SS_OK)
+        return st;
+    if (!r->opts.dense && (st = required_number(r, "step", 1e100, &r->opts.step)) != SS_OK)
+        return st;
+    if (samples != floor(samples) || voices != floor(voices))
+        return ss_fail(r->err, SS_EDATA, "%s: samples and voices are not whole numbers", name);
+    coef->n = (size_t)samples;
+    coef->center = r->opts.center;
+    r->opts.voices = (int)voices;
+    ss_error why = { 0 };
+    if (ss_morlet_check(coef->n > 0 ? coef->n : 1, coef->head->rate, &r->opts, &why) != SS_OK)
+        return ss_fail(r->err, SS_EDATA, "%s: %s", name, why.text);
+    unit = ss_header_find_note(coef->head, "unit");
+    return ss_header_add_column(coef->head, column, unit != NULL ? unit : "");
+}
+
+/* --- rows */
+
+static ss_status
+new_part(coefficient_reader *r, int j, const double number[])
+{
+    ss_error why = { 0 };
+    part *parts = ss_list_room(r->part, &r->room, r->n_parts, sizeof *parts);
+    if (parts == NULL)
+        return SS_ENOMEM;
+    r->part = parts;
+    part *p = &r->part[r->n_parts];
+    *p = (part){ .n = 0 };
+    if (ss_morlet_scale_at(&p->scale, j, number[1], r->coef->n, r->coef->head->rate, &r->opts, &why)
+        != SS_OK)
+        return refuse(r, "%s", why.text);
+    if (r->coef->n == 0)
+        p->scale.n = SIZE_MAX;
+    r->n_parts++;
+    return SS_OK;
+}
+
+/* Find or add the part to which this row belongs; r->last becomes its index. */
+static ss_status
+find_part(coefficient_reader *r, const double number[])
+{
+    double m = number[0], a = number[1], f = number[3], j = rint(m * r->opts.voices);
+    if (!(fabs(m) <= LARGEST_M) || fabs(m * r->opts.voices - j) > 1e-9
+        || !(fabs(a / exp2(m) - 1) < 1e-12)
+        || !(fabs(f * 2 * M_PI * a / r->opts.center - 1) < 1e-12))
+        return refuse(r, "m, a and f are not those of a scale with center %g and %d voice%s",
+                      r->opts.center, r->opts.voices, PLURAL(r->opts.voices));
+    size_t *known = &r->part_of[(int)j + LARGEST_M * r->opts.voices];
+    if (*known == 0) {
+        ss_status st = new_part(r, (int)j, number);
+        if (st != SS_OK)
+            return st;
+        *known = r->n_parts;
+    }
+    r->last = *known - 1;
+    return SS_OK;
+}
+
+static ss_status
+append(part *p, double re, double im)
+{
+    double *w = ss_list_room(p->w, &p->room, p->n, 2 * sizeof *w);
+    if (w == NULL)
+        return SS_ENOMEM;
+    p->w = w;
+    p->w[2 * p->n] = re;
+    p->w[2 * p->n++ + 1] = im;
+    return SS_OK;
+}
+
+/* The edge of coefficient k in a record of n samples; SIZE_MAX if the end is not known. */
+static int
+known_edge(const coefficient_reader *r, const part *p, size_t k, size_t n)
+{
+    const ss_coefficients *c = r->coef;
+    return wavelet_edge(&p->scale, k, n, c->head->rate, c->head->start, c->gap, c->n_gaps);
+}
+
+/* 1 if the edge of the next row of a part can be right.  While the end is not known, edges near it are
+ * accepted; check_tail checks them later. */
+static int
+edge_fits(const coefficient_reader *r, part *p, double edge)
+{
+    int fits = edge == known_edge(r, p, p->n, r->coef->n > 0 ? r->coef->n : SIZE_MAX);
+    int of_end = !fits && edge == 1 && r->coef->n == 0;
+    if (p->tail == p->n && !of_end)
+        p->tail++;
+    return of_end || (fits && (p->tail > p->n || edge == 1));
+}
+
+static ss_status
+append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
+{
+    ss_status st = find_part(r, number);
+    if (st != SS_OK)
+        return st;
+    part *p = &r->part[r->last];
+    if (p->n == p->scale.n)
+        return refuse(r, "scale %g has %zu coefficient%s, this is one more", p->scale.m, p->n,
+                      PLURAL(p->n));
+    double b = ss_scale_b(&p->scale, p->n);
+    if (!(fabs(number[2] - b) <= 1e-12 * b))
+        return refuse(r, "b is %.9g s where the grid has %.9g s", number[2], b);
+    if (!edge_fits(r, p, number[6]))
+        return refuse(r, "edge is %g, not what the cone of influence gives", number[6]);
+    return append(p, number[4], number[5]);
+}
+
+/* Check all that depends on the length of the record: the number of translations of a scale, and where
+ * the cone of influence of the record's end begins. */
+static ss_status
+check_tail(coefficient_reader *r, part *p)
+{
+    ss_scale *sc = &p->scale;
+    double rate = r->coef->head->rate;
+    size_t n = r->coef->n;
+    ss_error why = { 0 };
+    if (ss_morlet_scale_at(sc, sc->j, sc->a, n, rate, &r->opts, &why) != SS_OK)
+        return refuse(r, "%s", why.text);
+    if (p->n > sc->n)
+        return refuse(r, "scale %g has %zu coefficient%s, not %zu", sc->m, sc->n, PLURAL(sc->n), p->n);
+    if ((p->tail < p->n && !known_edge(r, p, p->tail, n))
+        || (p->tail > 0 && known_edge(r, p, p->tail - 1, n)
+            != known_edge(r, p, p->tail - 1, SIZE_MAX)))
+        return refuse(r, "the edge of scale %g is not what the cone of influence of %zu samples "
+                      "gives", sc->m, n);
+    return SS_OK;
+}
+
+/* Set the length of the record, and check the scales against it. */
+static ss_status
+set_length(coefficient_reader *r, double samples)
+{
+    ss_status st = SS_OK;
+    if (r->coef->n > 0)
+        return refuse(r, "the number of samples is given twice");
+    if (!(samples >= 1 && samples <= 0x1p53 && samples == floor(samples)))
+        return refuse(r, "%g samples are not the length of a record", samples);
+    r->coef->n = (size_t)samples;
+    for (size_t i = 0; st == SS_OK && i < r->n_parts; i++)
+        st = check_tail(r, &r->part[i]);
+    return st;
+}
+
+/* A line "# samples: N" among the rows ends a stream. */
+static ss_status
+read_late_note(ss_reader *in, char *line, ss_error *err)
+{
+    static const char length[] = "# samples: ";
+    (void)err;
+    if (strncmp(line, length, sizeof length - 1) != 0)
+        return SS_OK;
+    return set_length((coefficient_reader *)in, ss_number_parse(line + sizeof length - 1, NULL));
+}
+
+/* In AU, a row at scale 0 ends a stream: its b is the time of the last sample. */
+static ss_status
+read_rows_of_scales(coefficient_reader *r)
+{
+    double row[COEFFICIENT_COLUMNS];
+    size_t n;
+    ss_status st;
+    while ((st = ss_reader_rows(&r->in, row, 1, &n, r->err)) == SS_OK && n > 0) {
+        st = row[1] == 0 ? set_length(r, rint(row[2] * r->coef->head->rate) + 1) : append_row(r, row);
+        if (st != SS_OK)
+            return st;
+    }
+    return st;
+}
+
+/* --- the whole */
+
+static int
+longer_first(const void *a, const void *b)
+{
+    const part *p = a, *q = b;
+    return (p->scale.j < q->scale.j) - (p->scale.j > q->scale.j);
+}
+
+static ss_status
+assemble(coefficient_reader *r)
+{
+    ss_coefficients *coef = r->coef;
+    size_t total = 0;
+    if (r->n_parts == 0)
+        return ss_fail(r->err, SS_EDATA, "%s: a header without coefficients", r->in.in.name);
+    if (coef->n == 0)
+        return refuse(r, "cut short: a stream ends with its number of samples");
+    for (size_t i = 0; i < r->n_parts; i++) {
+        const part *p = &r->part[i];
+        if (p->n < p->scale.n)
+            return refuse(r, "ends with %zu of the %zu coefficients of scale %g", p->n, p->scale.n,
+                          p->scale.m);
+        total += p->n;
+    }
+    qsort(r->part, r->n_parts, sizeof *r->part, longer_first);
+    coef->scale = malloc(r->n_parts * sizeof *coef->scale);
+    coef->w = malloc(2 * total * sizeof *coef->w);
+    if (coef->scale == NULL || coef->w == NULL)
+        return SS_ENOMEM;
+    for (size_t offset = 0; coef->n_scales < r->n_parts; coef->n_scales++) {
+        part *p = &r->part[coef->n_scales];
+        p->scale.offset = offset;
+        coef->scale[coef->n_scales] = p->scale;
+        memcpy(coef->w + 2 * offset, p->w, 2 * p->n * sizeof *p->w);
+        free(p->w);                     /* now, as there may be no memory for all of them twice */
+        p->w = NULL;
+        offset += p->n;
+    }
+    return SS_OK;
+}
+
+static ss_status
+read_all(coefficient_reader *r, FILE *in, const char *name)
+{
+    ss_status st = ss_reader_open(&r->in, in, name, SS_KIND_COEFFICIENTS, NULL, r->err);
+    if (st != SS_OK)
+        return st;
+    r->coef = calloc(1, sizeof *r->coef);
+    if (r->coef == NULL)
+        return SS_ENOMEM;
+    if ((st = copy_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
+        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK)
+        return st;
+    r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);
+    if (r->part_of == NULL)
+        return SS_ENOMEM;
+    st = read_rows_of_scales(r);
+    return st == SS_OK ? assemble(r) : st;
+}
+
+ss_status
+ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err)
+{
+    coefficient_reader r = { .in = { .late_note = read_late_note }, .err = err };
+    if (out == NULL || in == NULL || name == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = read_all(&r, in, name);
+    for (size_t i = 0; i < r.n_parts; i++)
+        free(r.part[i].w);
+    free(r.part);
+    free(r.part_of);
+    ss_reader_close(&r.in);
+    if (st == SS_OK)
+        *out = r.coef;
+    else
+        ss_coefficients_free(r.coef);
+    return st;
+}

@@ -1,0 +1,170 @@
+/* frames.c -- samples as integers, as fractions of full scale, and as floating point, of either byte
+ * order. */
+#include <math.h>
+#include <string.h>
+#include "base/error.h"
+#include "io/frames.h"
+
+static uint64_t
+gather(const unsigned char *p, sample_type type)
+{
+    uint64_t x = 0;
+    for (unsigned i = 0; i < type.bytes; i++)
+        x = x << 8 | p[type.little_endian ? type.bytes - 1 - i : i];
+    return x;
+}
+
+double
+ss_sample_raw(const unsigned char *p, sample_type type)
+{
+    uint64_t bits = gather(p, type);
+    if (type.is_float && type.bytes == sizeof(double)) {
+        double x;
+        memcpy(&x, &bits, sizeof x);
+        return x;
+    }
+    if (type.is_float) {
+        uint32_t half = (uint32_t)bits;
+        float x;
+        memcpy(&x, &half, sizeof x);
+        return x;
+    }
+    uint64_t sign = UINT64_C(1) << (8 * type.bytes - 1);
+    if (type.is_unsigned || bits < sign)
+        return (double)bits;
+    return -(double)(~bits & (sign - 1)) - 1;
+}
+
+/* Integers as fractions of full scale, [-1, 1). */
+static double
+decode(const unsigned char *p, sample_type type)
+{
+    double x = ss_sample_raw(p, type);
+    return type.is_float ? x : ldexp(x, 1 - 8 * (int)type.bytes) - (type.is_unsigned ? 1 : 0);
+}
+
+static ss_status
+refuse_end(const ss_reader *reader, size_t frame, size_t rest, ss_error *err)
+{
+    unsigned long long row = reader->row;
+    if (rest > 0)
+        return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu bytes of row %llu",
+                       reader->in.name, rest, frame, row + 1);
+    return ss_fail(err, SS_EDATA, "%s: truncated: ends after row %llu, %llu bytes before the end "
+                   "that its header gives", reader->in.name, row,
+                   (unsigned long long)reader->bytes_left);
+}
+
+static ss_status
+decode_row(ss_reader *reader, const char *p, double *row, ss_error *err)
+{
+    for (size_t c = 0; c < reader->head->n_columns; c++) {
+        row[c] = decode((const unsigned char *)p + c * reader->type.bytes, reader->type);
+        if (!isfinite(row[c]))
+            return ss_fail(err, SS_EDATA, "%s: row %llu, column %s: not a finite number",
+                           reader->in.name, (unsigned long long)reader->row + 1,
+                           reader->head->column[c].name);
+    }
+    reader->row++;
+    return SS_OK;
+}
+
+/* 1 if these four bytes can be the name of a chunk: letters. */
+static int
+names_chunk(const char *name)
+{
+    for (int i = 0; i < 4; i++)
+        if (name[i] < ' ' || name[i] > '~')
+            return 0;
+    return 1;
+}
+
+static ss_status
+refuse_rest(const ss_reader *reader, ss_error *err)
+{
+    return ss_fail(err, SS_EDATA, "%s: goes on after the %llu row%s that its header gives; head -c %llu "
+                   "cuts it there", reader->in.name, (unsigned long long)reader->row,
+                   PLURAL(reader->row), (unsigned long long)reader->end);
+}
+
+/* Skip chunks up to the end of the file.  Each has four letters, a length and so many bytes, as samples
+ * hardly ever do.  The byte that makes an odd length even may be missing at the end. */
+static ss_status
+skip_chunks(ss_reader *reader, ss_error *err)
+{
+    enum { CHUNK_HEADER = 8 };
+    struct input *in = &reader->in;
+    for (uint64_t left = reader->end % 2;;) {
+        ss_status st = ss_input_skip(in, &left, err);
+        if (st == SS_OK)
+            st = ss_input_need(in, CHUNK_HEADER, err);
+        if (st != SS_OK || (in->hi == in->lo && left <= 1))
+            return st;
+        const unsigned char *p = (const unsigned char *)in->buffer + in->lo;
+        if (in->hi - in->lo < CHUNK_HEADER || !names_chunk((const char *)p))
+            return refuse_rest(reader, err);
+        left = p[4] | (uint64_t)p[5] << 8 | (uint64_t)p[6] << 16 | (uint64_t)p[7] << 24;
+        left += left % 2;
+        in->lo += CHUNK_HEADER;
+    }
+}
+
+/* SS_EDATA if bytes other than chunks follow the data: then either they or the length that the header gives
+ * is wrong. */
+static ss_status
+refuse_more(ss_reader *reader, ss_error *err)
+{
+    struct input *in = &reader->in;
+    if (reader->is_chunk)
+        return skip_chunks(reader, err);
+    ss_status st = ss_input_need(in, 1, err);
+    return st == SS_OK && in->hi > in->lo ? refuse_rest(reader, err) : st;
+}
+
+static ss_status
+read_frames(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+{
+    struct input *in = &reader->in;
+    size_t n_columns = reader->head->n_columns, frame = n_columns * reader->type.bytes;
+    for (; *n < max && reader->bytes_left > 0; ++*n) {
+        if (*n > 0 && in->hi - in->lo < frame)
+            break;
+        ss_status st = ss_input_need(in, frame, err);
+        if (st != SS_OK)
+            return st;
+        size_t there = in->hi - in->lo;
+        if (there == 0 && reader->bytes_left == UINT64_MAX)
+            break;
+        if (there < frame || reader->bytes_left < frame)
+            return refuse_end(reader, frame, reader->bytes_left < there
+                              ? (size_t)reader->bytes_left : there, err);
+        st = decode_row(reader, in->buffer + in->lo, rows + *n * n_columns, err);
+        if (st != SS_OK)
+            return st;
+        in->lo += frame;
+        if (reader->bytes_left != UINT64_MAX)
+            reader->bytes_left -= frame;
+    }
+    return *n == 0 && reader->bytes_left == 0 && reader->end > 0 ? refuse_more(reader, err) : SS_OK;
+}
+
+ss_status
+ss_frames_columns(ss_header *head, size_t n)
+{
+    char name[32];
+    ss_status st = SS_OK;
+    for (size_t i = 1; st == SS_OK && i <= n; i++) {
+        snprintf(name, sizeof name, "ch%zu", i);
+        st = ss_header_add_column(head, name, "");
+    }
+    return st;
+}
+
+void
+ss_frames_begin(ss_reader *reader, sample_type type, uint64_t bytes, uint64_t end)
+{
+    reader->type = type;
+    reader->bytes_left = bytes;
+    reader->end = end;
+    reader->rows = read_frames;
+}

@@ -1,0 +1,95 @@
+/* groups.h -- a reader and a writer of each group of our files; they fail as ss_h5_fail does. */
+#ifndef GROUPS_H
+#define GROUPS_H
+
+#include "io/hdf5/h5.h"
+#include "io/hdf5/h5_write.h"
+#include "io/reader.h"
+
+/* /signal (signal_writer.c, signal_reader.c).  The samples come in pieces; the datasets stay open. */
+typedef struct signal_writer {
+    h5_pieces *pieces;
+    size_t length, samples;     /* length: in all, unless the file grows; samples: written so far */
+    size_t n_columns;
+    hid_t *column, times;       /* column: a dataset each; NULL: there is no /signal */
+} signal_writer;
+
+/* Begin /signal with the columns of a header.  Pieces stay the caller's. */
+ss_status ss_signal_writer_open(signal_writer *w, h5_pieces *pieces, const ss_header *head,
+                                size_t length);
+/* n samples more of each column: sample i of column c is x[i * row + c * column]. */
+ss_status ss_signal_writer_append(signal_writer *w, const double *x, size_t n, size_t row,
+                                  size_t column);
+
+/* The rows of /signal (signal_reader.c), or of an array of another program (foreign.c), which are read
+ * in pieces (signal_rows.c). */
+typedef struct signal_rows {
+    h5_file file;
+    char *path;                 /* of the file */
+    hid_t *dataset;             /* one for all columns, or one for each */
+    hid_t times;                /* of the rows, to be checked, or 0 */
+    hid_t stamps;               /* of the rows of an array, from which the clock comes, or 0 */
+    int stamps_by_columns;
+    size_t n_datasets, n, row;  /* n: rows; row: of these, the next to be read */
+    int by_columns;             /* what is read at a time from a dataset is column after column */
+    int gaps;                   /* values that are not finite are missing, not wrong */
+    size_t piece;               /* rows that are read at a time */
+    double *raw;                /* a piece of a dataset, if by columns, or of the times */
+} signal_rows;
+
+/* Begin to read a signal of an open file, as ss_store_signal_reader does, but for ss_reader_adjust.  The
+ * file is the reader's from here on, also after a failure. */
+ss_status ss_h5_open_signal(ss_reader *reader, h5_file *file, const char *dataset,
+                            const ss_read_opts *opts);
+/* Find the datasets, their shape and the header; datasets stay open. */
+ss_status ss_h5_find_signal(signal_rows *s, ss_header **head, const ss_read_opts *opts);
+ss_status ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset,
+                           const ss_read_opts *opts);
+/* The rows of a reader, which gives those of an array, become those of a table with opts->time as its column of
+ * time (timed_rows.c). */
+ss_status ss_h5_time_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts);
+
+/* /events (events_writer.c). */
+ss_status ss_h5_write_events(h5_file *file, const ss_event *event, size_t n);
+
+/* /wavelet (wavelet_writer.c, wavelet_reader.c).  The coefficients of each scale come in pieces.  Where
+ * their number is known, the datasets of a scale are closed when they are full; else all stay open. */
+typedef struct wavelet_writer {
+    h5_pieces *pieces;
+    size_t n, n_scales;         /* n: samples of the record */
+    ss_scale *scale;
+    ss_span *gap;
+    size_t n_gaps;
+    char *unit;                 /* of the coefficients */
+    double tolerance;           /* of rounding, re the largest |W| of a scale; 0: all bits stay */
+    int dense;
+    hid_t group;
+    struct scale_datasets *datasets;    /* of each scale; if dense, the first holds those of all */
+} wavelet_writer;
+
+ss_status ss_wavelet_writer_open(wavelet_writer *w, h5_pieces *pieces, const ss_coefficients *grid);
+/* The scale with this j, if n of its coefficients from the first on are the next; else n_scales. */
+size_t ss_wavelet_writer_find(const wavelet_writer *w, const ss_scale *scale, size_t first, size_t n);
+/* The next n coefficients of scale i, as pairs, of a record with so many samples until now. */
+ss_status ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const double *x,
+                                   size_t samples);
+/* Write the length and the times that all scales share, which are known only at the end. */
+ss_status ss_wavelet_writer_end(wavelet_writer *w, size_t samples);
+void ss_wavelet_writer_free(wavelet_writer *w);
+
+typedef struct wavelet_reader {
+    h5_file *file;
+    ss_coefficients *grid;
+    int dense;
+    hid_t group, part[2];       /* part: re and im, if dense, else -1 */
+    size_t total;               /* coefficients of all scales */
+    double *row;                /* the longest, re or im */
+} wavelet_reader;
+
+/* Read the grid; to be closed even after a failure. */
+ss_status ss_wavelet_reader_open(wavelet_reader *r, h5_file *file);
+/* The coefficients of scale i, as pairs. */
+ss_status ss_wavelet_reader_scale(wavelet_reader *r, size_t i, double *w);
+void ss_wavelet_reader_close(wavelet_reader *r);        /* the file stays open */
+
+#endif

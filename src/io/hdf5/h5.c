@@ -1,0 +1,488 @@
+/* h5.c -- opening HDF5 files, reading attributes and datasets of real numbers.
+ *
+ * A file may make any claim.  So everything that would open other files, run a plugin, or need memory
+ * out of proportion to the file is refused before HDF5 acts on it. */
+#include "io/hdf5/h5.h"
+
+#include <math.h>
+#include <search.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "signal/gaps.h"
+#include "signal/header.h"
+
+ss_status
+ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text)
+{
+    char where[256] = "";
+    h5_disk *disk;
+    if (H5Fget_vfd_handle(file->id, H5P_DEFAULT, (void **)&disk) >= 0 && disk->packed)
+        return ss_fail(file->err, SS_EDATA, "%s: names or attributes in it are packed by filters; only values may be",
+                       file->path);
+    if (group > 0 && name[0] != '/')
+        H5Iget_name(group, where, sizeof where);
+    const char *colon = name[0] != '\0' || where[0] != '\0' ? ":" : "";
+    const char *slash = name[0] != '\0' && where[0] != '\0' && strcmp(where, "/") != 0 ? "/" : "";
+    return ss_fail(file->err, status, "%s%s%s%s%s: %s", file->path, colon, where, slash, name, text);
+}
+
+static int
+compare_addresses(const void *a, const void *b)
+{
+    haddr_t x = *(const haddr_t *)a, y = *(const haddr_t *)b;
+    return (x > y) - (x < y);
+}
+
+ss_status
+ss_h5_open(h5_file *file)
+{
+    hid_t access = ss_h5_disk_access(NULL, &file->driver);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    file->id = H5Fopen(file->path, H5F_ACC_RDONLY, access);
+    H5Pclose(access);
+    if (file->id < 0)
+        return ss_h5_fail(file, SS_EDATA, 0, "", "not an HDF5 file, or a damaged one");
+    return SS_OK;
+}
+
+void
+ss_h5_close(h5_file *file)
+{
+    while (file->seen != NULL) {
+        void *address = *(void **)file->seen;
+        tdelete(address, &file->seen, compare_addresses);
+        free(address);
+    }
+    if (file->id >= 0)
+        H5Fclose(file->id);
+    if (file->driver > 0)
+        H5FDunregister(file->driver);
+}
+
+/* --- objects ------------------------------------------------------------------------------- */
+
+static herr_t
+refuse_link(const char *parent, const char *group, const char *file, const char *object,
+            unsigned *flags, hid_t access, void *user)
+{
+    (void)parent, (void)group, (void)file, (void)object, (void)flags, (void)access, (void)user;
+    return -1;
+}
+
+/* Access properties to open an object of this class without following links to another file. */
+static hid_t
+inside_only(hid_t class)
+{
+    hid_t access = H5Pcreate(class);
+    H5Pset_elink_cb(access, refuse_link, NULL);
+    return access;
+}
+
+hid_t
+ss_h5_open_dataset(hid_t group, const char *name)
+{
+    hid_t access = inside_only(H5P_DATASET_ACCESS);
+    hid_t id = H5Dopen2(group, name, access);
+    H5Pclose(access);
+    return id;
+}
+
+hid_t
+ss_h5_open_pieces(hid_t group, const char *name)
+{
+    hid_t access = inside_only(H5P_DATASET_ACCESS);
+    H5Pset_chunk_cache(access, 0, 0, 0);
+    hid_t id = H5Dopen2(group, name, access);
+    H5Pclose(access);
+    return id;
+}
+
+hid_t
+ss_h5_open_group(hid_t group, const char *name)
+{
+    hid_t access = inside_only(H5P_GROUP_ACCESS);
+    hid_t id = H5Gopen2(group, name, access);
+    H5Pclose(access);
+    return id;
+}
+
+static double
+file_size(hid_t object)
+{
+    hsize_t size = 0;
+    hid_t file = H5Iget_file_id(object);
+    H5Fget_filesize(file, &size);
+    H5Fclose(file);
+    return (double)size;
+}
+
+static double
+product(int n, const hsize_t factor[])
+{
+    double all = 1;
+    for (int i = 0; i < n; i++)
+        all *= (double)factor[i];
+    return all;
+}
+
+/* The number of values in a dataspace.  HDF5 itself multiplies modulo 2^64. */
+static double
+values_in(hid_t space)
+{
+    hsize_t dims[H5S_MAX_RANK];
+    return H5Sget_simple_extent_type(space) == H5S_NULL ? 0
+        : product(H5Sget_simple_extent_dims(space, dims, NULL), dims);
+}
+
+/* The values of a chunk, or 0 if the dataset has none. */
+static double
+values_in_chunk(hid_t how)
+{
+    hsize_t chunk[H5S_MAX_RANK];
+    return H5Pget_layout(how) == H5D_CHUNKED ? product(H5Pget_chunk(how, H5S_MAX_RANK, chunk), chunk) : 0;
+}
+
+/* So many bytes of values can come from one of the file at most: 1 if they are stored as they are, what deflate
+ * can do if they are deflated; 0 if that is not known.  Deflated twice, a file would hold 1032^2 times its size;
+ * other filters take the size from the file. */
+static double
+most_from_byte(hid_t how)
+{
+    int deflated = 0, n = H5Pget_nfilters(how);
+    for (int i = 0; i < n; i++) {
+        unsigned flags, config;
+        size_t values = 0;
+        H5Z_filter_t filter = H5Pget_filter2(how, (unsigned)i, &flags, &values, NULL, 0, NULL, &config);
+        if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE
+            && filter != H5Z_FILTER_FLETCHER32)
+            return 0;
+        deflated += filter == H5Z_FILTER_DEFLATE;
+    }
+    return n < 0 || deflated > 1 ? 0 : deflated == 1 ? 1032 : 1;
+}
+
+/* The reason to refuse how values are stored, or NULL.  Call it before reading the extent: for that of a
+ * virtual dataset, HDF5 opens the files that it refers to. */
+static const char *
+refuse_storage(hid_t how)
+{
+    if (H5Pget_layout(how) == H5D_VIRTUAL || H5Pget_external_count(how) > 0)
+        return "its values lie outside this file";
+    if (most_from_byte(how) <= 0)
+        return "is packed otherwise than by deflate, once; h5repack -f GZIP=1 makes it so";
+    return NULL;
+}
+
+/* *bytes: so many of the file the values need at least. */
+static const char *
+refuse_extent(hid_t dataset, hid_t how, double *bytes)
+{
+    hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
+    H5T_class_t class = H5Tget_class(type);
+    double width = (double)H5Tget_size(type) / most_from_byte(how), values = values_in(space);
+    size_t size = H5Tget_size(type);
+    H5Sclose(space);
+    H5Tclose(type);
+    *bytes = values * width;
+    if ((class != H5T_INTEGER && class != H5T_FLOAT) || size > 16)
+        return "does not hold real numbers";
+    if (!(values >= 0 && values <= H5_MAX_VALUES))
+        return "has more values than can be read at once";
+    if (fmax(values, values_in_chunk(how)) * width > file_size(dataset))
+        return "claims more values than a file of this size can hold";
+    return NULL;
+}
+
+/* The reason why the values of a dataset must not be read, or NULL; *bytes as for refuse_extent. */
+static const char *
+refuse_values(hid_t dataset, double *bytes)
+{
+    hid_t how = H5Dget_create_plist(dataset);
+    const char *wrong = refuse_storage(how);
+    if (wrong == NULL)
+        wrong = refuse_extent(dataset, how, bytes);
+    H5Pclose(how);
+    return wrong;
+}
+
+const char *
+ss_h5_refuse_values(hid_t dataset)
+{
+    double bytes;
+    return refuse_values(dataset, &bytes);
+}
+
+/* Refuse a dataset that has been read under another name: under many names, one would be read many times. */
+static ss_status
+refuse_second_name(h5_file *file, hid_t dataset, const char **wrong)
+{
+    H5O_info_t info;
+    *wrong = "cannot be read";
+    if (H5Oget_info(dataset, &info) < 0)
+        return SS_EDATA;
+    haddr_t *address = malloc(sizeof *address), **node;
+    if (address == NULL)
+        return SS_ENOMEM;
+    *address = info.addr;
+    node = tsearch(address, &file->seen, compare_addresses);
+    if (node != NULL && *node == address)
+        return SS_OK;
+    free(address);
+    *wrong = "is another name of a dataset that was read before it";
+    return node != NULL ? SS_EDATA : SS_ENOMEM;
+}
+
+/* Add the values of a dataset to those that the file claims, once, before they are read. */
+static ss_status
+claim(h5_file *file, hid_t dataset, size_t *n, const char **wrong)
+{
+    double bytes;
+    *wrong = refuse_values(dataset, &bytes);
+    if (*wrong != NULL)
+        return SS_EDATA;
+    ss_status status = refuse_second_name(file, dataset, wrong);
+    if (status != SS_OK)
+        return status;
+    hid_t space = H5Dget_space(dataset);
+    *n = (size_t)H5Sget_simple_extent_npoints(space);
+    H5Sclose(space);
+    file->claimed += bytes;
+    *wrong = "with those before, claims more values than a file of this size can hold";
+    return file->claimed > file_size(dataset) ? SS_EDATA : SS_OK;
+}
+
+/* If HDF5_PLUGIN_PRELOAD has forbidden plugins for good, HDF5 gives no mask, and 0 is returned. */
+unsigned
+ss_h5_forbid_plugins(void)
+{
+    unsigned mask = 0;
+    H5PLget_loading_state(&mask);
+    H5PLset_loading_state(0);
+    return mask;
+}
+
+void
+ss_h5_restore_plugins(unsigned mask)
+{
+    H5PLset_loading_state(mask);
+}
+
+/* --- attributes and values ----------------------------------------------------------------- */
+
+int
+ss_h5_get_number(hid_t object, const char *name, double *value)
+{
+    hid_t id = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
+    if (id < 0)
+        return 0;
+    hid_t type = H5Aget_type(id), space = H5Aget_space(id);
+    H5T_class_t class = H5Tget_class(type);
+    int good = (class == H5T_INTEGER || class == H5T_FLOAT) && H5Tget_size(type) <= 16
+               && values_in(space) == 1 && H5Aread(id, H5T_NATIVE_DOUBLE, value) >= 0;
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Aclose(id);
+    return good;
+}
+
+/* Read a string of fixed or variable length as a new C string. */
+static ss_status
+read_text(hid_t id, hid_t type, char **text)
+{
+    char *variable = NULL;
+    hid_t memory = H5Tcopy(H5T_C_S1);
+    ss_status status = SS_OK;
+    H5Tset_cset(memory, H5Tget_cset(type));
+    if (H5Tis_variable_str(type) > 0) {
+        H5Tset_size(memory, H5T_VARIABLE);
+        if (H5Aread(id, memory, &variable) >= 0 && variable != NULL
+            && (*text = strdup(variable)) == NULL)
+            status = SS_ENOMEM;
+        H5free_memory(variable);
+    } else if (H5Tget_size(type) < H5_MAX_TEXT) {
+        size_t size = H5Tget_size(type) + 1;
+        H5Tset_size(memory, size);
+        *text = calloc(size, 1);
+        if (*text == NULL)
+            status = SS_ENOMEM;
+        else if (H5Aread(id, memory, *text) < 0) {
+            free(*text);
+            *text = NULL;
+        }
+    }
+    H5Tclose(memory);
+    return status;
+}
+
+/* Attributes are not compressed, so their texts are no longer than the file, unless many attributes of
+ * variable length refer to one text. */
+static int
+has_claimed_too_much(const h5_file *file)
+{
+    return file->text > fmax(file_size(file->id), H5_MAX_TEXT);
+}
+
+ss_status
+ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text)
+{
+    ss_status status = SS_OK;
+    hid_t id = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
+    *text = NULL;
+    if (id < 0)
+        return SS_OK;
+    hid_t type = H5Aget_type(id), space = H5Aget_space(id);
+    if (H5Tget_class(type) == H5T_STRING && values_in(space) == 1
+        && !has_claimed_too_much(file))
+        status = read_text(id, type, text);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Aclose(id);
+    file->text += *text != NULL ? (double)strlen(*text) : 0;
+    if (!has_claimed_too_much(file))
+        return status;
+    free(*text);
+    *text = NULL;
+    return ss_h5_fail(file, SS_EDATA, object, "", "attributes claim more text than the file holds");
+}
+
+ss_status
+ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n)
+{
+    hid_t id = ss_h5_open_dataset(group, name);
+    if (id < 0)
+        return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
+    const char *wrong = ss_h5_refuse_values(id);
+    hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
+    hssize_t points = H5Sget_simple_extent_npoints(space);
+    ss_status status = SS_OK;
+    if (wrong != NULL)
+        status = ss_h5_fail(file, SS_EDATA, group, name, wrong);
+    else if (points < 0 || (size_t)points != n)
+        status = ss_h5_fail(file, SS_EDATA, group, name, "not of the length that the others have");
+    else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+        status = ss_h5_fail(file, SS_EIO, group, name, "cannot be read");
+    H5Sclose(space);
+    H5Dclose(id);
+    return status;
+}
+
+struct notes {
+    h5_file *file;
+    ss_header *head;
+    ss_status status;
+};
+
+static herr_t
+read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
+{
+    struct notes *notes = user;
+    (void)info;
+    char *value = NULL;
+    if (notes->head->n_notes == MAX_NOTES || strcmp(name, H5_VERSION_NOTE) == 0)
+        return 0;
+    notes->status = ss_h5_get_text(notes->file, root, name, &value);
+    if (value != NULL)
+        notes->status = ss_header_note(notes->head, name, value);
+    free(value);
+    if (notes->status == SS_EINVAL)             /* other programs' attributes need not be notes */
+        notes->status = SS_OK;
+    return notes->status != SS_OK;
+}
+
+/* Read the notes among the root's attributes, in the order in which they were written. */
+static ss_status
+read_notes(h5_file *file, ss_header *head)
+{
+    hid_t root = ss_h5_open_group(file->id, "/"), how = H5Gget_create_plist(root);
+    struct notes notes = { file, head, SS_OK };
+    unsigned tracked = 0;
+    H5Pget_attr_creation_order(how, &tracked);
+    int lost = H5Aexists(root, H5_VERSION_NOTE) < 0;    /* as for list_links of signal_reader.c */
+    herr_t stopped = lost ? -1 : H5Aiterate2(root, tracked != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,
+                                 H5_ITER_INC, NULL, read_note, &notes);
+    H5Pclose(how);
+    H5Gclose(root);
+    if (stopped < 0)
+        return ss_h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
+    if (notes.status == SS_OK && (notes.status = ss_header_check_gaps(head)) == SS_EDATA)
+        return ss_h5_fail(file, SS_EDATA, 0, "/", WRONG_GAPS);
+    return notes.status;
+}
+
+ss_status
+ss_h5_need_number(h5_file *file, hid_t group, const char *name, double lo, double hi,
+                  double *value)
+{
+    if (ss_h5_get_number(group, name, value) && *value >= lo && *value <= hi)
+        return SS_OK;
+    char text[128];
+    snprintf(text, sizeof text, "attribute '%s' is missing or out of range", name);
+    return ss_h5_fail(file, SS_EDATA, group, "", text);
+}
+
+ss_status
+ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
+{
+    double rate, start, has_time;
+    ss_status status;
+    if ((status = ss_h5_need_number(file, group, "rate", RATE_MIN, RATE_MAX, &rate)) != SS_OK
+        || (status = ss_h5_need_number(file, group, "start", -START_MAX, START_MAX, &start)) != SS_OK
+        || (status = ss_h5_need_number(file, group, "has_time", 0, 1, &has_time)) != SS_OK)
+        return status;
+    if ((status = ss_refuse_range(file->path, rate, start, file->err)) != SS_OK)
+        return status;
+    *head = ss_header_new(rate, start);
+    if (*head == NULL)
+        return SS_ENOMEM;
+    (*head)->has_time = has_time != 0;
+    return read_notes(file, *head);
+}
+
+ss_status
+ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n)
+{
+    hid_t id = ss_h5_open_dataset(group, name);
+    if (id < 0)
+        return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
+    const char *wrong;
+    ss_status status = claim(file, id, n, &wrong);
+    H5Dclose(id);
+    return status == SS_EDATA ? ss_h5_fail(file, status, group, name, wrong) : status;
+}
+
+int
+ss_h5_read_piece(hid_t id, int rank, const hsize_t at[], const hsize_t count[], double *values)
+{
+    hid_t space = H5Dget_space(id), memory = H5Screate_simple(rank, count, NULL);
+    int good = H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, count, NULL) >= 0
+        && H5Dread(id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values) >= 0;
+    H5Sclose(memory);
+    H5Sclose(space);
+    return good;
+}
+
+int
+ss_h5_read_rows(hid_t id, int by_columns, size_t row, size_t n, double *values)
+{
+    hsize_t at[H5S_MAX_RANK] = { 0 }, count[H5S_MAX_RANK];
+    hid_t space = H5Dget_space(id);
+    int rank = H5Sget_simple_extent_dims(space, count, NULL), along = rank == 2 && by_columns;
+    H5Sclose(space);
+    at[along] = row;
+    count[along] = n;
+    return ss_h5_read_piece(id, rank, at, count, values);
+}
+
+ss_status
+ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n)
+{
+    char text[64];
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(x[i])) {
+            snprintf(text, sizeof text, "value %zu is not finite", i + 1);
+            return ss_h5_fail(file, SS_EDATA, group, name, text);
+        }
+    return SS_OK;
+}

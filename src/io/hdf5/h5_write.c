@@ -1,0 +1,213 @@
+/* h5_write.c -- attributes, groups and datasets written so that xarray, MATLAB and h5dump understand
+ * them directly.
+ *
+ * Every dataset has units and long_name and is attached to its dimension scales.
+ * Nothing depends on the clock, the path or the machine: creation times are not tracked, file types
+ * are little-endian, links are kept in the order of writing. */
+#include "io/hdf5/h5_write.h"
+
+#include <string.h>
+
+#define PLAIN_BYTES 65536       /* a dataset up to this size is stored without compression */
+#define OPEN_BYTES (32 << 20)   /* about so much are all chunks in memory if lengths are not known */
+#define LEAST_CHUNK 256
+#define LEAST_ROW 2048          /* shorter rows share chunks */
+
+ss_status
+ss_h5_fail_write(h5_file *file, hid_t group, const char *name)
+{
+    return ss_h5_fail(file, SS_EIO, group, name, "HDF5 cannot store it, or is out of memory");
+}
+
+int
+ss_h5_write_number(hid_t object, const char *name, hid_t file_type, double value)
+{
+    hid_t space = H5Screate(H5S_SCALAR);
+    hid_t id = H5Acreate2(object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT);
+    int good = id >= 0 && H5Awrite(id, H5T_NATIVE_DOUBLE, &value) >= 0;
+    H5Aclose(id);
+    H5Sclose(space);
+    return good;
+}
+
+int
+ss_h5_write_text(hid_t object, const char *name, const char *value)
+{
+    hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, strlen(value) + 1);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    hid_t id = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    int good = id >= 0 && H5Awrite(id, type, value) >= 0;
+    H5Aclose(id);
+    H5Tclose(type);
+    H5Sclose(space);
+    return good;
+}
+
+hid_t
+ss_h5_new_group(hid_t parent, const char *name)
+{
+    hid_t plist = H5Pcreate(H5P_GROUP_CREATE);
+    H5Pset_obj_track_times(plist, 0);
+    H5Pset_link_creation_order(plist, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    hid_t group = H5Gcreate2(parent, name, H5P_DEFAULT, plist, H5P_DEFAULT);
+    H5Pclose(plist);
+    return group;
+}
+
+int
+ss_h5_write_clock(hid_t group, const ss_header *head)
+{
+    return ss_h5_write_number(group, "rate", H5T_IEEE_F64LE, head->rate)
+           && ss_h5_write_number(group, "start", H5T_IEEE_F64LE, head->start)
+           && ss_h5_write_number(group, "has_time", H5T_STD_I8LE, head->has_time);
+}
+
+/* The layout of a dataset: if it is large, in compressed chunks along the last dimension. */
+static hid_t
+layout(const h5_dataset *v, int rank, const hsize_t dims[])
+{
+    hsize_t chunk[2] = { 1, 1 }, values = 1;
+    hid_t plist = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(plist, 0);
+    for (int i = 0; i < rank; i++)
+        values *= dims[i];
+    if (v->chunk == 0 && values * H5Tget_size(v->file_type) <= PLAIN_BYTES)
+        return plist;
+    hsize_t row = v->chunk > 0 ? v->chunk : dims[rank - 1] < H5_PIECE ? dims[rank - 1] : H5_PIECE;
+    chunk[rank - 1] = row;
+    if (rank == 2 && v->chunk == 0 && !(v->in_rows && row >= LEAST_ROW))
+        chunk[0] = H5_PIECE / row < dims[0] ? H5_PIECE / row : dims[0];
+    H5Pset_chunk(plist, rank, chunk);
+    if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+        H5Pset_shuffle(plist);
+        H5Pset_deflate(plist, v->in_rows ? 1 : 4);
+    }
+    return plist;
+}
+
+/* Access properties of a dataset.  If it grows, its cache has room for one chunk of each row. */
+static hid_t
+access_of(const h5_dataset *v, int rank, const hsize_t dims[])
+{
+    hid_t plist = H5Pcreate(H5P_DATASET_ACCESS);
+    size_t rows = rank == 2 ? (size_t)dims[0] : 1;
+    if (v->chunk > 0)
+        H5Pset_chunk_cache(plist, rows > 1 ? 128 * rows + 1 : 1,
+                           rows * (size_t)v->chunk * H5Tget_size(v->file_type), 1);
+    return plist;
+}
+
+/* The values in memory as a dataspace: every stride-th number of an array. */
+static hid_t
+memory_space(const h5_dataset *v, hsize_t values)
+{
+    hsize_t start = v->start, stride = v->stride > 0 ? v->stride : 1, count = values;
+    hsize_t length = start + values * stride;
+    hid_t space = H5Screate_simple(1, &length, NULL);
+    if (values == 0)
+        H5Sselect_none(space);
+    else
+        H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, &stride, &count, NULL);
+    return space;
+}
+
+hid_t
+ss_h5_new_dataset(hid_t group, const h5_dataset *v, int rank, const hsize_t dims[],
+                  const char *const scales[])
+{
+    hsize_t values = rank == 2 ? dims[0] * dims[1] : dims[0], most[2] = { dims[0], dims[rank - 1] };
+    most[rank - 1] = v->chunk > 0 ? H5S_UNLIMITED : dims[rank - 1];
+    hid_t how = layout(v, rank, dims), access = access_of(v, rank, dims);
+    hid_t space = H5Screate_simple(rank, dims, most);
+    hid_t id = H5Dcreate2(group, v->name, v->file_type, space, H5P_DEFAULT, how, access);
+    int good = id >= 0 && ss_h5_write_text(id, "units", v->unit)
+               && ss_h5_write_text(id, "long_name", v->long_name);
+    if (good && v->values != NULL) {
+        hid_t memory = memory_space(v, values);
+        good = H5Dwrite(id, v->memory_type, memory, values > 0 ? H5S_ALL : space, H5P_DEFAULT,
+                        v->values) >= 0;
+        H5Sclose(memory);
+    }
+    if (good && scales == NULL)
+        good = H5DSset_scale(id, v->name) >= 0;
+    for (int i = 0; good && scales != NULL && i < rank && scales[i] != NULL; i++) {
+        hid_t scale = H5Dopen2(group, scales[i], H5P_DEFAULT);
+        good = H5DSattach_scale(id, scale, (unsigned)i) >= 0;
+        H5Dclose(scale);
+    }
+    H5Sclose(space);
+    H5Pclose(access);
+    H5Pclose(how);
+    if (good)
+        return id;
+    H5Dclose(id);
+    return -1;
+}
+
+ss_status
+ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n, size_t length)
+{
+    const char *const scales[] = { v[0].name };
+    hsize_t dims = length;
+    for (size_t i = 0; i < n; i++) {
+        hid_t id = ss_h5_new_dataset(group, &v[i], 1, &dims, i > 0 ? scales : NULL);
+        if (id < 0 || H5Dclose(id) < 0)
+            return ss_h5_fail_write(file, group, v[i].name);
+    }
+    return SS_OK;
+}
+
+/* Extend a dataset's rows to this length, if they are shorter. */
+static int
+grow(hid_t id, int rank, hsize_t length)
+{
+    hsize_t dims[2] = { 0, 0 };
+    hid_t space = H5Dget_space(id);
+    H5Sget_simple_extent_dims(space, dims, NULL);
+    H5Sclose(space);
+    if (dims[rank - 1] >= length)
+        return 1;
+    dims[rank - 1] = length;
+    return H5Dset_extent(id, dims) >= 0;
+}
+
+int
+ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type, const void *values)
+{
+    hsize_t count[2] = { 1, 1 };
+    count[rank - 1] = n;
+    if (!grow(id, rank, at[rank - 1] + n))
+        return 0;
+    hid_t space = H5Dget_space(id), memory = H5Screate_simple(1, &n, NULL);
+    int good = H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, count, NULL) >= 0
+        && H5Dwrite(id, type, memory, space, H5P_DEFAULT, values) >= 0;
+    H5Sclose(memory);
+    H5Sclose(space);
+    return good;
+}
+
+hsize_t
+ss_h5_growing_chunk(size_t bytes)
+{
+    hsize_t chunk = H5_PIECE;
+    while (chunk > LEAST_CHUNK && (double)chunk * (double)bytes > OPEN_BYTES)
+        chunk /= 2;
+    return chunk;
+}
+
+int
+ss_h5_write_times(h5_pieces *pieces, hid_t id, const ss_scale *scale, size_t first, size_t n)
+{
+    double *t = pieces->value[0], rate = pieces->rate;
+    int good = 1;
+    for (size_t m; good && n > 0; first += m, n -= m) {
+        hsize_t at = first;
+        m = n < H5_PIECE ? n : H5_PIECE;
+        for (size_t i = 0; i < m; i++)
+            t[i] = pieces->start + (scale != NULL ? ss_scale_b(scale, first + i)
+                                                  : (double)(first + i) / rate);
+        good = ss_h5_write_piece(id, 1, &at, m, H5T_NATIVE_DOUBLE, t);
+    }
+    return good;
+}

@@ -1,0 +1,59 @@
+/* h5_write.h -- write attributes, groups and datasets. */
+#ifndef H5_WRITE_H
+#define H5_WRITE_H
+
+#include "io/hdf5/h5.h"
+
+#define H5_PIECE 65536          /* the most values in a chunk, and in one write */
+
+/* One dataset to be written. */
+typedef struct h5_dataset {
+    const char *name, *unit, *long_name;
+    hid_t file_type, memory_type;
+    const void *values;         /* NULL: they are written later */
+    size_t start, stride;       /* value i is values[start + i * stride]; stride 0 is 1 */
+    hsize_t chunk;              /* 0: as its size says; else its last dimension grows, and it is
+                                   kept in chunks of so many values of a row */
+    int in_rows;                /* 1: it is written row by row, and each has chunks of its own */
+} h5_dataset;
+
+/* The writers of all groups share the clock of the file and room for a piece of values. */
+typedef struct h5_pieces {
+    h5_file *file;
+    double rate, start;
+    int growing;                /* lengths are known only at the end */
+    double value[2][H5_PIECE];  /* re and im, or others */
+    float single[H5_PIECE];
+    unsigned char edge[H5_PIECE];
+} h5_pieces;
+
+/* A call of HDF5 fails for lack of memory, or for a name or size that it cannot store; disk.c hides a
+ * full disk from it. */
+ss_status ss_h5_fail_write(h5_file *file, hid_t group, const char *name);
+
+/* Attributes of an object, and a new group; 0 or < 0 if HDF5 fails. */
+int ss_h5_write_number(hid_t object, const char *name, hid_t file_type, double value);
+int ss_h5_write_text(hid_t object, const char *name, const char *value);
+hid_t ss_h5_new_group(hid_t parent, const char *name);
+/* The clock of a signal as attributes of its group. */
+int ss_h5_write_clock(hid_t group, const ss_header *head);
+
+/* Make one dataset on the given dimension scales (NULL: it is a scale itself; { NULL }: on none), and
+ * write its values if it has any; < 0 if HDF5 fails. */
+hid_t ss_h5_new_dataset(hid_t group, const h5_dataset *v, int rank, const hsize_t dims[],
+                        const char *const scales[]);
+/* Write n lists of one length; the first is the scale of the others. */
+ss_status ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n,
+                            size_t length);
+/* n values of a row, from its at-th on; at[0] is the row, if there are several.  A dataset that is too
+ * short grows. */
+int ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type,
+                      const void *values);
+
+/* The number of values of a row in one chunk, a power of two, for rows that grow together; bytes: the
+ * size of a column of all rows. */
+hsize_t ss_h5_growing_chunk(size_t bytes);
+/* Times first ..., first + n - 1 of a scale, or of the samples for NULL. */
+int ss_h5_write_times(h5_pieces *pieces, hid_t id, const ss_scale *scale, size_t first, size_t n);
+
+#endif

@@ -1,0 +1,150 @@
+/* kept.c -- rows that are put away in a file without a name, if they are more than a piece, and are read
+ * again from there. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+#include "base/error.h"
+#include "base/list.h"
+#include "io/kept.h"
+
+enum { PIECE = 1 << 18 };               /* so many numbers are in memory, or one row */
+
+static ss_status
+fail_file(const struct kept *k, ss_error *err)
+{
+    char name[300];
+    snprintf(name, sizeof name, "%.200s: a temporary file for its rows", k->name);
+    return ss_fail_errno(err, name, errno);
+}
+
+/* Open a file without a name, which nobody else sees and which ends with the process. */
+static FILE *
+open_nameless(const char *first)
+{
+    const char *folder[] = { first, "/var/tmp", "/tmp" };
+    char name[512];
+    for (size_t i = 0; i < sizeof folder / sizeof *folder; i++) {
+        int fits = folder[i] != NULL && folder[i][0] != '\0'
+            && snprintf(name, sizeof name, "%s/stickslip.XXXXXX", folder[i]) < (int)sizeof name;
+        int fd = fits ? mkstemp(name) : -1;
+        if (fd < 0)
+            continue;
+        unlink(name);
+        FILE *file = fdopen(fd, "w+");
+        if (file == NULL)
+            close(fd);
+        return file;
+    }
+    return NULL;
+}
+
+static size_t
+rows_in_piece(const struct kept *k)
+{
+    return k->width < PIECE ? PIECE / k->width : 1;
+}
+
+void
+ss_kept_begin(struct kept *k, const char *name, const char *folder, size_t width)
+{
+    k->name = name;
+    k->folder = folder;
+    k->width = width;
+    k->n = k->held = 0;
+    k->is_away = 0;
+    if (k->file != NULL)
+        rewind(k->file);
+}
+
+/* Write the block to the file, and empty it. */
+static ss_status
+write_block(struct kept *k, ss_error *err)
+{
+    if (k->file == NULL && (k->file = open_nameless(k->folder)) == NULL)
+        return fail_file(k, err);
+    if (fwrite(k->block, k->width * sizeof *k->block, k->held, k->file) != k->held)
+        return fail_file(k, err);
+    k->is_away = 1;
+    k->held = 0;
+    return SS_OK;
+}
+
+ss_status
+ss_kept_new(struct kept *k, double **row, ss_error *err)
+{
+    ss_status st = k->held == rows_in_piece(k) ? write_block(k, err) : SS_OK;
+    if (st != SS_OK)
+        return st;
+    double *more = ss_list_grow(k->block, &k->room, (k->held + 1) * k->width, sizeof *more);
+    if (more == NULL)
+        return ss_fail_memory(err, k->name);
+    k->block = more;
+    *row = more + k->held * k->width;
+    return SS_OK;
+}
+
+ss_status
+ss_kept_end(struct kept *k, ss_error *err)
+{
+    ss_status st = k->is_away ? write_block(k, err) : SS_OK;
+    if (st == SS_OK && k->is_away && fflush(k->file) != 0)
+        return fail_file(k, err);
+    return st;
+}
+
+ss_status
+ss_kept_rewind(struct kept *k, ss_error *err)
+{
+    k->at = 0;
+    k->given = 0;
+    if (!k->is_away)
+        return SS_OK;
+    k->held = 0;
+    return fseeko(k->file, 0, SEEK_SET) == 0 ? SS_OK : fail_file(k, err);
+}
+
+/* Read the next piece of the file into the block. */
+static ss_status
+fetch(struct kept *k, ss_error *err)
+{
+    uint64_t left = k->n - k->given, piece = rows_in_piece(k);
+    size_t n = (size_t)(left < piece ? left : piece);
+    k->at = 0;
+    k->held = n;
+    return fread(k->block, k->width * sizeof *k->block, n, k->file) == n ? SS_OK : fail_file(k, err);
+}
+
+ss_status
+ss_kept_next(struct kept *k, const double **row, ss_error *err)
+{
+    *row = NULL;
+    if (k->given == k->n)
+        return SS_OK;
+    ss_status st = k->at == k->held ? fetch(k, err) : SS_OK;
+    if (st != SS_OK)
+        return st;
+    *row = k->block + k->at++ * k->width;
+    k->given++;
+    return SS_OK;
+}
+
+ss_status
+ss_kept_copy(struct kept *k, uint64_t first, size_t n, double *to, ss_error *err)
+{
+    size_t bytes = k->width * sizeof *to;
+    if (!k->is_away)
+        memcpy(to, k->block + first * k->width, n * bytes);
+    else if (fseeko(k->file, (off_t)(first * bytes), SEEK_SET) != 0 || fread(to, bytes, n, k->file) != n)
+        return fail_file(k, err);
+    return SS_OK;
+}
+
+void
+ss_kept_free(struct kept *k)
+{
+    if (k->file != NULL)
+        fclose(k->file);
+    free(k->block);
+}

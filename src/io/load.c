@@ -1,0 +1,193 @@
+/* load.c -- open a file that holds any kind of signal or the measured base of a scene. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <stickslip/load.h>
+#include <stickslip/store.h>
+#include "base/error.h"
+#include "scene/model.h"
+#include "io/reader.h"
+
+static void
+close_file(ss_reader *reader)
+{
+    fclose(reader->source);
+}
+
+static ss_status
+open_stream(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err)
+{
+    struct stat st;
+    FILE *in = fopen(path, "rb");
+    if (in == NULL)
+        return ss_fail_errno(err, path, errno);
+    ss_status status = fstat(fileno(in), &st) == 0 && S_ISDIR(st.st_mode)
+                       ? ss_fail_errno(err, path, EISDIR)
+                       : ss_reader_new(out, in, path, opts, err);
+    if (status != SS_OK) {
+        fclose(in);
+        return status;
+    }
+    (*out)->source = in;
+    (*out)->close = close_file;
+    return SS_OK;
+}
+
+ss_status
+ss_reader_load(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err)
+{
+    struct stat st;
+    if (out == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
+    if (ss_store_is_hdf5(path))
+        return ss_store_signal_reader(out, path, NULL, opts, err);
+    const char *colon = strstr(path, ":/");
+    if (colon == NULL || stat(path, &st) == 0)
+        return open_stream(out, path, opts, err);
+    char *file = strndup(path, (size_t)(colon - path));
+    if (file == NULL)
+        return ss_fail_memory(err, path);
+    ss_status status = ss_store_is_hdf5(file)
+                       ? ss_store_signal_reader(out, file, colon + 1, opts, err)
+                       : stat(file, &st) != 0
+                       ? ss_fail_errno(err, file, errno)
+                       : ss_fail(err, SS_EDATA, "%s: not an HDF5 file, so '%s' is not in it", file,
+                                 colon + 1);
+    free(file);
+    return status;
+}
+
+ss_status
+ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err)
+{
+    ss_reader *reader;
+    if (out == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status status = ss_reader_load(&reader, path, opts, err);
+    if (status != SS_OK)
+        return status;
+    status = ss_reader_all(out, reader, err);
+    ss_reader_free(reader);
+    return status;
+}
+
+/* --- a measured base ------------------------------------------------------------------------ */
+
+/* POSIX's cksum: the CRC of the bytes and of their number, whose lowest byte comes first. */
+static unsigned long
+crc_further(unsigned long crc, unsigned long byte)
+{
+    crc ^= byte << 24;
+    for (int i = 0; i < 8; i++)
+        crc = (crc << 1 ^ (crc & 0x80000000 ? 0x04c11db7 : 0)) & 0xffffffff;
+    return crc;
+}
+
+/* The file of a path, which may go on behind the file's name with ":/" and a place; to be freed. */
+static char *
+file_of(const char *path)
+{
+    struct stat st;
+    const char *colon = stat(path, &st) == 0 ? NULL : strstr(path, ":/");
+    return strndup(path, colon != NULL ? (size_t)(colon - path) : strlen(path));
+}
+
+/* Refuse what is not read to its end, or only once: a pipe, a device. */
+static ss_status
+check_regular(const char *path, ss_error *err)
+{
+    struct stat st;
+    char *file = file_of(path);
+    if (file == NULL)
+        return ss_fail_memory(err, path);
+    int regular = stat(file, &st) != 0 || S_ISREG(st.st_mode) || S_ISDIR(st.st_mode);   /* these fail when opened */
+    free(file);
+    return regular ? SS_OK : ss_fail(err, SS_EDATA, "%s: not a regular file, which the motion of a base must be", path);
+}
+
+/* Write the checksum of a file to text. */
+static ss_status
+sum_file(char text[48], const char *path, ss_error *err)
+{
+    char *file = file_of(path);
+    if (file == NULL)
+        return ss_fail_memory(err, path);
+    FILE *in = fopen(file, "rb");
+    int why = errno;
+    free(file);
+    if (in == NULL)
+        return ss_fail_errno(err, path, why);
+    unsigned long crc = 0;
+    unsigned long long size = 0;
+    for (int c; (c = getc(in)) != EOF; size++)
+        crc = crc_further(crc, (unsigned long)c);
+    why = ferror(in) ? errno : 0;
+    fclose(in);
+    for (unsigned long long n = size; n > 0; n >>= 8)
+        crc = crc_further(crc, (unsigned long)(n & 0xff));
+    snprintf(text, 48, "%lu %llu", ~crc & 0xffffffff, size);
+    return why == 0 ? SS_OK : ss_fail_errno(err, path, why);
+}
+
+/* The column of the base in a file with this header, or -1. */
+static int
+base_column(const ss_header *head, const char *name)
+{
+    if (name != NULL && *name != '\0')
+        return ss_header_column(head, name);
+    return head->n_columns == 1 ? 0 : ss_header_column(head, "z");
+}
+
+ss_status
+ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err)
+{
+    static const ss_read_opts opts = { 0 };
+    ss_signal *signal = NULL;
+    ss_base *b = NULL;
+    ss_error why = { 0 };
+    if (base == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = check_regular(path, err);
+    if (st == SS_OK)
+        st = ss_signal_load(&signal, path, &opts, err);
+    if (st != SS_OK)
+        return st;
+    int c = base_column(signal->head, column);
+    if (c < 0)
+        st = ss_fail(err, SS_EDATA, "%s: no column '%s'", path,
+                     column != NULL && *column != '\0' ? column : "z");
+    else if ((st = ss_base_new(&b, signal, (size_t)c, &why)) != SS_OK)
+        ss_fail(err, st, "%s: %s", path, why.text);
+    ss_signal_free(signal);
+    if (st == SS_OK)
+        st = sum_file(b->cksum, path, err);
+    if (st == SS_OK)
+        *base = b;
+    else
+        ss_base_free(b);
+    return st;
+}
+
+ss_status
+ss_scene_load_base(ss_base **base, ss_scene *scene, const char *scene_path, ss_error *err)
+{
+    if (base == NULL || scene == NULL || scene_path == NULL)
+        return SS_FAIL_NULL(err);
+    const char *slash = strrchr(scene_path, '/');
+    size_t folder = slash != NULL ? (size_t)(slash - scene_path) + 1 : 0;
+    *base = NULL;
+    if (*scene->base_file == '\0')
+        return SS_OK;
+    char *path = malloc(folder + sizeof scene->base_file);
+    if (path == NULL)
+        return ss_fail_memory(err, scene->base_file);
+    memcpy(path, scene_path, folder);
+    strcpy(path + folder, scene->base_file);
+    ss_status st = ss_base_load(base, path, scene->base_column, err);
+    free(path);
+    if (st == SS_OK)
+        scene->base = *base;
+    return st;
+}

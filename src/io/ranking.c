@@ -1,0 +1,209 @@
+/* ranking.c -- write a ranking of scenes as text. */
+#include <stickslip/rank.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include "io/output.h"
+#include "io/rows.h"
+
+enum { DIGITS = 4 };            /* more than a criterion deserves */
+
+/* --- notes --------------------------------------------------------------------------------- */
+
+/* Write a part of the signal's power in per cent, so that the rest has two digits: 99.98. */
+static void
+write_explained(FILE *out, double part)
+{
+    char text[SS_NUMBER_MAX];
+    double left = fmax(1 - part, 1e-9);
+    int decimals = (int)fmax(ceil(-log10(left)) - 2, 0) + 1;
+    fprintf(out, "%s %%", ss_number_fixed(text, 100 * (1 - left), decimals));
+}
+
+static int
+is_compared(const ss_ranking *r)
+{
+    return !isnan(r->row[0].total);
+}
+
+/* The first row if the verdict names its scene, else the row that explains most. */
+static const ss_rank_row *
+find_best(const ss_ranking *r)
+{
+    const ss_rank_row *best = &r->row[0];
+    for (size_t i = 1; i < r->n; i++)
+        if (r->verdict != SS_NAMED && r->row[i].explained > best->explained)
+            best = &r->row[i];
+    return best;
+}
+
+static void
+write_answer(FILE *out, const ss_ranking *r, const char *const *scene)
+{
+    const ss_rank_row *best = find_best(r);
+    if (r->verdict == SS_NAMED)
+        fprintf(out, "# answer: %s explains ", scene[best->scene]);
+    else
+        fprintf(out, "# answer: %s: %s", r->verdict == SS_NONE_FITS ? "none of these" : "cannot tell",
+                r->why);
+    if (r->verdict != SS_NAMED && is_compared(r))
+        fprintf(out, "; %s explains most, ", scene[best->scene]);
+    if (is_compared(r))
+        write_explained(out, best->explained);
+    fputs(r->verdict == SS_NAMED ? " of the signal's power\n" : "\n", out);
+}
+
+/* Write "# key: name number, name number" for the criteria first ... last - 1. */
+static void
+write_criteria(FILE *out, const char *key, int first, int last, const ss_ranking *values)
+{
+    char text[SS_NUMBER_MAX];
+    fprintf(out, "# %s:", key);
+    for (int i = first; i < last; i++) {
+        double x = values != NULL ? values->value[i] : ss_criterion_rules[i].threshold;
+        fprintf(out, "%s %s %s", i > first ? "," : "", ss_criterion_rules[i].name,
+                ss_number_rounded(text, x, DIGITS));
+    }
+    fputc('\n', out);
+}
+
+static void
+write_notes(FILE *out, const ss_ranking *r, const ss_ranking_text *about, const ss_rank_opts *opts)
+{
+    char text[SS_NUMBER_MAX];
+    fprintf(out, "# signal_name: %s\n", about->signal);
+    fprintf(out, "# spread: %s\n", ss_number_rounded(text, 100 * opts->spread, DIGITS));
+    fprintf(out, "# column: %s\n", about->column);
+    fprintf(out, "# quantity: %s (%s)\n", ss_quantity_names[opts->quantity], about->known_by);
+    fprintf(out, "# forcing_frequency: %s\n", ss_number_rounded(text, r->forcing_frequency, DIGITS));
+    write_criteria(out, "thresholds", 0, SS_CRITERIA, NULL);
+    write_criteria(out, "signal", SS_BY_MAXIMUM, SS_BY_MAP, r);
+    fprintf(out, "# noise: %s %% of the power, at most\n",
+            ss_number_rounded(text, 100 * r->noise, DIGITS));
+}
+
+static void
+write_unfit(FILE *out, const ss_ranking *r, const ss_ranking_text *about)
+{
+    for (size_t i = 0; i < r->n && is_compared(r); i++)
+        if (isnan(r->row[i].total))
+            fprintf(out, "# does not fit: %s, which is %s\n", about->scene[r->row[i].scene],
+                    ss_scene_is_pulled(&r->row[i].adjusted) ? "pulled" : "forced");
+}
+
+/* Write the orders of the scenes that other thresholds, 20 % lower or higher, give. */
+static void
+write_orders(FILE *out, const ss_ranking *r, const char *const *scene, size_t *order)
+{
+    static const double factor[] = { 0.8, 1.2 };
+    char text[SS_NUMBER_MAX];
+    int changes = 0;
+    for (int i = 0; i < SS_CRITERIA; i++)
+        for (size_t k = 0; k < 2; k++) {
+            if (!ss_ranking_order(r, (ss_criterion)i, factor[k], order))
+                continue;
+            changes++;
+            fprintf(out, "# order with %s x %s:", ss_criterion_rules[i].name,
+                    ss_number_rounded(text, factor[k], 2));
+            for (size_t j = 0; j < r->n; j++)
+                fprintf(out, " %s", scene[r->row[order[j]].scene]);
+            fputc('\n', out);
+        }
+    if (changes == 0)
+        fputs("# order: the same with any threshold 20 % lower or higher\n", out);
+}
+
+/* --- rows ---------------------------------------------------------------------------------- */
+
+static void
+write_columns(struct rows *rows, int brief)
+{
+    static const char *const label[][2] = { { "rank", "" }, { "scene", "" }, { "total", "" },
+                                            { "residual", "dB" }, { "worst", "" } };
+    char score[64];
+    if (brief) {
+        ss_rows_columns(rows, label, 5);
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        ss_rows_column(rows, label[i][0], "");
+    for (int i = 0; i < SS_CRITERIA; i++) {
+        const ss_criterion_rule *rule = &ss_criterion_rules[i];
+        ss_rows_column(rows, rule->name, rule->unit);
+        snprintf(score, sizeof score, "%s_score", rule->name);
+        ss_rows_column(rows, score, "");
+    }
+    ss_rows_end(rows);
+}
+
+/* The criterion of the largest score above 0, or a hyphen. */
+static const char *
+worst_of(const ss_rank_row *row)
+{
+    const char *name = "-";
+    double most = 0;
+    for (int k = 0; k < SS_CRITERIA; k++) {
+        double score = ss_rank_score(row, (ss_criterion)k, 1);
+        if (score > most) {
+            most = score;
+            name = ss_criterion_rules[k].name;
+        }
+    }
+    return name;
+}
+
+static void
+write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *scene, int brief)
+{
+    const ss_rank_row *row = &r->row[i];
+    int compared = !isnan(row->total);
+    if (r->verdict == SS_NAMED && compared)
+        ss_rows_count(rows, i + 1);
+    else
+        ss_rows_number(rows, NAN);
+    ss_rows_word(rows, scene[row->scene]);
+    ss_rows_rounded(rows, compared ? row->total : NAN, DIGITS);
+    if (brief) {
+        ss_rows_rounded(rows, compared ? row->value[SS_BY_RESIDUAL] : NAN, DIGITS);
+        ss_rows_word(rows, compared ? worst_of(row) : "-");
+    }
+    for (int k = 0; k < SS_CRITERIA && !brief; k++) {
+        ss_rows_rounded(rows, compared ? row->value[k] : NAN, DIGITS);
+        ss_rows_rounded(rows, compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN, DIGITS);
+    }
+    ss_rows_end(rows);
+}
+
+ss_status
+ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const ss_rank_opts *opts,
+                 FILE *out, ss_format format)
+{
+    struct rows rows;
+    if (opts == NULL)
+        opts = &ss_rank_defaults;
+    if (ranking == NULL || ranking->n == 0 || about == NULL || about->signal == NULL
+        || about->column == NULL || about->known_by == NULL || about->scene == NULL
+        || (unsigned)opts->quantity >= SS_QUANTITIES || out == NULL)
+        return SS_EINVAL;
+    size_t *order = calloc(ranking->n, sizeof *order);
+    if (order == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING);
+    if (st == SS_OK) {
+        int notes = rows.format->has_notes, all = notes && !about->brief;
+        if (notes)
+            write_answer(out, ranking, about->scene);
+        if (all)
+            write_notes(out, ranking, about, opts);
+        if (notes)
+            write_unfit(out, ranking, about);
+        if (all && is_compared(ranking))
+            write_orders(out, ranking, about->scene, order);
+        write_columns(&rows, about->brief);
+        for (size_t i = 0; i < ranking->n; i++)
+            write_row(&rows, ranking, i, about->scene, about->brief);
+        st = ss_output_flush(out);
+    }
+    free(order);
+    return st;
+}

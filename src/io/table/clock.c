@@ -1,0 +1,371 @@
+/* clock.c -- find the uniform clock of a column of time stamps.
+ *
+ * Stamps are rounded when they are printed, so the rate is known only as well as their residuals
+ * from a straight line allow.  Of all rates within these, the one with the fewest digits is
+ * chosen: stamps of 1/1024 s in 7 digits give 1024 Hz, not 1023.9999998. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/list.h"
+#include "signal/header.h"
+#include "io/table/clock.h"
+
+#define TOLERANCE 0.1           /* a stamp may be off by so many sample periods */
+#define BY_DIGITS 0.25          /* or by so many if it has no more digits: a missing row is farther off */
+enum { DIGIT = 16 };            /* so many bits of a step are found at a time */
+
+/* --- the straight line through stamps, by least squares ------------------------------------- */
+
+/* 1 if b is no corner of the convex hull between a and c, on the side with this sign. */
+static int
+is_within(struct clock_point a, struct clock_point b, struct clock_point c, double sign)
+{
+    return sign * ((b.sample - a.sample) * (c.stamp - a.stamp)
+                   - (b.stamp - a.stamp) * (c.sample - a.sample)) <= 0;
+}
+
+/* Add a point to one side of the convex hull; 0: no memory.  The point farthest from a line is one of its
+ * corners, of which there are few. */
+static int
+add_corner(struct clock_side *s, struct clock_point p, double sign)
+{
+    while (s->n > 1 && is_within(s->corner[s->n - 2], s->corner[s->n - 1], p, sign))
+        s->n--;
+    struct clock_point *more = ss_list_room(s->corner, &s->room, s->n, sizeof *more);
+    if (more == NULL)
+        return 0;
+    s->corner = more;
+    s->corner[s->n++] = p;
+    return 1;
+}
+
+int
+ss_clock_add(clock_fit *f, double sample, double stamp)
+{
+    f->last = (struct clock_point){ sample, stamp };
+    if (f->n++ == 0)
+        f->first = f->last;
+    double t = stamp - f->first.stamp, off = sample - f->mean.sample;
+    f->mean.sample += off / (double)f->n;
+    f->mean.stamp += (t - f->mean.stamp) / (double)f->n;
+    f->product += off * (t - f->mean.stamp);
+    f->square += off * (sample - f->mean.sample);
+    return add_corner(&f->side[0], f->last, 1) && add_corner(&f->side[1], f->last, -1);
+}
+
+void
+ss_clock_free(clock_fit *f)
+{
+    free(f->side[0].corner);
+    free(f->side[1].corner);
+}
+
+struct line {
+    double period, at_0;
+};
+
+static struct line
+line_of(const clock_fit *f)
+{
+    double period = f->product / f->square;
+    return (struct line){ period, f->first.stamp + (f->mean.stamp - period * f->mean.sample) };
+}
+
+static double
+distance(struct line l, struct clock_point p)
+{
+    return fabs(p.stamp - l.at_0 - l.period * p.sample);
+}
+
+static double
+largest_distance(const clock_fit *f, struct line l)
+{
+    double most = 0;
+    for (int s = 0; s < 2; s++)
+        for (size_t i = 0; i < f->side[s].n; i++) {
+            double off = distance(l, f->side[s].corner[i]);
+            most = off <= most ? most : off;    /* NaN stays */
+        }
+    return most;
+}
+
+/* --- stamps that are read several times ----------------------------------------------------- */
+
+struct pass {
+    const struct stamps *of;
+    double stamp, before;       /* before: the previous stamp */
+    unsigned long line;
+    size_t n;                   /* stamps so far */
+    ss_status status;
+    ss_error *err;
+};
+
+static struct pass
+start(const struct stamps *s, ss_error *err)
+{
+    return (struct pass){ .of = s, .status = s->rewind(s->source, err), .err = err };
+}
+
+/* Go to the next stamp.  Returns 0 if there is none, or it cannot be read. */
+static int
+step(struct pass *p)
+{
+    int there = 0;
+    p->before = p->stamp;
+    if (p->status == SS_OK)
+        p->status = p->of->next(p->of->source, &there, &p->stamp, &p->line, p->err);
+    p->n += (size_t)there;
+    return p->status == SS_OK && there;
+}
+
+static ss_status
+check_stamps(const struct stamps *s, size_t *n, ss_error *err)
+{
+    double first = 0;
+    struct pass p = start(s, err);
+    while (step(&p))
+        if (p.n == 1)
+            first = p.stamp;
+        else if (!(p.stamp > p.before))
+            return ss_fail(err, SS_ECLOCK, "%s:%lu: time stamps do not ascend: %s", s->file, p.line,
+                           p.stamp < p.before ? "this one is before that of the row above"
+                           : "this one is that of the row above");
+    *n = p.n;
+    if (p.status != SS_OK)
+        return p.status;
+    if (p.n < 2)
+        return ss_fail(err, SS_ECLOCK, "%s: one row has no sample rate", s->file);
+    if (!isfinite(p.stamp - first))
+        return ss_fail(err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", s->file, first,
+                       p.stamp);
+    return SS_OK;
+}
+
+/* The bits of a double >= 0 as an integer: integers made in this way are in the order of the doubles. */
+static uint64_t
+bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* Find the next DIGIT bits of a step whose highest bits are *known and whose rank among the steps with
+ * these highest bits is *rank.  *known gains the new bits; *rank becomes the rank among the steps that
+ * have these, too. */
+static ss_status
+next_digit(const struct stamps *s, size_t *count, int below, uint64_t *known, size_t *rank, ss_error *err)
+{
+    memset(count, 0, ((size_t)1 << DIGIT) * sizeof *count);
+    struct pass p = start(s, err);
+    while (step(&p)) {
+        uint64_t bits = bits_of(p.stamp - p.before) >> below;
+        if (p.n > 1 && bits >> DIGIT == *known)
+            count[bits & ((1 << DIGIT) - 1)]++;
+    }
+    uint64_t digit = 0;
+    for (; digit < (1 << DIGIT) - 1 && *rank >= count[digit]; digit++)
+        *rank -= count[digit];
+    *known = *known << DIGIT | digit;
+    return p.status;
+}
+
+ss_status
+ss_usual_step(const struct stamps *s, double *usual, ss_error *err)
+{
+    size_t n, *count;
+    uint64_t known = 0;
+    ss_status st = check_stamps(s, &n, err);
+    if (st != SS_OK)
+        return st;
+    if ((count = malloc(((size_t)1 << DIGIT) * sizeof *count)) == NULL)
+        return ss_fail_memory(err, s->file);
+    size_t rank = (n - 2) / 2;                  /* the lower median, since gaps lengthen steps */
+    for (int below = 64 - DIGIT; st == SS_OK && below >= 0; below -= DIGIT)
+        st = next_digit(s, count, below, &known, &rank, err);
+    memcpy(usual, &known, sizeof *usual);
+    free(count);
+    return st;
+}
+
+size_t
+ss_clock_sample(struct sample_count *c, double stamp)
+{
+    size_t sample = c->next;
+    if (c->usual > 0 && sample > 0) {
+        double steps = rint((stamp - c->last) / c->usual), room = (double)(SIZE_MAX / 2 - (sample - 1));
+        sample += steps < 1 ? 0 : steps < room ? (size_t)steps - 1 : ((size_t)1 << 62) - 1;
+    }
+    c->last = stamp;
+    c->next = sample + 1;
+    return sample;
+}
+
+/* A stamp that is off by `by`. */
+struct off {
+    double by, stamp, before;
+    unsigned long line;
+};
+
+/* Find the stamp that is farthest from the line; of several that differ only by rounding, the first. */
+static ss_status
+farthest_from(struct line l, const struct stamps *s, double usual, struct off *worst, ss_error *err)
+{
+    struct sample_count count = { .usual = usual };
+    double most = 0;
+    *worst = (struct off){ .by = NAN };
+    struct pass p = start(s, err);
+    while (step(&p)) {
+        double off = distance(l, (struct clock_point){ (double)ss_clock_sample(&count, p.stamp), p.stamp });
+        if (p.n > 1 && off <= most * (1 + 1e-9))
+            continue;
+        most = off;
+        *worst = (struct off){ off, p.stamp, p.before, p.line };
+    }
+    return p.status;
+}
+
+/* Find the stamp whose step from the one before differs most from the usual step. */
+static ss_status
+farthest_step(const struct stamps *s, double usual, struct off *worst, ss_error *err)
+{
+    struct pass p = start(s, err);
+    *worst = (struct off){ .by = 0 };
+    while (step(&p))
+        if (p.n > 1 && fabs(p.stamp - p.before - usual) > worst->by)
+            *worst = (struct off){ fabs(p.stamp - p.before - usual), p.stamp, p.before, p.line };
+    return p.status;
+}
+
+/* The error names the row at fault: the one whose step from the row before differs most from the usual
+ * step or, if all steps are within the tolerance, the one farthest from the best clock. */
+static ss_status
+refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
+{
+    struct off worst, from_line;
+    ss_status st = farthest_from(l, s, usual, &from_line, err);
+    if (st == SS_OK && usual > 0 && l.period > 0)
+        return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform, with gaps counted too: "
+                       "this one is off by %.3g sample periods, %.1f is allowed", s->file, from_line.line,
+                       from_line.by / l.period, TOLERANCE);
+    if (st == SS_OK)
+        st = ss_usual_step(s, &usual, err);
+    if (st == SS_OK)
+        st = farthest_step(s, usual, &worst, err);
+    if (st != SS_OK)
+        return st;
+    if (worst.by <= TOLERANCE * usual)
+        worst = from_line;
+    double off = worst.by / usual, missing = rint(off);
+    if (missing > 0 && worst.stamp - worst.before > usual && fabs(off - missing) <= 2 * TOLERANCE)
+        return ss_fail(err, SS_EGAPS, "%s:%lu: %.0f sample%s missing before this time stamp", s->file,
+                       worst.line, missing, missing > 1 ? "s are" : " is");
+    return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform: this one is off by %.3g "
+                   "sample periods, %.1f is allowed", s->file, worst.line, off, TOLERANCE);
+}
+
+/* The decimal number with the fewest digits in [lo, hi]; *digits becomes their number. */
+static double
+roundest(double lo, double hi, int *digits)
+{
+    double middle = lo + (hi - lo) / 2;
+    int top = (int)floor(log10(middle));
+    for (*digits = 1; *digits < 17; ++*digits) {
+        char text[64];
+        int exponent = top - *digits + 1;
+        snprintf(text, sizeof text, "%.0fe%d", rint(middle * pow(10, -exponent)), exponent);
+        double x = ss_number_parse(text, NULL);
+        if (x >= lo && x <= hi)
+            return x;
+    }
+    return middle;
+}
+
+int
+ss_clock_digits(double x)
+{
+    int digits;
+    roundest(x * (1 - 1e-9), x * (1 + 1e-9), &digits);
+    return digits;
+}
+
+static int
+is_uniform(const clock_fit *f, struct line l, double deviation)
+{
+    return l.period > 0 && deviation <= fmax(TOLERANCE * l.period, fmin(f->digit, BY_DIGITS * l.period));
+}
+
+ss_status
+ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
+{
+    if (f->n < 2)
+        return SS_EUNEVEN;
+    struct line l = line_of(f);
+    double deviation = largest_distance(f, l);
+    if (!is_uniform(f, l, deviation))
+        return SS_EUNEVEN;
+
+    /* each stamp is off by at most the deviation, so the period over all of them by at most twice that */
+    double rounding = 2 * DBL_EPSILON * fmax(fabs(f->taken + f->first.stamp), fabs(f->taken + f->last.stamp));
+    double slack = 2 * (deviation + rounding) / f->last.sample + 4 * DBL_EPSILON * l.period;
+    int rate_digits, period_digits;
+    ss_status st = ss_refuse_range(file, 1 / (l.period - slack), f->first.stamp, err);
+    if (st != SS_OK)
+        return st;
+    double by_rate = roundest(1 / (l.period + slack), 1 / (l.period - slack), &rate_digits);
+    double by_period = roundest(l.period - slack, l.period + slack, &period_digits);
+    *rate = rate_digits <= period_digits ? by_rate : 1 / by_period;
+    return SS_OK;
+}
+
+ss_status
+ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate, ss_error *err)
+{
+    size_t n;
+    struct sample_count count = { .usual = usual };
+    ss_status st = check_stamps(s, &n, err);
+    if (st != SS_OK)
+        return st;
+    struct pass p = start(s, err);
+    while (step(&p))
+        if (!ss_clock_add(fit, (double)ss_clock_sample(&count, p.stamp), p.stamp))
+            return ss_fail_memory(err, s->file);
+    if (p.status == SS_OK)
+        st = ss_clock_rate(fit, s->file, rate, err);
+    else
+        st = p.status;
+    double period = line_of(fit).period;
+    if (st == SS_EUNEVEN && period > 0 && fit->digit > 2 * BY_DIGITS * period)
+        return ss_fail(err, st, "%s: time stamps have too few digits: 1 in the last of them is %.2g sample periods, "
+                       "%.1f is allowed", s->file, fit->digit / period, 2 * BY_DIGITS);
+    return st == SS_EUNEVEN ? refuse(s, usual, line_of(fit), err) : st;
+}
+
+int
+ss_is_on_clock(double stamp, double rate, double start, uint64_t row)
+{
+    double expected = start + (double)row / rate;
+    return fabs(stamp - expected) <= 1e-6 / rate + 1e-15 * fabs(expected);
+}
+
+ss_status
+ss_refuse_table(const char *name, const ss_read_opts *opts, ss_error *err)
+{
+    return opts->table == 0 ? SS_OK
+        : ss_fail(err, SS_EDATA, "%s: not delimited text: no table can be chosen", name);
+}
+
+ss_status
+ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err)
+{
+    char rate[SS_NUMBER_MAX];
+    ss_number_format(rate, own);
+    if (opts->time != NULL || (opts->rate > 0 && (opts->rate < own || opts->rate > own)))
+        return ss_fail(err, SS_EDATA, "%s: has a clock of its own, %s Hz: no column of time or rate "
+                       "can be chosen", name, rate);
+    if (opts->time_unit != NULL)
+        return ss_fail(err, SS_EDATA, "%s: has a clock in seconds: no unit of time can be chosen", name);
+    return ss_refuse_table(name, opts, err);
+}

@@ -1,0 +1,154 @@
+/* delimited_cells.c -- divide lines of a text table into cells, and read the numbers in cells. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include "base/error.h"
+#include "base/number.h"
+#include "base/list.h"
+#include "io/table/delimited.h"
+#include "io/table/stamp.h"
+
+ss_status
+ss_delimited_no_memory(const struct table *t, ss_error *err)
+{
+    return ss_fail(err, SS_ENOMEM, "%s:%lu: no memory for a table this large", t->in->name,
+                   t->in->line);
+}
+
+void
+ss_delimited_warn(const struct table *t, ss_status about, const char *format, ...)
+{
+    ss_error text;
+    va_list args;
+    if (t->opts->warn == NULL)
+        return;
+    va_start(args, format);
+    ss_print_text(text.text, sizeof text.text, format, args);
+    va_end(args);
+    t->opts->warn(about, text.text, t->opts->user);
+}
+
+char *
+ss_cell_trim(char *p)
+{
+    p += strspn(p, " \t");
+    size_t n = strlen(p);
+    while (n > 0 && (p[n - 1] == ' ' || p[n - 1] == '\t'))
+        n--;
+    p[n] = '\0';
+    return p;
+}
+
+/* Remove the quotes of a cell, in place; returns the text after it. */
+static char *
+unquote(char *p)
+{
+    char *to = p;
+    for (char *from = p + 1; *from != '\0'; *to++ = *from++)
+        if (*from == '"') {
+            if (from[1] != '"') {
+                *to = '\0';
+                return from + 1;
+            }
+            from++;
+        }
+    *to = '\0';
+    return to;
+}
+
+size_t
+ss_delimited_split(struct table *t, char *p, char separator)
+{
+    size_t n = 0;
+    for (int more = 1; more; ) {
+        char **cell = ss_list_room(t->cell, &t->cell_room, n, sizeof *cell);
+        if (cell == NULL)
+            return NONE;
+        t->cell = cell;
+        p += separator == '\t' ? strspn(p, " ") : strspn(p, " \t");
+        char *begin = p, *rest = *p == '"' ? unquote(p) : p;
+        char *end = rest + (separator == ' ' ? strcspn(rest, " \t") : separator == '\0' ? strlen(rest)
+                            : strcspn(rest, (char[]){ separator, '\0' }));
+        more = *end != '\0';
+        *end = '\0';
+        if (rest > begin)                       /* what stands behind quotes belongs to the cell */
+            memmove(begin + strlen(begin), rest, strlen(rest) + 1);
+        t->cell[n++] = ss_cell_trim(begin);
+        p = end + more;
+    }
+    while (n > 1 && n != t->n_columns && t->cell[n - 1][0] == '\0')
+        n--;
+    return n;
+}
+
+int
+ss_delimited_may_lack(const struct table *t)
+{
+    return t->opts->gaps != SS_GAPS_REFUSE || t->opts->n_needed > 0;
+}
+
+/* 1 if the cell is a word that recorders write in place of a missing number. */
+static int
+is_no_number(const char *cell)
+{
+    static const char *const word[] = { "nan", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "1.#inf", "inf", "infinity",
+        "na", "n/a", "#n/a", "#nv", "null", "none", "ovr", "ovl", "ol", "ovld", "overload", "overrange", "overflow",
+        "\u221e", NULL };
+    cell += *cell == '-' || *cell == '+';
+    for (int i = 0; word[i] != NULL; i++)
+        if (strcasecmp(cell, word[i]) == 0)
+            return 1;
+    return 0;
+}
+
+/* Reads as ss_number_parse does, and also Fortran's 1.0D+00. */
+static double
+parse(char *cell, char **end)
+{
+    double x = ss_number_parse(cell, end);
+    char *mark = *end;
+    if (mark == cell || (*mark != 'D' && *mark != 'd'))
+        return x;
+    char letter = *mark;
+    *mark = 'e';
+    x = ss_number_parse(cell, end);
+    *mark = letter;
+    return x;
+}
+
+enum cell_kind
+ss_cell_read(char *cell, char separator, double *x)
+{
+    char *end, *comma = separator != ',' ? strchr(cell, ',') : NULL;
+    if (comma != NULL)
+        *comma = '.';
+    *x = parse(cell, &end);
+    int number = end > cell && *end == '\0';
+    if (comma != NULL)
+        *comma = ',';
+    if (number)
+        return isfinite(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
+    if (is_no_number(cell))
+        return CELL_NOT_FINITE;
+    return *cell >= '0' && *cell <= '9' && ss_stamp_read(cell).parts != 0 ? CELL_STAMP : CELL_TEXT;
+}
+
+char *
+ss_delimited_shape(struct table *t, const char *line, char separator, size_t *numbers)
+{
+    double x;
+    char *copy = strdup(line), *shape = NULL;
+    size_t n = copy != NULL ? ss_delimited_split(t, copy, separator) : NONE;
+    *numbers = 0;
+    if (n != NONE)
+        shape = calloc(n + 1, 1);
+    for (size_t i = 0; shape != NULL && i < n; i++) {
+        enum cell_kind kind = ss_cell_read(t->cell[i], separator, &x);
+        shape[i] = t->cell[i][0] == '\0' ? 'e' : kind == CELL_TEXT ? 't' : 'n';
+        *numbers += kind == CELL_NUMBER;
+    }
+    free(copy);
+    return shape;
+}

@@ -1,0 +1,147 @@
+/* wav.c -- reading WAV: PCM of 8 to 32 bits and floating point, little-endian.
+ *
+ * A WAV file consists of chunks.  A chunk has a name, a length, and so many bytes, padded to an
+ * even number.  "fmt " describes the contents of "data"; other chunks are skipped.  A program that
+ * writes to a pipe does not know the lengths and writes a number near 2^31 or 2^32, or zero.  The
+ * data then end with the file, unless it has so many bytes.  A length is refused if the file
+ * continues behind it with something that is not a chunk, as in AU. */
+#include <string.h>
+#include <sys/stat.h>
+#include "base/error.h"
+#include "io/table/clock.h"
+#include "io/format.h"
+#include "io/frames.h"
+
+enum {
+    RIFF_HEADER = 12, CHUNK_HEADER = 8, FMT_LEAST = 16, FMT_EXTENSIBLE = 40, FMT_MOST = 4096,
+    MAX_CHUNKS = 1000, MAX_CHANNELS = 4096,
+    CODE_PCM = 1, CODE_FLOAT = 3, CODE_EXTENSIBLE = 0xfffe
+};
+/* A length from here on is unknown: SoX writes this one, other programs 2^31 - 1 or 2^32 - 1. */
+#define UNKNOWN_FROM UINT32_C(0x7ffff000)
+
+typedef struct description {    /* the contents of "fmt "; channels is 0 until it has been read */
+    unsigned code, channels, bits;
+    uint32_t rate;
+} description;
+
+static uint32_t
+little_endian(const char *at, unsigned n)
+{
+    uint32_t x = 0;
+    while (n-- > 0)
+        x = x << 8 | (unsigned char)at[n];
+    return x;
+}
+
+static ss_status
+need(struct input *in, size_t n, ss_error *err)
+{
+    ss_status st = ss_input_need(in, n, err);
+    if (st == SS_OK && in->hi - in->lo < n)
+        return ss_fail(err, SS_EDATA, "%s: truncated WAV header", in->name);
+    return st;
+}
+
+static ss_status
+skip(struct input *in, uint32_t length, ss_error *err)
+{
+    uint64_t left = (uint64_t)length + length % 2;
+    ss_status st = ss_input_skip(in, &left, err);
+    if (st == SS_OK && left > 0)
+        return ss_fail(err, SS_EDATA, "%s: truncated WAV header", in->name);
+    return st;
+}
+
+static ss_status
+read_description(struct input *in, uint32_t length, description *d, ss_error *err)
+{
+    if (length < FMT_LEAST || length > FMT_MOST)
+        return ss_fail(err, SS_EDATA, "%s: WAV header: a format of %lu bytes", in->name,
+                       (unsigned long)length);
+    ss_status st = need(in, length, err);
+    if (st != SS_OK)
+        return st;
+    const char *p = in->buffer + in->lo;
+    *d = (description){ little_endian(p, 2), little_endian(p + 2, 2), little_endian(p + 14, 2),
+                        little_endian(p + 4, 4) };
+    unsigned frame = little_endian(p + 12, 2);
+    if (d->code == CODE_EXTENSIBLE && length >= FMT_EXTENSIBLE)
+        d->code = little_endian(p + 24, 2);
+    int known = d->code == CODE_PCM ? d->bits >= 8 && d->bits <= 32 && d->bits % 8 == 0
+        : d->code == CODE_FLOAT && (d->bits == 32 || d->bits == 64);
+    if (!known)
+        return ss_fail(err, SS_EDATA, "%s: WAV of code %u with %u bits is not supported; PCM of 8, 16, "
+                       "24 and 32 bits and floating point are", in->name, d->code, d->bits);
+    if (d->channels < 1 || d->channels > MAX_CHANNELS || d->rate < 1)
+        return ss_fail(err, SS_EDATA, "%s: WAV header: impossible: %u channels at %lu Hz", in->name,
+                       d->channels, (unsigned long)d->rate);
+    if (frame != 0 && frame != d->channels * d->bits / 8)
+        return ss_fail(err, SS_EDATA, "%s: WAV header: impossible: %u channels of %u bits in %u bytes",
+                       in->name, d->channels, d->bits, frame);
+    return skip(in, length, err);
+}
+
+/* Read the chunks before the data.  *place becomes the place of the data in the file, *length its length. */
+static ss_status
+read_chunks(struct input *in, description *d, uint64_t *place, uint32_t *length, ss_error *err)
+{
+    *place = RIFF_HEADER;
+    for (int i = 0; i < MAX_CHUNKS; i++) {
+        ss_status st = need(in, CHUNK_HEADER, err);
+        if (st != SS_OK)
+            return st;
+        char name[4];
+        memcpy(name, in->buffer + in->lo, sizeof name);
+        *length = little_endian(in->buffer + in->lo + 4, 4);
+        in->lo += CHUNK_HEADER;
+        *place += CHUNK_HEADER;
+        int is_data = memcmp(name, "data", 4) == 0;
+        if (is_data && d->channels > 0)
+            return SS_OK;
+        if (is_data)
+            return ss_fail(err, SS_EDATA, "%s: WAV header: data before their format", in->name);
+        st = memcmp(name, "fmt ", 4) == 0 ? read_description(in, *length, d, err)
+            : skip(in, *length, err);
+        if (st != SS_OK)
+            return st;
+        *place += (uint64_t)*length + *length % 2;
+    }
+    return ss_fail(err, SS_EDATA, "%s: WAV header: no data in the first %d chunks", in->name,
+                   MAX_CHUNKS);
+}
+
+/* 1 if the input is a file of n bytes or more, and not a pipe. */
+static int
+has_bytes(const struct input *in, uint64_t n)
+{
+    struct stat st;
+    return fstat(fileno(in->file), &st) == 0 && S_ISREG(st.st_mode) && (uint64_t)st.st_size >= n;
+}
+
+static ss_status
+open_wav(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+{
+    struct input *in = &reader->in;
+    description d = { 0 };
+    uint32_t length = 0;
+    uint64_t place = 0;
+    ss_status st = need(in, RIFF_HEADER, err);
+    if (st != SS_OK)
+        return st;
+    uint32_t all = little_endian(in->buffer + in->lo + 4, 4);
+    in->lo += RIFF_HEADER;
+    if ((st = read_chunks(in, &d, &place, &length, err)) != SS_OK)
+        return st;
+    if ((st = ss_frames_columns(reader->head, d.channels)) != SS_OK)
+        return ss_fail(err, st, "%s: %s", in->name, ss_strerror(st));
+    reader->head->rate = d.rate;
+    sample_type type = { .bytes = d.bits / 8, .is_float = d.code == CODE_FLOAT,
+                         .is_unsigned = d.bits == 8, .little_endian = 1 };
+    int unknown = (length >= UNKNOWN_FROM && !has_bytes(in, place + length)) || (length == 0 && all == 0);
+    ss_frames_begin(reader, type, unknown ? UINT64_MAX : length, place + length);
+    reader->is_chunk = 1;
+    return ss_refuse_clock(in->name, reader->head->rate, opts, err);
+}
+
+const struct format ss_format_wav = { .name = "wav", .magic = "RIFF????WAVE", .open = open_wav };

@@ -1,0 +1,108 @@
+/* writer.c -- signals row by row, in any format. */
+#include <stdlib.h>
+#include "base/error.h"
+#include "io/format.h"
+#include "io/output.h"
+
+struct ss_writer {
+    const struct format *format;
+    ss_header *head;
+    size_t row;                 /* rows written so far */
+    struct output out;          /* empty between calls */
+};
+
+ss_status
+ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head,
+              ss_error *err)
+{
+    if (out_writer == NULL || out == NULL || head == NULL || ss_format_table(format) == NULL)
+        return ss_fail(err, SS_EINVAL, "an argument is NULL, or the format is not known");
+    ss_writer *writer = malloc(sizeof *writer);
+    *out_writer = NULL;
+    if (writer == NULL)
+        return SS_ENOMEM;
+    writer->out.file = out;
+    writer->format = ss_format_table(format);
+    writer->row = writer->out.used = 0;
+    writer->head = ss_header_copy(head);
+    ss_status st = writer->head == NULL ? SS_ENOMEM
+        : writer->format->begin(out, head, ss_kind_magic(SS_KIND_SIGNAL), err);
+    if (st != SS_OK) {
+        ss_writer_free(writer);
+        return st;
+    }
+    *out_writer = writer;
+    return SS_OK;
+}
+
+static void
+write_value(ss_writer *writer, double x, int last)
+{
+    struct output *out = &writer->out;
+    out->used += writer->format->number(out->buffer + out->used, x, last);
+}
+
+ss_status
+ss_writer_rows(ss_writer *writer, const double *rows, size_t n)
+{
+    if (writer == NULL || (rows == NULL && n > 0))
+        return SS_EINVAL;
+    const ss_header *head = writer->head;
+    size_t columns = head->n_columns;
+    for (size_t i = 0; i < n; i++, writer->row++) {
+        if (head->has_time && writer->format->has_time)
+            write_value(writer, head->start + (double)writer->row / head->rate, columns == 0);
+        for (size_t c = 0; c < columns; c++) {
+            if (writer->out.used > OUTPUT_ROOM - 2 * SS_NUMBER_MAX) {
+                ss_status st = ss_output_drain(&writer->out);
+                if (st != SS_OK)
+                    return st;
+            }
+            write_value(writer, *rows++, c + 1 == columns);
+        }
+    }
+    return ss_output_drain(&writer->out);
+}
+
+ss_status
+ss_writer_flush(ss_writer *writer)
+{
+    if (writer == NULL)
+        return SS_EINVAL;
+    return ss_output_flush(writer->out.file);
+}
+
+void
+ss_writer_free(ss_writer *writer)
+{
+    if (writer == NULL)
+        return;
+    ss_header_free(writer->head);
+    free(writer);
+}
+
+ss_status
+ss_signal_write(const ss_signal *signal, FILE *out, ss_format format, ss_error *err)
+{
+    enum { PIECE = 1024 };
+    ss_writer *writer = NULL;
+    if (signal == NULL || out == NULL)
+        return SS_FAIL_NULL(err);
+    size_t columns = signal->head->n_columns;
+    double *rows = malloc((columns + 1) * PIECE * sizeof *rows);
+    if (rows == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_writer_new(&writer, out, format, signal->head, err);
+    for (size_t first = 0; st == SS_OK && first < signal->n; first += PIECE) {
+        size_t n = signal->n - first < PIECE ? signal->n - first : PIECE;
+        for (size_t i = 0; i < n; i++)
+            for (size_t c = 0; c < columns; c++)
+                rows[i * columns + c] = signal->values[c * signal->n + first + i];
+        st = ss_writer_rows(writer, rows, n);
+    }
+    if (st == SS_OK)
+        st = ss_writer_flush(writer);
+    ss_writer_free(writer);
+    free(rows);
+    return st;
+}

@@ -1,0 +1,156 @@
+/* coefficients.c -- coefficients with their grid. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "map/plan.h"
+#include "signal/header.h"
+
+static const char *const norm_name[] = { "l2", "l1" };
+static const char *const engine_name[] = { "auto", "quadrature", "fft" };
+static const char *const detrend_name[] = { "none", "mean", "linear" };
+
+void
+ss_coefficients_free(ss_coefficients *coefficients)
+{
+    if (coefficients == NULL)
+        return;
+    ss_header_free(coefficients->head);
+    free(coefficients->scale);
+    free(coefficients->w);
+    free(coefficients->gap);
+    free(coefficients);
+}
+
+int
+ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
+{
+    if (c == NULL || i >= c->n_scales)
+        return 1;
+    return wavelet_edge(&c->scale[i], k, c->n, c->head->rate, c->head->start, c->gap, c->n_gaps);
+}
+
+double
+ss_coefficients_max(const ss_coefficients *coefficients)
+{
+    if (coefficients == NULL || coefficients->w == NULL)
+        return NAN;
+    double outside = -1, all = 0, passed = 0;
+    for (size_t i = 0; i < coefficients->n_scales; i++) {
+        const ss_scale *scale = &coefficients->scale[i];
+        const double *w = coefficients->w + 2 * scale->offset;
+        for (size_t k = 0; k < scale->n; k++) {
+            double re = w[2 * k], im = w[2 * k + 1];
+            if (re * re + im * im < passed)             /* true of most, which need no hypot */
+                continue;
+            double level = hypot(re, im);
+            all = fmax(all, level);
+            if (level > outside && !ss_coefficients_edge(coefficients, i, k)) {
+                outside = level;
+                passed = level > 1e-140 ? level * level * (1 - 1e-14) : 0;
+            }
+        }
+    }
+    return outside >= 0 ? outside : all;
+}
+
+/* --- transforming -------------------------------------------------------------------------- */
+
+static ss_status
+note_number(ss_header *head, const char *key, double value)
+{
+    char text[SS_NUMBER_MAX];
+    ss_number_format(text, value);
+    return ss_header_note(head, key, text);
+}
+
+const char *const ss_coefficient_notes[] = {
+    "samples", "stream", "column", "unit", "center", "voices", "dense", "step", "lattice", "norm", "admissible",
+    "detrend", "accuracy", "rounded", "method", "label", NULL };
+
+static ss_status
+note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
+{
+    const ss_column *col = &head->column[0];
+    int failed = (n > 0 ? note_number(head, "samples", (double)n)
+                        : ss_header_note(head, "stream", "yes"))
+        || ss_header_note(head, "column", col->name)
+        || (col->unit[0] != '\0' && ss_header_note(head, "unit", col->unit))
+        || note_number(head, "center", opts->center) || note_number(head, "voices", opts->voices)
+        || (opts->dense ? ss_header_note(head, "dense", "yes")
+                        : note_number(head, "step", opts->step))
+        || (!opts->dense && !opts->exact && opts->step <= 1
+            && ss_header_note(head, "lattice", SS_LATTICE))
+        || ss_header_note(head, "norm", norm_name[opts->norm])
+        || ss_header_note(head, "admissible", opts->admissible ? "yes" : "no")
+        || ss_header_note(head, "detrend", detrend_name[opts->detrend])
+        || note_number(head, "accuracy", opts->accuracy)
+        || (opts->rounded && ss_header_note(head, "rounded", "yes"))
+        || ss_header_note(head, "method", engine_name[opts->engine])
+        || ss_header_note(head, "label", "f = center / (2 pi a)");
+    return failed ? SS_ENOMEM : SS_OK;
+}
+
+ss_status
+ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
+                       const ss_morlet_opts *opts)
+{
+    if (out == NULL || signal == NULL || opts == NULL
+        || ss_morlet_check(n > 0 ? n : 1, signal->rate, opts, NULL) != SS_OK)
+        return SS_EINVAL;
+    *out = NULL;
+    ss_status st = ss_header_select(out, signal, &column, 1, 0);
+    if (st == SS_OK)
+        ss_header_forget(*out, ss_coefficient_notes);
+    if (st == SS_OK && (st = note_options(*out, n, opts)) != SS_OK) {
+        ss_header_free(*out);
+        *out = NULL;
+    }
+    return st;
+}
+
+ss_status
+ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
+                  const ss_morlet *plan, const ss_morlet_opts *opts)
+{
+    ss_coefficients *coef = *out = calloc(1, sizeof *coef);
+    if (coef == NULL)
+        return SS_ENOMEM;
+    ss_status st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts);
+    if (st != SS_OK || (st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head)) != SS_OK)
+        return st;
+    coef->n = signal->n;
+    coef->center = opts->center;
+    coef->n_scales = plan->n_scales;
+    coef->scale = malloc(plan->n_scales * sizeof *coef->scale);
+    if (coef->scale == NULL)
+        return SS_ENOMEM;
+    memcpy(coef->scale, plan->scale, plan->n_scales * sizeof *coef->scale);
+    return SS_OK;
+}
+
+ss_status
+ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
+             const ss_morlet_opts *opts, ss_error *err)
+{
+    ss_morlet *plan = NULL;
+    if (out == NULL || signal == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    if (column >= signal->head->n_columns)
+        return ss_fail_column(err, column, signal->head->n_columns);
+    ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, opts, err);
+    if (st != SS_OK)
+        return st;
+    ss_coefficients *coef = NULL;
+    st = ss_morlet_grid_of(&coef, signal, column, plan, opts);
+    if (st == SS_OK && (coef->w = malloc(2 * plan->total * sizeof *coef->w)) == NULL)
+        st = SS_ENOMEM;
+    if (st == SS_OK)
+        st = ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
+    ss_morlet_free(plan);
+    if (st == SS_OK)
+        *out = coef;
+    else
+        ss_coefficients_free(coef);
+    return st;
+}

@@ -1,0 +1,387 @@
+/* blocks.c -- coefficients of a stepped grid by short FFTs, octave by octave.
+ *
+ * Level l of the record has one sample for 2^l of the record.  A scale is computed on the level on
+ * which it is A to 2 A samples long; shorter scales are computed on level 0.  A = (omega_c + CUT)/BAND,
+ * so that the band of a scale ends below BAND < 2 radians a sample.  A level is cut into windows of L
+ * samples, a power of two.  X is the spectrum of a window.  By Poisson's sum, on the circle of a
+ * window, in units of a^1/2,
+ *     W(c) = C/L sum_k X_k exp(-v_k^2/2) exp(2 pi i k c/L),   v_k = 2 pi k a/L - omega_c,
+ * for any place c in samples, with C = pi^-1/4 sqrt(2 pi).
+ *
+ * The grid's step is 2^p/m samples (grid.c), and 2^p divides L.  So the terms are folded modulo
+ * M = L m/2^p, and one inverse FFT of M points gives W at all translations of the window without
+ * interpolation.  Wavelets near the ends of a window reach beyond it, so the ends belong to its
+ * neighbours: windows begin every hop = L - overlap samples, overlap >= 2 REACH 2 A.  2^p divides
+ * overlap too, since it is at most m B_0 2 A <= 17 (2 A), so every window begins at a translation.
+ * All FFTs stay in the cache.
+ *
+ * Translations of other grids lie between these points.  For them the terms are moved to frequency 0
+ * and divided by the response of a kernel, M is the least power of two that the kernel needs, and
+ * places.c finds W between the M points.
+ *
+ * The next level has the same spectrum times F(w) = erfc((w - pi/2)/(sqrt(2) s))/2, folded to L/2
+ * terms, through an inverse FFT; s = (pi/2 - BAND/2)/FILTER_CUT, and F(w) + F(pi - w) = 1.
+ *
+ * The errors are, in units of a^1/2 max|x|, of which every accuracy allows 16 eps:
+ *   - the cut of the series at |v| > CUT: at most 2.4 exp(-CUT^2/2) (1 + log(1 + L/(2 CUT a))), a in
+ *     samples, from the size of the kernel's error near b and its decay, 1/|u|, away from it; below
+ *     3 eps for L/a = 1000, for a step in the signal at the worst phase;
+ *   - images, between points: twice IMAGES in place of the exponential, below 5 eps for L/a = 1000;
+ *   - wavelets that reach around the circle: tail(REACH) of quadrature.c, below 1e-16;
+ *   - the filter: below w = BAND/2, 1 - F is at most erfc(FILTER_CUT/sqrt 2)/2 = 5e-17, and so is
+ *     F(pi - w), which multiplies the terms that fold there.  Its response in time,
+ *     sin(pi n/2)/(pi n) exp(-(s n)^2/2), is cut at s n = REACH, where it is 2e-16/(pi n).  A level has
+ *     REACH/s samples more than the record at either end, the reach of the filter: half of them are
+ *     those that the level before had, and its filter adds the other half;
+ *   - rounding: the FFT of a window, its filter and the inverse make noise in the next level's
+ *     samples of rms some eps sqrt(log2 L) rms(x).  A wavelet of a samples averages it to 1/sqrt(a) of
+ *     that, a >= A >= 5, and each filter halves the power of the noise of the levels before.
+ * tests/test_morlet.c finds at most 1 eps.  So one method serves every accuracy, and no result needs to
+ * be checked afterwards. */
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include "map/fft/blocks.h"
+#include "map/fft/plan.h"
+#include "map/fft/stage.h"
+
+#define CUT 8.66
+#define BAND 1.99
+#define FILTER_CUT 8.3
+#define COST_POINT 4e-9         /* of a point of an FFT, with the work beside it [s] */
+#define IMAGES 5e-17            /* the bound of the images of an interpolation */
+
+/* The cost of a translation of each kind [s]. */
+static const double COST_OF[] = { 0, 8e-9, 1.3e-9 };
+
+enum {
+    LEAST_SAMPLES = 4,          /* a level has at least so many */
+    LONGEST = 1 << 20,          /* inverse FFT, in points */
+    LONGEST_WINDOW = 1 << 18,
+    ALIGN = 8                   /* doubles; FFTW's plans are for arrays that begin at multiples */
+};
+
+/* --- which scales, in what windows ------------------------------------------------------------ */
+
+static double
+half_width(const ss_morlet_opts *opts)
+{
+    return half_band(opts->center, wavelet_second(opts), CUT);
+}
+
+/* A, the length in samples that a scale has at least on its level, unless this is level 0. */
+static double
+least_scale(const ss_morlet_opts *opts)
+{
+    return (opts->center + half_width(opts)) / BAND;
+}
+
+static int
+level_of(const ss_morlet *plan, const ss_scale *scale)
+{
+    double a = scale->a * plan->rate;
+    int l = a < 2 * least_scale(&plan->opts) ? 0 : ilogb(a / least_scale(&plan->opts));
+    int enough = plan->window || ldexp((double)plan->n, -l) >= LEAST_SAMPLES;
+    return a >= 2 && l < LEVELS && enough ? l : -1;
+}
+
+/* Choose L and hop of a level of n samples, on which wavelets reach `reach` samples, a power of two. */
+static void
+choose_windows(stage *st, size_t n, size_t reach, size_t margin)
+{
+    stage best = { .length = 0 };
+    *st = (stage){ .n = n, .margin = margin, .overlap = 2 * reach };
+    for (st->length = 4 * reach; st->length <= 16 * reach; st->length *= 2) {
+        st->hop = st->length - st->overlap;
+        size_t points = windows_for(st, n) * st->length;
+        if (best.length == 0 || points < windows_for(&best, n) * best.length)
+            best = *st;
+    }
+    *st = best;
+}
+
+/* The same for level l of a stream.  The lower levels make most of the coefficients, and have long
+ * windows, which cost less; the higher levels delay most, and have short ones. */
+static void
+stream_windows(stage *st, int l, size_t reach, size_t margin)
+{
+    *st = (stage){ .margin = margin, .overlap = 2 * reach };
+    st->length = 16 * reach >> (l < 2 ? l : 2);
+    st->hop = st->length - st->overlap;
+}
+
+/* The scale an octave shorter than scale i, if its weights are the same, else NULL. */
+static const block_scale *
+same_weights(const struct blocks *b, const ss_morlet *plan, size_t i)
+{
+    size_t j = i + (size_t)plan->opts.voices;
+    if (j >= b->n_scales || b->scale[j].level < 0)
+        return NULL;
+    int l = b->scale[i].level, of = b->scale[j].level;
+    int same = b->stage[l].length == b->stage[of].length
+        && b->scale[i].kind == b->scale[j].kind && b->scale[i].points == b->scale[j].points
+        && ldexp(plan->scale[i].a, -l) == ldexp(plan->scale[j].a, -of);
+    return same ? &b->scale[j] : NULL;
+}
+
+static ss_status
+make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, const ss_scale *scale,
+             size_t length)
+{
+    const ss_morlet_opts *opts = &plan->opts;
+    band b = band_around(opts->center, half_width(opts), ldexp(scale->a, -r->level), plan->rate,
+                         (double)length);
+    double second = wavelet_second(opts);
+    r->lo = b.lo;
+    r->mid = r->kind != AT_POINTS ? b.mid : 0;
+    r->terms = (size_t)(b.hi - b.lo) + 1;
+    r->owner = 1;
+    r->weight = malloc(r->terms * sizeof *r->weight);
+    if (r->weight == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < r->terms; i++) {
+        double k = (double)(b.lo + (ptrdiff_t)i), low = k * b.h_low, u = fma(k, b.h, low);
+        double v = fma(k, b.h, -opts->center) + low;
+        double g = exp(-v * v / 2) - (second > 0 ? second * exp(-u * u / 2) : 0);
+        double nu = (k - (double)r->mid) / (double)r->points;
+        r->weight[i] = g * (PI_M14 * sqrt(2 * M_PI) / (double)length);
+        if (r->kind != AT_POINTS)
+            r->weight[i] /= ss_kaiser_response(kernel->taps, kernel->beta, nu);
+    }
+    return SS_OK;
+}
+
+/* M of a scale on its level; 0 if its steps do not repeat in a window. */
+static size_t
+points_of(const stage *st, const ss_scale *scale, int l, double rate)
+{
+    double parts = ss_scale_parts(scale, rate), apart = ldexp(scale->b_num, -l);
+    double points = parts * (double)st->length / apart;
+    if (parts == 0 || (double)st->overlap < apart || points > LONGEST)
+        return 0;
+    return (size_t)points;
+}
+
+/* M where translations lie between points: the least power of two that the kernel needs. */
+static size_t
+points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, const ss_scale *scale,
+               int l)
+{
+    const ss_morlet_opts *opts = &plan->opts;
+    band of = band_around(opts->center, half_width(opts), ldexp(scale->a, -l), plan->rate,
+                          (double)st->length);
+    size_t points = 4 * PLACES_MARGIN, least = opts->dense ? st->circle / DENSE_PHASES_MAX : 0;
+    while (points < least || edge_of(&of, points) > b->kernel->edge)
+        points *= 2;
+    return points <= LONGEST ? points : 0;
+}
+
+/* The time that FFTs save for scale i [s], over a record or over a window of a stream. */
+static double
+gain_of(const struct blocks *b, const ss_morlet *plan, size_t i)
+{
+    const block_scale *r = &b->scale[i];
+    const stage *st = &b->stage[r->level];
+    size_t n = plan->window ? ss_blocks_most(b, i) : plan->scale[i].n;
+    double points = (double)r->points * (plan->window ? 1 : (double)windows_for(st, st->n));
+    return ss_quadrature_cost(plan, &plan->scale[i], n) - COST_POINT * points
+        - COST_OF[r->kind] * (double)n;
+}
+
+/* The cost of the spectra of the levels in use [s]. */
+static double
+forward_cost(const struct blocks *b)
+{
+    double points = 0;
+    for (size_t l = 0; l < b->levels; l++)
+        points += (double)b->stage[l].windows * (double)b->stage[l].length;
+    return COST_POINT * points;
+}
+
+/* Choose the level and M of scale i.  M is 0 if the scale cannot be computed here. */
+static void
+choose_points(struct blocks *b, const ss_morlet *plan, size_t i)
+{
+    block_scale *r = &b->scale[i];
+    const ss_scale *scale = &plan->scale[i];
+    r->level = level_of(plan, scale);
+    if (r->level < 0)
+        return;
+    const stage *st = &b->stage[r->level];
+    r->points = points_of(st, scale, r->level, plan->rate);
+    r->hop = r->points - r->points / (st->length / st->overlap);
+    r->kind = plan->opts.dense && r->level > 0 ? EACH : r->points == 0 ? BETWEEN : AT_POINTS;
+    if (r->kind != AT_POINTS)
+        r->points = points_between(b, plan, st, scale, r->level);
+    if (r->kind == EACH)
+        r->hop = st->hop << r->level;
+}
+
+/* Choose the scales that are computed here: those that can be, in a stream only the longest.  With AUTO
+ * the choice is of those for which it is cheaper, and of none if a record's gain is less than the cost of
+ * its spectra. */
+static void
+choose_rows(struct blocks *b, const ss_morlet *plan)
+{
+    int automatic = plan->opts.engine == SS_ENGINE_AUTO, others = 0;
+    double gain = 0;
+    for (size_t i = 0; i < b->n_scales; i++) {
+        block_scale *r = &b->scale[i];
+        choose_points(b, plan, i);
+        double less = r->points > 0 ? gain_of(b, plan, i) : 0;
+        int dear = automatic && less < 0 && (r->kind == BETWEEN || !plan->window);
+        others |= r->points == 0 || dear;
+        if (r->points == 0 || dear || (plan->window && others)) {
+            r->level = -1;
+            continue;
+        }
+        gain += less;
+        b->stage[r->level].used = 1;
+        b->longest = r->points > b->longest ? r->points : b->longest;
+        b->levels = (size_t)r->level + 1 > b->levels ? (size_t)r->level + 1 : b->levels;
+    }
+    if (automatic && !plan->window && gain < forward_cost(b))
+        b->levels = 0;
+}
+
+static void
+choose_stages(struct blocks *b, const ss_morlet *plan)
+{
+    double a = 2 * least_scale(&plan->opts);
+    size_t reach = 1, n = plan->n;
+    while ((double)reach < fmax(REACH * a + 2, b->margin))
+        reach *= 2;
+    for (int l = 0; l < LEVELS; l++) {
+        stage *st = &b->stage[l];
+        if (plan->window)
+            stream_windows(st, l, reach, (size_t)b->margin);
+        else
+            choose_windows(st, n, reach, (size_t)b->margin);
+        st->windows = 1 + windows_for(st, n + 2 * st->margin);
+        st->stride = st->length + ALIGN;
+        st->circle = st->length << l;
+        n = n / 2 + 1;
+    }
+}
+
+/* --- tables ----------------------------------------------------------------------------------- */
+
+static ss_status
+all_weights(struct blocks *b, const ss_morlet *plan)
+{
+    ss_status st = SS_OK;
+    for (size_t i = b->n_scales; st == SS_OK && i-- > 0;) {       /* from short to long */
+        block_scale *r = &b->scale[i];
+        if (r->level < 0)
+            continue;
+        const block_scale *of = same_weights(b, plan, i);
+        if (of != NULL) {
+            r->lo = of->lo;
+            r->mid = of->mid;
+            r->terms = of->terms;
+            r->weight = of->weight;
+        } else
+            st = make_weights(plan, b->kernel, r, &plan->scale[i], b->stage[r->level].length);
+    }
+    return st;
+}
+
+/* The kernel's weights for the places of a scale, shared with scales that have the same pattern. */
+static ss_status
+places_of(struct blocks *b, block_scale *r)
+{
+    if (r->level < 0 || r->kind == AT_POINTS)
+        return SS_OK;
+    if (!b->kernel->prepared)
+        ss_kaiser_prepare(b->kernel);
+    if (r->kind == BETWEEN)
+        return SS_OK;
+    size_t phases = b->stage[r->level].circle / r->points, i = 0;
+    while (i < b->n_places && ss_dense_phases(b->places[i]) != phases)
+        i++;
+    if (i == b->n_places && (b->places[b->n_places++] = ss_dense_new(b->kernel, phases)) == NULL)
+        return SS_ENOMEM;
+    r->places = b->places[i];
+    b->most = r->hop > b->most ? r->hop : b->most;
+    return SS_OK;
+}
+
+static ss_status
+make_filter(stage *st)
+{
+    size_t half = st->length / 4;
+    double s = (M_PI / 2 - BAND / 2) / FILTER_CUT;
+    st->filter = malloc(2 * (half + 1) * sizeof *st->filter);
+    if (st->filter == NULL)
+        return SS_ENOMEM;
+    for (size_t k = 0; k <= half; k++) {
+        double x = (2 * M_PI * (double)k / (double)st->length - M_PI / 2) / (sqrt(2) * s);
+        st->filter[k] = erfc(x) / 2 / (double)st->length;
+        st->filter[half + 1 + k] = erfc(-x) / 2 / (double)st->length;
+    }
+    return SS_OK;
+}
+
+size_t
+ss_blocks_room(const struct blocks *b)
+{
+    return 4 * (b->longest + DENSE_MARGIN) + ss_dense_room(b->most) + 2 * DENSE_PHASES_MAX;
+}
+
+ss_status
+ss_blocks_new(ss_morlet *plan)
+{
+    double margin = ceil(REACH / ((M_PI / 2 - BAND / 2) / FILTER_CUT));
+    double reach = fmax(REACH * 2 * least_scale(&plan->opts) + 2, margin);
+    if (plan->opts.engine == SS_ENGINE_QUADRATURE
+        || 16 * reach > LONGEST_WINDOW || plan->n > INT_MAX / 2)
+        return SS_OK;
+    struct blocks *b = plan->blocks = calloc(1, sizeof *b);
+    if (b == NULL || (b->scale = calloc(plan->n_scales, sizeof *b->scale)) == NULL)
+        return SS_ENOMEM;
+    b->n_scales = plan->n_scales;
+    b->margin = margin;
+    b->rate = plan->rate;
+    b->grid = plan->scale;
+    if ((b->kernel = aligned_alloc(_Alignof(kaiser), sizeof *b->kernel)) == NULL)
+        return SS_ENOMEM;
+    ss_places_kernel(b->kernel, half_width(&plan->opts), plan->opts.center,
+                     wavelet_second(&plan->opts), IMAGES);
+    choose_stages(b, plan);
+    choose_rows(b, plan);
+    if (b->levels == 0) {
+        ss_blocks_free(b);
+        plan->blocks = NULL;
+        return SS_OK;
+    }
+    ss_status st = all_weights(b, plan);
+    for (size_t i = 0; st == SS_OK && i < b->n_scales; i++)
+        st = places_of(b, &b->scale[i]);
+    for (size_t l = 0; st == SS_OK && l + 1 < b->levels; l++)
+        st = make_filter(&b->stage[l]);
+    return st == SS_OK ? ss_blocks_plans_make(b, plan->opts.planner, ss_blocks_room(b)) : st;
+}
+
+void
+ss_blocks_free(struct blocks *b)
+{
+    if (b == NULL)
+        return;
+    ss_blocks_plans_free(b);
+    for (size_t i = 0; i < b->n_scales; i++)
+        if (b->scale[i].owner)
+            free(b->scale[i].weight);
+    for (size_t l = 0; l < b->levels; l++)
+        free(b->stage[l].filter);
+    for (size_t i = 0; i < b->n_places; i++)
+        ss_dense_free(b->places[i]);
+    free(b->kernel);
+    free(b->scale);
+    free(b);
+}
+
+int
+ss_blocks_covers(const struct blocks *b, size_t i)
+{
+    return b != NULL && b->scale[i].level >= 0;
+}

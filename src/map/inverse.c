@@ -1,0 +1,411 @@
+/* inverse.c -- from coefficients back to a signal.
+ *
+ * Weighted by the grid's share of the integral over a and b, da db/a^2, coefficients on a fine grid
+ * are nearly a tight frame: the transform's adjoint nearly inverts it, up to a constant, for what the
+ * scales reach.  From there conjugate gradients (Hestenes and Stiefel 1952) on the normal equations
+ * converge on any grid; on one that is far from tight they need many passes, and a residual that stays
+ * shows that the coefficients are those of no signal.  Frequencies at the edge of the scales and beyond
+ * converge slowly: the residual then falls about as the passes to the power -1/2 to -1, without end.
+ *
+ * A pass transforms the step and applies the adjoint to each part of the coefficients as it comes: the
+ * given coefficients are the only ones in memory.  The rest's adjoint, the gradient, and the rest's size
+ * follow from those of the step.  Rounding errors of the size show when it is some 1e-8 of where it began:
+ * so both are computed anew from the given coefficients long before, and before they are found small enough. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/range.h"
+#include "base/versions.h"
+#include "map/fft/blocks.h"
+#include "map/plan.h"
+#include "signal/header.h"
+
+/* A residual stays if twice as many passes, from STALL_FROM on, lower it by less than this part. */
+enum { PASSES = 500, STALL_FROM = 16, LANES = 8 };
+static const double STALL = 0.1;
+
+/* A residual that is found from step to step is computed again when it has become so much smaller. */
+static const double FRESH = 1e-5;
+
+typedef struct solver {
+    const ss_coefficients *coef;
+    ss_stretch progress;
+    ss_morlet *plan;
+    block_sums *sums;               /* NULL: no scale is computed in blocks */
+    wavelet **wave;                 /* of each scale that is not */
+    double *x, *gradient, *step, *image;
+    double *part, *scratch;
+    double unit[2];                 /* the coefficients are times both */
+    int exponent;                   /* all of these are divided by 2^exponent */
+    double bounds;                  /* the upper frame bound over the lower one */
+} solver;
+
+/* A scale's weight in sums over coefficients. */
+static double
+weight_of(const solver *s, const ss_scale *sc)
+{
+    double step = sc->b_num / sc->b_den, share = step * log(2) / s->plan->opts.voices / sc->a;
+    return s->plan->opts.norm == SS_NORM_L1 ? share * sc->a : share;
+}
+
+VERSIONS static double
+norm2(const double *x, size_t n)
+{
+    double sum[LANES] = { 0 };
+    size_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (size_t l = 0; l < LANES; l++)
+            sum[l] += x[i + l] * x[i + l];
+    for (; i < n; i++)
+        sum[0] += x[i] * x[i];
+    for (size_t l = 1; l < LANES; l++)
+        sum[0] += sum[l];
+    return sum[0];
+}
+
+/* w becomes the coefficients that are given, a part of scale i, less w. */
+static void
+subtract(const solver *s, size_t i, span part, double *w)
+{
+    const double *given = s->coef->w + 2 * (s->coef->scale[i].offset + part.first);
+    for (size_t k = 0; k < 2 * part.n; k++)
+        w[k] = given[k] * s->unit[0] * s->unit[1] - w[k];
+}
+
+/* Add the adjoint of a part of scale i to samples, those of blocks not before the sums' end. */
+static void
+add_adjoint(solver *s, size_t i, span part, const double *w, double *to)
+{
+    const ss_scale *sc = &s->plan->scale[i];
+    double factor = weight_of(s, sc) * (s->plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(sc->a));
+    if (ss_blocks_covers(s->plan->blocks, i))
+        ss_block_sums_add(s->sums, i, s->scratch, part, factor, w);
+    else
+        ss_quadrature_adjoint(s->plan, sc, s->wave[i], part, factor, w, to);
+}
+
+/* What `transform` says, for scale i of the record, part by part. */
+static ss_status
+one_scale(solver *s, size_t i, const record *rec, const spectra *sp, int rest, double *to, double *norm,
+          ss_error *err)
+{
+    const ss_scale *sc = &s->plan->scale[i];
+    double most = 0, sum = 0;
+    for (size_t k = 0, n; k < sc->n; k += n) {
+        n = ss_morlet_part_length(s->plan, i, k);
+        span part = { k, n < sc->n - k ? n : sc->n - k };
+        ss_status st = ss_morlet_part(s->plan, i, rec, sp, s->scratch, s->wave[i], part, &most, s->part, err);
+        if (st != SS_OK)
+            return st;
+        if (rest)
+            subtract(s, i, part, s->part);
+        sum += norm2(s->part, 2 * part.n);
+        add_adjoint(s, i, part, s->part, to);
+    }
+    *norm += weight_of(s, sc) * sum;
+    return SS_OK;
+}
+
+/* The coefficients of x, or with rest the given ones less those: *norm becomes the weighted sum of their
+ * squares, and `to` the adjoint of the transform applied to them.  No more than a part of them is in memory
+ * at a time. */
+static ss_status
+transform(solver *s, const double *x, int rest, double *to, double *norm, ss_error *err)
+{
+    record rec;
+    spectra sp = { .first = 0 };
+    ss_status st = ss_morlet_record(&rec, x, s->plan->n, SS_DETREND_NONE, err);
+    if (st != SS_OK)
+        return st;
+    st = ss_morlet_forward(s->plan, &rec, &sp);
+    memset(to, 0, s->plan->n * sizeof *to);
+    *norm = 0;
+    for (size_t i = 0; st == SS_OK && i < s->plan->n_scales; i++)
+        st = one_scale(s, i, &rec, &sp, rest, to, norm, err);
+    if (st == SS_OK && s->sums != NULL)
+        st = ss_block_sums_end(s->sums, to);
+    ss_morlet_spectra_free(&sp);
+    free(rec.x);
+    return st;
+}
+
+/* Round x up to two digits. */
+static double
+round_up(double x)
+{
+    double unit = pow(10, floor(log10(x)) - 1);
+    return ceil(x / unit) * unit;
+}
+
+static ss_status
+refuse(double tol, double residual, int passes, int stays, ss_error *err)
+{
+    double takes = round_up(residual);
+    if (stays || takes > 0.1)
+        return ss_fail(err, SS_ETOL, "no signal has these coefficients within %g: %.2g of them is "
+                       "left after %d passes, and stays", tol, takes, passes);
+    return ss_fail(err, SS_ETOL, "after %d passes %.2g of the coefficients is left, more than the "
+                   "%g asked for: what lies at the edge of the scales and beyond is found slowly; "
+                   "an accuracy of %.2g can be had, or more with scales that reach further", passes,
+                   takes, tol, takes);
+}
+
+/* The progress of the search: every pass lowers the rest by about the same factor. */
+static ss_status
+report(const solver *s, double left, double tol, int pass)
+{
+    double done = fmax(log(left) / (2 * log(tol)), (double)pass / PASSES);
+    return ss_stretch_at(&s->progress, fmin(1, fmax(0, done)));
+}
+
+/* Go along the step to the least rest, whose squares were *left. */
+static ss_status
+advance(solver *s, double slope, double *left, ss_error *err)
+{
+    double norm;
+    ss_status st = transform(s, s->step, 0, s->image, &norm, err);
+    double length = slope / norm;
+    for (size_t i = 0; st == SS_OK && i < s->plan->n; i++) {
+        s->x[i] += length * s->step[i];
+        s->gradient[i] -= length * s->image[i];
+    }
+    *left -= length * slope;
+    return st;
+}
+
+/* Solve by conjugate gradients.  *residual becomes the size of the part that x does not explain, relative
+ * to all.  The rest and its adjoint follow from those of the step, and are computed anew before their
+ * rounding errors show. */
+static ss_status
+solve(solver *s, double tol, double *residual, ss_error *err)
+{
+    size_t n = s->plan->n;
+    double all, slope, left, fresh, then;
+    int pass = 0, mark = STALL_FROM, stays = 0;
+    ss_status st = transform(s, s->x, 1, s->gradient, &all, err);
+    if (st != SS_OK)
+        return st;
+    memcpy(s->step, s->gradient, n * sizeof *s->step);
+    slope = norm2(s->gradient, n);
+    left = fresh = then = all;
+    for (; st == SS_OK && left > tol * tol * all && slope > 0 && pass < PASSES && !stays; pass++) {
+        if ((st = report(s, left / all, tol, pass)) == SS_OK)
+            st = advance(s, slope, &left, err);
+        if (st == SS_OK && (left <= FRESH * FRESH * fresh || left <= tol * tol * all)) {
+            st = transform(s, s->x, 1, s->gradient, &left, err);
+            fresh = left;
+        }
+        if (pass + 1 == mark) {
+            stays = mark > STALL_FROM && sqrt(left) > (1 - STALL) * sqrt(then);
+            then = left;
+            mark *= 2;
+        }
+        double before = slope;
+        slope = norm2(s->gradient, n);
+        for (size_t i = 0; i < n; i++)
+            s->step[i] = s->gradient[i] + slope / before * s->step[i];
+    }
+    if (st != SS_OK)
+        return st;
+    *residual = all > 0 ? sqrt(left / all) : 0;
+    return *residual <= tol ? SS_OK : refuse(tol, *residual, pass, stays || !(slope > 0), err);
+}
+
+/* --- is it a frame? --------------------------------------------------------------------------- */
+
+/* The sum over the scales of |H(a w)| |H(a w + shift)|.  H is normalised, and its side of negative
+ * frequencies left out. */
+static double
+overlap(const solver *s, double w, double shift)
+{
+    double sum = 0;
+    for (size_t i = 0; i < s->plan->n_scales; i++) {
+        double v = s->plan->scale[i].a * w - s->plan->opts.center, u = v + shift;
+        sum += exp(-(v * v + u * u) / 2);
+    }
+    return sum;
+}
+
+/* The largest step of translations in units of their scale. */
+static double
+largest_step(const ss_morlet *plan)
+{
+    double most = 0;
+    for (size_t i = 0; i < plan->n_scales; i++)
+        most = fmax(most, plan->scale[i].b_num / plan->scale[i].b_den / plan->scale[i].a);
+    return most;
+}
+
+/* The ratio of the frame bounds after Daubechies (1990), theorem 2.7, for frequencies between those of the
+ * longest and the shortest scale.  The lower bound is the smallest sum of |H|^2 minus the aliases that
+ * translations step a apart make; the upper one is the largest sum plus these aliases. */
+static void
+find_bounds(solver *s)
+{
+    enum { PER_SCALE = 4, SHIFTS = 8 };
+    const ss_scale *longest = &s->plan->scale[0];
+    const ss_scale *shortest = &s->plan->scale[s->plan->n_scales - 1];
+    double lowest = 2 * M_PI * longest->f, ratio = shortest->f / longest->f;
+    double step = largest_step(s->plan), least = INFINITY, most = 0;
+    double beta[2 * SHIFTS] = { 0 }, alias = 0;
+    size_t n = PER_SCALE * s->plan->n_scales;
+    for (size_t i = 0; i <= n; i++) {
+        double w = lowest * pow(ratio, (double)i / (double)n), sum = overlap(s, w, 0);
+        least = fmin(least, sum);
+        most = fmax(most, sum);
+        for (int k = 0; k < 2 * SHIFTS; k++) {
+            double shift = (k % 2 ? -2 : 2) * M_PI / step * (1 + k / 2);
+            beta[k] = fmax(beta[k], overlap(s, w, shift));
+        }
+    }
+    for (int k = 0; k < 2 * SHIFTS; k += 2)
+        alias += 2 * sqrt(beta[k] * beta[k + 1]);
+    s->bounds = least > alias ? (most + alias) / (least - alias) : INFINITY;
+}
+
+/* --- the plan that made them ------------------------------------------------------------------ */
+
+static int
+note_says(const ss_coefficients *c, const char *key, const char *value)
+{
+    const char *note = ss_header_find_note(c->head, key);
+    return note != NULL && strcmp(note, value) == 0;
+}
+
+static ss_status
+read_options(const ss_coefficients *c, ss_morlet_opts *opts, ss_error *err)
+{
+    static const char *const needed[] = { "voices", "norm", "admissible" };
+    const char *step = ss_header_find_note(c->head, "step");
+    const ss_scale *longest = &c->scale[0], *shortest = &c->scale[c->n_scales - 1];
+    char *end;
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
+        if (ss_header_find_note(c->head, needed[i]) == NULL)
+            return ss_fail(err, SS_EDATA, "the coefficients lack their option '%s'", needed[i]);
+    *opts = ss_morlet_defaults;
+    opts->center = c->center;
+    opts->voices = (int)ss_number_parse(ss_header_find_note(c->head, "voices"), &end);
+    opts->dense = note_says(c, "dense", "yes");
+    opts->exact = ss_header_find_note(c->head, "lattice") == NULL;
+    if (!opts->dense)
+        opts->step = step != NULL ? ss_number_parse(step, &end)
+            : longest->b_num / longest->b_den / longest->a;
+    opts->norm = note_says(c, "norm", "l1") ? SS_NORM_L1 : SS_NORM_L2;
+    opts->admissible = note_says(c, "admissible", "yes");
+    opts->octaves = opts->force = 1;
+    opts->m0 = shortest->m;
+    opts->m1 = longest->m;
+    opts->accuracy = 1e-12;
+    return SS_OK;
+}
+
+static ss_status
+make_plan(solver *s, ss_error *err)
+{
+    const ss_coefficients *c = s->coef;
+    ss_morlet_opts opts;
+    ss_status st = read_options(c, &opts, err);
+    if (st != SS_OK || (st = ss_morlet_new(&s->plan, c->n, c->head->rate, &opts, err)) != SS_OK)
+        return st;
+    int same = s->plan->n_scales == c->n_scales;
+    for (size_t i = 0; same && i < c->n_scales; i++)
+        same = s->plan->scale[i].j == c->scale[i].j && s->plan->scale[i].n == c->scale[i].n;
+    return same ? SS_OK : ss_fail(err, SS_EDATA, "scales are missing between the longest and the "
+                                  "shortest");
+}
+
+/* Choose the power of two with which the coefficients' squares neither overflow nor vanish. */
+static void
+choose_unit(solver *s)
+{
+    const ss_coefficients *c = s->coef;
+    double most = 0;
+    for (size_t i = 0; i < c->n_scales; i++)
+        for (size_t k = 2 * c->scale[i].offset; k < 2 * (c->scale[i].offset + c->scale[i].n); k++)
+            most = fmax(most, fabs(c->w[k]));
+    frexp(most, &s->exponent);
+    s->unit[0] = ldexp(1, -s->exponent / 2);
+    s->unit[1] = ldexp(1, -s->exponent - -s->exponent / 2);
+}
+
+static ss_status
+make_room(solver *s)
+{
+    const ss_morlet *plan = s->plan;
+    size_t n = plan->n, most = 0;
+    choose_unit(s);
+    for (size_t i = 0; i < plan->n_scales; i++)
+        most = plan->scale[i].n > most ? plan->scale[i].n : most;
+    most = most < ss_morlet_part_most(plan) ? most : ss_morlet_part_most(plan);
+    s->wave = calloc(plan->n_scales, sizeof(wavelet *));
+    s->part = malloc(2 * most * sizeof *s->part);
+    s->gradient = malloc(n * sizeof *s->gradient);
+    s->step = malloc(n * sizeof *s->step);
+    s->image = malloc(n * sizeof *s->image);
+    if (s->wave == NULL || s->part == NULL || s->gradient == NULL || s->step == NULL
+        || s->image == NULL || ss_morlet_scratch(plan, &s->scratch) != SS_OK)
+        return SS_ENOMEM;
+    if (plan->blocks != NULL && (s->sums = ss_block_sums_new(plan->blocks)) == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < plan->n_scales; i++)
+        if (!ss_blocks_covers(plan->blocks, i)
+            && (s->wave[i] = ss_wavelet_new(&plan->opts, plan->scale[i].a, plan->rate, n)) == NULL)
+            return SS_ENOMEM;
+    return SS_OK;
+}
+
+static void
+release(solver *s)
+{
+    for (size_t i = 0; s->wave != NULL && i < s->plan->n_scales; i++)
+        ss_wavelet_free(s->wave[i]);
+    free(s->wave);
+    free(s->part);
+    free(s->gradient);
+    free(s->step);
+    free(s->image);
+    ss_fft_scratch_free(s->scratch);
+    ss_block_sums_free(s->sums);
+    ss_morlet_free(s->plan);
+}
+
+ss_status
+ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double tol,
+                  double *error, ss_progress progress, ss_error *err)
+{
+    if (out == NULL || coefficients == NULL)
+        return SS_FAIL_NULL(err);
+    enum { BOUNDS_MAX = 100 };
+    solver s = { .coef = coefficients, .progress = { progress, 0, 1 } };
+    double residual = 0;
+    *out = NULL;
+    ss_status st = ss_range_check(tol, ss_morlet_ranges.inverse_accuracy, "accuracy", err);
+    if (st == SS_OK)
+        st = make_plan(&s, err);
+    if (st == SS_OK)
+        find_bounds(&s);
+    if (st == SS_OK && !(s.bounds <= BOUNDS_MAX))
+        st = ss_fail(err, SS_ESCALE, "the grid is too coarse to be inverted, its frame bounds being "
+                     "a factor of %.3g apart; more voices or a smaller step are needed", s.bounds);
+    if (st == SS_OK)
+        st = make_room(&s);
+    if (st == SS_OK)
+        st = ss_signal_new(out, coefficients->head, coefficients->n);
+    if (st == SS_OK) {
+        ss_header_forget((*out)->head, ss_coefficient_notes);
+        s.x = (*out)->values;
+        st = solve(&s, tol, &residual, err);
+        for (size_t i = 0; i < coefficients->n; i++)
+            s.x[i] = ldexp(s.x[i], s.exponent);
+    }
+    release(&s);
+    if (error != NULL)
+        *error = residual * sqrt(s.bounds);
+    if (st != SS_OK) {
+        ss_signal_free(*out);
+        *out = NULL;
+    }
+    return st;
+}

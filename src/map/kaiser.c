@@ -1,0 +1,157 @@
+/* kaiser.c -- the Kaiser-Bessel kernel, which interpolates between points of a Fourier series.
+ *
+ * A series sum c_k exp(2 pi i nu_k t), |nu_k| <= edge < 1/2, is known at whole t.  With
+ * phi(t) = I0(beta sqrt(1 - (2 t/J)^2)) on |t| <= J/2 and c_k divided by its response
+ * R(nu) = J sinh(z)/z, z^2 = beta^2 - (pi J nu)^2, the sum over J points weighted with phi gives the
+ * series between them but for images: R(m - nu)/R(nu), m = +-1, +-2, ...  (Fourmont 2003.)  Where
+ * the band ends in a Gaussian the images near its edge are as weak as the band is there, so kernels
+ * with a lower cutoff than the band's edge are tried too, and the shortest is taken. */
+#include <math.h>
+#include "base/versions.h"
+#include "map/kaiser.h"
+
+/* Bessel's I0 of sqrt(4 y), by its series: all terms are positive, so it is exact to rounding. */
+static double
+bessel_i0(double y)
+{
+    double term = 1, sum = 1;
+    for (int k = 1; term > 1e-17 * sum; k++) {
+        term *= y / ((double)k * k);
+        sum += term;
+    }
+    return sum;
+}
+
+double
+ss_kaiser_at(int taps, double beta, double t)
+{
+    double s = 2 * t / taps, y = beta * beta / 4 * (1 - s * s);
+    return y < 0 ? 0 : bessel_i0(y) * beta / (taps * sinh(beta));
+}
+
+double
+ss_kaiser_response(int taps, double beta, double nu)
+{
+    double x = M_PI * taps * nu, z2 = beta * beta - x * x, z = sqrt(fabs(z2));
+    double r = z < 1e-4 ? 1 : z2 > 0 ? sinh(z) / z : sin(z) / z;
+    return r * beta / sinh(beta);
+}
+
+/* The response, or beyond the cutoff the envelope of its ripple. */
+static double
+envelope(int taps, double beta, double nu)
+{
+    double x = M_PI * taps * nu, z2 = beta * beta - x * x;
+    if (z2 > 1e-8)
+        return sinh(sqrt(z2)) / sqrt(z2);
+    return fmin(1, 1 / sqrt(fabs(z2) + 1e-300));
+}
+
+static double
+series_size(const kaiser_band *band, double s)
+{
+    double v = band->reach * s, u = fmax(0, v - band->center);
+    return fmax(exp(-v * v / 2), band->second * exp(-u * u / 2));
+}
+
+static double
+worst_image(const kaiser_band *band, int taps, double beta)
+{
+    enum { PLACES = 16 };
+    double worst = 0;
+    for (int i = 0; i <= PLACES; i++) {
+        double s = (double)i / PLACES, nu = s * band->edge, images = 0;
+        for (int m = 1; m <= 2; m++)
+            images += envelope(taps, beta, m - nu) + envelope(taps, beta, m + nu);
+        worst = fmax(worst, series_size(band, s) * images / envelope(taps, beta, nu));
+    }
+    return worst;
+}
+
+int
+ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound)
+{
+    int fewest = 2 * (int)(-log(bound) / (2 * M_PI));   /* no kernel of J taps reaches exp(-pi J) */
+    for (int taps = fewest > 4 ? fewest : 4; taps <= KAISER_TAPS_MAX; taps += 2)
+        for (double part = 1; part > 0.3; part -= 0.1) {
+            double beta = 0.985 * M_PI * taps * (1 - part * band->edge);
+            if (worst_image(band, taps, beta) > bound)
+                continue;
+            out->taps = taps;
+            out->beta = beta;
+            out->edge = band->edge;
+            out->prepared = 0;
+            return 1;
+        }
+    return 0;
+}
+
+/* --- tables: polynomials through Chebyshev nodes ------------------------------ */
+
+static double
+node(int i, int n)
+{
+    return cos(M_PI * (i + 0.5) / n);
+}
+
+/* Replace the n values c at the nodes x by the coefficients of Newton's form. */
+static void
+divided_differences(double *c, const double *x, int n)
+{
+    for (int order = 1; order < n; order++)
+        for (int i = n - 1; i >= order; i--)
+            c[i] = (c[i] - c[i - 1]) / (x[i] - x[i - order]);
+}
+
+/* Replace the coefficients of Newton's form by those of powers. */
+static void
+expand(double *c, const double *x, int n)
+{
+    for (int order = n - 1; order > 0; order--)
+        for (int i = order - 1; i < n - 1; i++)
+            c[i] -= x[order - 1] * c[i + 1];
+}
+
+static void
+prepare_part(kaiser *ker, int part)
+{
+    double c[KAISER_NODES], y[KAISER_NODES];
+    for (int i = 0; i < ker->taps; i++) {
+        for (int m = 0; m < KAISER_NODES; m++) {
+            y[m] = node(m, KAISER_NODES);
+            double f = (part + (1 + y[m]) / 2) / KAISER_PARTS;
+            c[m] = ss_kaiser_at(ker->taps, ker->beta, f + (ker->taps / 2 - 1 - i));
+        }
+        divided_differences(c, y, KAISER_NODES);
+        expand(c, y, KAISER_NODES);
+        for (int m = 0; m < KAISER_NODES; m++)
+            ker->table[part][m][i] = c[m];
+    }
+}
+
+void
+ss_kaiser_prepare(kaiser *ker)
+{
+    for (int part = 0; part < KAISER_PARTS; part++)
+        prepare_part(ker, part);
+    ker->prepared = 1;
+}
+
+VERSIONS static void
+weights_of(const kaiser *ker, double f, double weight[])
+{
+    int part = (int)(f * KAISER_PARTS);
+    part = part < KAISER_PARTS ? part : KAISER_PARTS - 1;
+    double y = 2 * (f * KAISER_PARTS - part) - 1;
+    for (int i = 0; i < ker->taps; i++)
+        weight[i] = ker->table[part][KAISER_NODES - 1][i];
+    for (int m = KAISER_NODES - 2; m >= 0; m--)
+        for (int i = 0; i < ker->taps; i++)
+            weight[i] = weight[i] * y + ker->table[part][m][i];
+}
+
+void
+ss_kaiser_weights(const kaiser *ker, double f, double weight[])
+{
+    weights_of(ker, f, weight);
+}

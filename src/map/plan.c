@@ -1,0 +1,154 @@
+/* plan.c -- a plan: the grid of a record, and the engine of each scale. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include "base/error.h"
+#include "map/fft/blocks.h"
+#include "map/plan.h"
+
+enum { PART = 1 << 14 };        /* coefficients by the definition, computed at a time */
+
+static ss_status
+fill_plan(ss_morlet *plan, ss_error *err)
+{
+    ss_status st = ss_morlet_grid(&plan->scale, &plan->n_scales, plan->n, plan->rate, &plan->opts,
+                                  err);
+    ss_morlet_leave_rounding(&plan->opts);
+    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
+        plan->scale[i].offset = plan->total;
+        plan->total += plan->scale[i].n;
+        if (plan->total > SIZE_MAX / (2 * sizeof(double)))
+            st = SS_ENOMEM;
+    }
+    return st;
+}
+
+ss_status
+ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
+{
+    if (out == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_morlet_check(n, rate, opts, err);
+    if (st != SS_OK)
+        return st;
+    ss_morlet *plan = calloc(1, sizeof *plan);
+    if (plan == NULL)
+        return SS_ENOMEM;
+    *plan = (ss_morlet){ .opts = *opts, .n = n, .rate = rate };
+    st = fill_plan(plan, err);
+    if (st == SS_OK)
+        st = ss_blocks_new(plan);
+    if (st != SS_OK) {
+        ss_morlet_free(plan);
+        return st;
+    }
+    *out = plan;
+    return SS_OK;
+}
+
+size_t
+ss_morlet_scales(const ss_morlet *plan)
+{
+    return plan != NULL ? plan->n_scales : 0;
+}
+
+const ss_scale *
+ss_morlet_scale(const ss_morlet *plan, size_t i)
+{
+    return i < ss_morlet_scales(plan) ? &plan->scale[i] : NULL;
+}
+
+size_t
+ss_morlet_total(const ss_morlet *plan)
+{
+    return plan != NULL ? plan->total : 0;
+}
+
+ss_engine
+ss_morlet_engine(const ss_morlet *plan, size_t i)
+{
+    if (plan == NULL || i >= plan->n_scales)
+        return SS_ENGINE_AUTO;
+    return ss_blocks_covers(plan->blocks, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
+}
+
+void
+ss_morlet_free(ss_morlet *plan)
+{
+    if (plan == NULL)
+        return;
+    ss_blocks_free(plan->blocks);
+    free(plan->scale);
+    free(plan);
+}
+
+/* --- what execution needs ----------------------------------------------------------------------- */
+
+ss_status
+ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out)
+{
+    return plan->blocks != NULL
+        ? ss_blocks_forward(plan->blocks, rec, (size_t)plan->opts.threads, out) : SS_OK;
+}
+
+size_t
+ss_morlet_room(const ss_morlet *plan)
+{
+    return plan->blocks != NULL ? ss_blocks_room(plan->blocks) : 0;
+}
+
+ss_status
+ss_morlet_scratch(const ss_morlet *plan, double **scratch)
+{
+    size_t room = ss_morlet_room(plan);
+    *scratch = room > 0 ? ss_fft_doubles(room) : NULL;
+    return room > 0 && *scratch == NULL ? SS_ENOMEM : SS_OK;
+}
+
+ss_status
+ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
+               double *scratch, wavelet *wave, span part, double *most, double *w, ss_error *err)
+{
+    const ss_scale *scale = &plan->scale[i];
+    double factor = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a);
+    factor = ldexp(factor, rec->exponent);
+    int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
+    factor = fits ? factor : 1;
+    if (s != NULL && ss_blocks_covers(plan->blocks, i))
+        ss_blocks_scale(plan->blocks, i, s, scratch, part, factor, w);
+    else {
+        wavelet *own = wave == NULL ? ss_wavelet_new(&plan->opts, scale->a, plan->rate, plan->n)
+            : NULL;
+        if (wave == NULL && own == NULL)
+            return SS_ENOMEM;
+        ss_quadrature_scale(plan, scale, rec, wave != NULL ? wave : own, part, factor, most, w);
+        ss_wavelet_free(own);
+    }
+    return fits ? SS_OK
+        : ss_morlet_finish(w, part.n, scale->a, plan->opts.norm, rec->exponent, err);
+}
+
+size_t
+ss_morlet_part_length(const ss_morlet *plan, size_t i, size_t k)
+{
+    return ss_blocks_covers(plan->blocks, i) ? ss_blocks_rest(plan->blocks, i, k) : PART;
+}
+
+size_t
+ss_morlet_part_most(const ss_morlet *plan)
+{
+    size_t most = PART;
+    for (size_t i = 0; i < plan->n_scales; i++)
+        if (ss_blocks_covers(plan->blocks, i) && ss_blocks_most(plan->blocks, i) > most)
+            most = ss_blocks_most(plan->blocks, i);
+    return most;
+}
+
+ss_status
+ss_morlet_whole(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
+                double *scratch, double *w, ss_error *err)
+{
+    double most = 0;
+    return ss_morlet_part(plan, i, rec, s, scratch, NULL, (span){ 0, plan->scale[i].n }, &most, w,
+                          err);
+}

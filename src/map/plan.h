@@ -1,0 +1,145 @@
+/* plan.h -- declarations that the files of the wavelet transform share. */
+#ifndef PLAN_H
+#define PLAN_H
+
+#include <float.h>
+#include <stddef.h>
+#include <stickslip/morlet.h>
+#include "map/wavelet.h"
+
+/* The note of a stepped grid whose translations are fractions of samples: without it they are n B_0 a. */
+#define SS_LATTICE "b = n B, B the largest 2^p/m samples <= step a, m of 1 3 5 7 9 15 21 25 35 45"
+/* The names of all notes that describe coefficients, as ss_header_forget takes them. */
+extern const char *const ss_coefficient_notes[];
+/* The share of the promised 16 eps for the parts of the wavelet that are left out. */
+#define TAIL_FLOOR (4 * DBL_EPSILON)
+#define REACH 8.5                       /* exp(-REACH^2/2) = 2e-16 */
+
+enum { BLOCK_LEVELS = 48 };             /* of fft/blocks.c */
+
+struct ss_morlet {
+    ss_morlet_opts opts;
+    size_t n;               /* samples */
+    double rate;            /* [Hz] */
+    size_t n_scales;
+    ss_scale *scale;        /* long to short */
+    size_t total;           /* coefficients */
+    int window;             /* 1: for windows of a stream, of whose coefficients only those are
+                               asked for that lie REACH a and a unit within its ends */
+    struct blocks *blocks;  /* NULL: all by quadrature */
+};
+
+/* A copy of the samples, detrended, times the power of two that brings max|x| into [1/2, 1); or a
+ * window of a stream, zero outside. */
+typedef struct record {
+    size_t n;
+    double *x, x_max;       /* x_max >= max|x|; x is the caller's to free */
+    int exponent;           /* the samples are x 2^exponent */
+    ptrdiff_t origin;       /* x[0] is sample origin of the signal */
+} record;
+
+/* Translations first ... first + n - 1 of a scale. */
+typedef struct span {
+    size_t first, n;
+} span;
+
+/* The place of a coefficient: tau samples, |tau| <= 1/2, after sample c. */
+typedef struct spot {
+    double c, tau;
+} spot;
+
+/* How many of the samples come before the first that is not finite, and max|x| of those; the error
+ * that a sample is not, numbered from 1: SS_EINVAL. */
+size_t ss_morlet_finite(const double *x, size_t n, double *most);
+ss_status ss_morlet_not_finite(ss_error *err, size_t number, double x);
+
+/* Divide by 2^exponent samples of a signal whose largest is `most`.  Those below 2^-900 of it become 0,
+ * which is far below the error promised: their products with the wavelet would be subnormal, and some
+ * processors take 100 times as long to compute those. */
+void ss_morlet_divide(double *x, size_t n, int exponent, double most);
+
+/* SS_EINVAL if a sample is not finite. */
+ss_status ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend,
+                           ss_error *err);
+
+/* w, in units of a^1/2 and of the record, in the norm and the samples' own size. */
+ss_status ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent,
+                           ss_error *err);
+
+/* SS_OK if every option lies in its range and n samples at this rate are a record. */
+ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err);
+
+/* The scales of opts, long to short, to be freed.  n = 0: the length is not known, and
+ * translations are not counted. */
+ss_status ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
+                         const ss_morlet_opts *opts, ss_error *err);
+/* The part of the accuracy that rounding leaves, if there is any, once the grid is chosen. */
+void ss_morlet_leave_rounding(ss_morlet_opts *opts);
+/* The grid of a column's transform by plan, w being NULL; to be freed, failed or not. */
+ss_status ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
+                            const ss_morlet *plan, const ss_morlet_opts *opts);
+/* m, if translation k of a scale lies at sample k 2^p/m exactly, 2^p being b_num, else 0. */
+double ss_scale_parts(const ss_scale *scale, double rate);
+/* The place of translation k, and of time b [s] from the first sample. */
+spot ss_scale_spot(const ss_scale *scale, size_t k, double rate);
+spot ss_spot_of(double b, double rate);
+/* Translations up to time t >= 0. */
+size_t ss_scale_count(const ss_scale *scale, double t);
+
+/* Fill in scale j of the grid but for its offset; a NaN means 2^(j/V); n = 0: but for n, too.
+ * SS_EINVAL if its translations are too many to count. */
+ss_status ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
+                             const ss_morlet_opts *opts, ss_error *err);
+
+/* The wavelet of a scale at whole samples, for records of n samples at most; it may serve many
+ * records, one at a time.  NULL: no memory. */
+typedef struct wavelet wavelet;
+wavelet *ss_wavelet_new(const ss_morlet_opts *opts, double a, double rate, size_t n);
+size_t ss_wavelet_bytes(const ss_morlet_opts *opts, double a, double rate, size_t n);
+void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
+
+/* Coefficients of a scale, factor times those in units of a^1/2 and of the record.  *most is the
+ * largest |W| in these units of those computed before, which the accuracy counts by, too, and is
+ * raised.  Then about what n of them cost [s], without making the wavelet. */
+void ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
+                         wavelet *wave, span part, double factor, double *most, double *w);
+double ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n);
+/* The adjoint of a part's transform in units of a^1/2, times factor, to be added to the n samples x. */
+void ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave, span part,
+                           double factor, const double *w, double *x);
+
+/* The same at n translations k, by the definition, as exactly as double precision allows, for
+ * factor 1. */
+ss_status ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
+                               const size_t *k, size_t n, double *w);
+
+/* Of a record's windows from the first on, level by level; threads share them. */
+typedef struct spectra {
+    double *level[BLOCK_LEVELS];
+    size_t first;
+} spectra;
+
+double *ss_fft_doubles(size_t n);                      /* aligned; NULL: no memory */
+void ss_fft_scratch_free(double *scratch);              /* NULL is allowed */
+
+/* The spectra of a record for a plan; to be freed, forward failed or not.
+ * Then what one thread needs beside them, in doubles: NULL if nothing, else ss_fft_scratch_free's. */
+ss_status ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out);
+void ss_morlet_spectra_free(spectra *s);
+size_t ss_morlet_room(const ss_morlet *plan);
+ss_status ss_morlet_scratch(const ss_morlet *plan, double **scratch);
+
+/* A part of scale i, in the norm and the samples' own size: by its engine, or by the definition if
+ * s is NULL.  scratch has ss_morlet_room; wave may be NULL; *most as above. */
+ss_status ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
+                         double *scratch, wavelet *wave, span part, double *most, double *w,
+                         ss_error *err);
+/* The length of a part from translation k on of which no work is done again for the next, at most as many
+ * as the second returns. */
+size_t ss_morlet_part_length(const ss_morlet *plan, size_t i, size_t k);
+size_t ss_morlet_part_most(const ss_morlet *plan);
+/* The whole of scale i. */
+ss_status ss_morlet_whole(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
+                          double *scratch, double *w, ss_error *err);
+
+#endif
