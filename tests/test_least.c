@@ -1,0 +1,194 @@
+/* The one least squares of all fits, against certified values, closed forms and models that fail. */
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <string.h>
+#include "base/least.h"
+#include "unit.h"
+
+/* Misra1a of the Statistical Reference Datasets (NIST, 1978): y = b1 (1 - exp(-b2 x)). */
+static const double misra_y[] = { 10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01,
+                                  66.40, 75.47, 81.78 };
+static const double misra_x[] = { 77.6, 114.9, 141.1, 190.8, 239.9, 289.0, 332.8, 378.4, 434.8, 477.3, 536.8,
+                                  593.1, 689.1, 760.0 };
+enum { MISRA = sizeof misra_x / sizeof *misra_x };
+
+static void
+near_to(double x, double truth, double tol)
+{
+    if (!(fabs(x - truth) <= tol))
+        fail_msg("%.15g, not %.15g +- %.1e", x, truth, tol);
+}
+
+typedef struct counted {
+    int runs;
+} counted;
+
+static ss_status
+misra(const double *u, double *residual, double *slopes, void *user)
+{
+    counted *c = user;
+    c->runs += residual != NULL;
+    for (size_t i = 0; i < MISRA; i++) {
+        double e = exp(-u[1] * misra_x[i]);
+        if (residual != NULL)
+            residual[i] = u[0] * (1 - e) - misra_y[i];
+        if (slopes != NULL) {
+            slopes[2 * i] = 1 - e;
+            slopes[2 * i + 1] = u[0] * misra_x[i] * e;
+        }
+    }
+    return SS_OK;
+}
+
+static void
+finds_the_certified_values(void **state)
+{
+    static const double step[] = { 1e-4, 1e-10 }, from[][2] = { { 500, 1e-4 }, { 250, 5e-4 } };
+    static const double value[] = { 2.3894212918e+02, 5.5015643181e-04 };
+    static const double error[] = { 2.7070075241e+00, 7.2668688436e-06 };
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        counted c = { 0 };
+        least fit = { .rows = MISRA, .unknowns = 2, .model = misra, .user = &c, .steps = 200, .tol = 1e-9,
+                      .difference = i / 2 == 0 ? NULL : step, .costly = i / 2 == 2 };
+        double u[2] = { from[i % 2][0], from[i % 2][1] }, covariance[4], residual[MISRA], squares = 0;
+        least_end end;
+        assert_int_equal(ss_least_fit(&end, &fit, u, residual, covariance), SS_OK);
+        assert_true(end.converged);
+        near_to(end.squares, 1.2455138894e-01, 1e-10);
+        for (size_t k = 0; k < MISRA; k++)
+            squares += residual[k] * residual[k];
+        near_to(squares, end.squares, 1e-12);
+        for (size_t k = 0; k < 2; k++) {
+            near_to(u[k], value[k], 1e-6 * value[k]);
+            double deviation = sqrt(end.squares / (MISRA - 2) * covariance[3 * k]);
+            near_to(deviation, error[k], 1e-4 * error[k]);
+        }
+    }
+}
+
+/* Old slopes cost less runs than those by differences at each step. */
+static void
+keeps_slopes_that_are_good(void **state)
+{
+    static const double step[] = { 1e-4, 1e-10 };
+    int runs[2];
+    (void)state;
+    for (int costly = 0; costly < 2; costly++) {
+        counted c = { 0 };
+        least fit = { .rows = MISRA, .unknowns = 2, .model = misra, .user = &c, .steps = 200, .tol = 1e-7,
+                      .difference = step, .costly = costly };
+        double u[2] = { 250, 5e-4 };
+        least_end end;
+        assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_OK);
+        assert_true(end.converged);
+        runs[costly] = c.runs;
+    }
+    assert_true(runs[1] <= runs[0]);
+}
+
+/* (u0 - 1), (u1 - 2), and nothing of u2. */
+static ss_status
+line(const double *u, double *residual, double *slopes, void *user)
+{
+    const double most = user != NULL ? *(double *)user : INFINITY;
+    if (u[0] > most)
+        return SS_EDATA;
+    for (int i = 0; residual != NULL && i < 3; i++)
+        residual[i] = i < 2 ? u[i] - 1 - i : 0.5;
+    if (slopes != NULL) {
+        memset(slopes, 0, 9 * sizeof *slopes);
+        slopes[0] = slopes[4] = 1;
+    }
+    return SS_OK;
+}
+
+static void
+keeps_to_the_ranges(void **state)
+{
+    const ss_range range[] = { { -5, 0.25 }, { 3, 3 }, { -INFINITY, INFINITY } };
+    least fit = { .rows = 3, .unknowns = 3, .model = line, .steps = 100, .tol = 1e-9, .range = range };
+    double u[3] = { -5, 3, 7 }, covariance[9];
+    least_end end;
+    (void)state;
+    assert_int_equal(ss_least_fit(&end, &fit, u, NULL, covariance), SS_OK);
+    assert_true(end.converged);
+    near_to(u[0], 0.25, 1e-6);
+    assert_true(u[0] <= 0.25);
+    assert_true(u[1] == 3 && covariance[4] == 0);
+    near_to(covariance[0], 1, 1e-12);
+    assert_true(isinf(covariance[8]));          /* nothing shows it */
+}
+
+static void
+goes_round_where_there_is_no_model(void **state)
+{
+    double most = 0.5;
+    least fit = { .rows = 3, .unknowns = 3, .model = line, .user = &most, .steps = 100, .tol = 1e-9 };
+    double u[3] = { -1, 0, 0 };
+    least_end end;
+    (void)state;
+    assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_OK);
+    assert_true(u[0] <= 0.5 && u[0] > 0);
+    u[0] = 0.75;
+    assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_OK);
+    assert_false(end.converged);
+    assert_string_equal(end.why, "there is no model where it starts");
+    assert_true(u[0] == 0.75);
+}
+
+static ss_status
+stopping(const double *u, double *residual, double *slopes, void *user)
+{
+    int *left = user;
+    return (*left)-- > 0 ? line(u, residual, slopes, NULL) : SS_STOP;
+}
+
+static void
+hands_back_what_the_model_says(void **state)
+{
+    (void)state;
+    for (int runs = 0; runs < 4; runs++) {
+        int left = runs;
+        least fit = { .rows = 3, .unknowns = 3, .model = stopping, .user = &left, .steps = 100, .tol = 1e-9 };
+        double u[3] = { 9, 9, 9 };
+        least_end end;
+        assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_STOP);
+    }
+}
+
+static void
+solves_what_is_linear(void **state)
+{
+    static const double x[] = { 1, 0, 0, 1, 1, 1, 1, 2, 2, 1, 3, 3 };       /* the last two columns are one */
+    static const double y[] = { 1, 3, 5, 7 };
+    double c[3], squares, covariance[9], columns[8];
+    (void)state;
+    for (size_t i = 0; i < 4; i++)
+        columns[2 * i] = x[3 * i], columns[2 * i + 1] = x[3 * i + 1];
+    assert_int_equal(ss_least_linear(columns, y, 4, 2, c, &squares, covariance), SS_OK);
+    near_to(c[0], 1, 1e-13);
+    near_to(c[1], 2, 1e-13);
+    near_to(squares, 0, 1e-25);
+    near_to(covariance[0], 0.7, 1e-13);
+    near_to(covariance[1], -0.3, 1e-13);
+    near_to(covariance[3], 0.2, 1e-13);
+    assert_int_equal(ss_least_linear(x, y, 4, 3, c, &squares, NULL), SS_OK);
+    near_to(c[1] + c[2], 2, 1e-12);
+    near_to(squares, 0, 1e-25);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finds_the_certified_values),
+        cmocka_unit_test(keeps_slopes_that_are_good),
+        cmocka_unit_test(keeps_to_the_ranges),
+        cmocka_unit_test(goes_round_where_there_is_no_model),
+        cmocka_unit_test(hands_back_what_the_model_says),
+        cmocka_unit_test(solves_what_is_linear),
+    };
+    gsl_set_error_handler_off();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
