@@ -9,7 +9,7 @@
 #include "scene/model.h"
 #include "fit/samples.h"
 
-enum { LONGEST = 1000000 };     /* integration steps of a run */
+#define FINE 1e-10              /* tolerance */
 #define SHORT 0.1               /* of the time of loading 2 (f_s - f_k), and of a period of k/m: no stick
                                    before a fall is shorter than both, but those of a contact that rings */
 enum { SETTLED = 2, SETTLED_CONTACT = 4 };      /* the fall that is settled: a contact may ring for long */
@@ -32,12 +32,6 @@ wait_for_fall(const ss_event *e, void *user)
     return 0;
 }
 
-static ss_sim_opts
-options_of(const ss_scene *s)
-{
-    return (ss_sim_opts){ .method = ss_model_is_linear(s->model) ? "exact" : NULL, .tol = 1e-10 };
-}
-
 /* A run that is stopped, or fails, has an outcome; one without memory has none. */
 static void
 note_memory(ss_status *status, ss_status st)
@@ -55,10 +49,9 @@ ss_fall_find(const ss_scene *scene, double *steps, ss_status *status)
     waiting w = { 0, SHORT * fmin(2 * half / loading, 2 * M_PI / own_frequency(scene)), NAN, 0,
                   ss_model_of(scene)->has_contact ? SETTLED_CONTACT : SETTLED };
     ss_sim_stats stats = { .steps = 0 };
-    ss_sim_opts opts = options_of(&s);
+    ss_sim_opts opts = ss_samples_opts(&s, FINE);
     opts.events = wait_for_fall;
     opts.user = &w;
-    opts.max_steps = LONGEST;
     s.settle = 0;
     s.duration = 2 * s.static_friction / loading
                  + PATIENCE * (2 * half / loading + 2 * M_PI / own_frequency(&s));
@@ -89,7 +82,7 @@ ss_fall_sample(double *y, const ss_scene *scene, double time, double onset, cons
     ss_scene s = *scene;
     sampled t = { y, pull_of(scene) > 0 ? 1 : -1, 0, w->n };
     ss_sim_stats stats = { .steps = 0 };
-    ss_sim_opts opts = options_of(&s);
+    ss_sim_opts opts = ss_samples_opts(&s, FINE);
     opts.samples = append_samples;
     opts.user = &t;
     s.settle = time - (onset - (double)w->first) / rate;

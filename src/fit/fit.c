@@ -224,7 +224,9 @@ static ss_status
 find_longest_stick(double *periods, const ss_scene *scene)
 {
     sticks found = { NAN, 0 };
-    ss_sim_opts opts = { .method = "exact", .tol = 1e-9, .events = time_stick, .user = &found };
+    ss_sim_opts opts = ss_samples_opts(scene, SAMPLES_FINE);
+    opts.events = time_stick;
+    opts.user = &found;
     ss_status st = ss_sim_run(scene, &opts, NULL, NULL);
     double stiffness = scene->stiffness + scene->contact_stiffness;
     *periods = found.longest * sqrt(stiffness / scene->mass) / (2 * M_PI);

@@ -17,6 +17,7 @@
 #include <stickslip/sim.h>
 #include "scene/model.h"
 #include "fit/descent.h"
+#include "fit/samples.h"
 
 enum { LAGS = 32 };
 enum { LOOKED_AT = 128 };               /* samples of half a cycle, to find the fastest slip */
@@ -88,8 +89,9 @@ free_start(descent *w, double cycles, descent_point *at, double power)
     ss_sample fastest = { .v = 0 };
     ss_scene s = ss_descent_scene(w, at->p);
     double period = 1 / s.base_frequency;
-    ss_sim_opts opts = { .method = w->c->model->linear ? "exact" : "rkck", .tol = 1e-7,
-                         .max_steps = 1000000, .samples = find_fastest, .user = &fastest };
+    ss_sim_opts opts = ss_samples_opts(&s, SAMPLES_FINE);
+    opts.samples = find_fastest;
+    opts.user = &fastest;
     if (w->c->model->dim > 2) {         /* from rest, once */
         int is_free = w->o.x_unit > 0;
         w->o.x_unit = s.base_amplitude;
