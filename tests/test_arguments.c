@@ -228,7 +228,7 @@ simulations_refuse_null(void **state)
     ss_sim_row(&columns, NULL, &row);
     ss_sim_row(&columns, &sample, NULL);
     assert_true(row == 7);
-    assert_null(ss_sim_method_for(NULL));
+    assert_null(ss_sim_method_for(NULL, NULL));
     assert_null(ss_sim_method_name(SIZE_MAX));
     assert_refused(ss_trade_measure(NULL, &scene, NULL, &e), &e);
     assert_refused(ss_trade_measure(&trade, NULL, NULL, &e), &e);
@@ -408,7 +408,7 @@ sweeps_refuse_null(void **state)
     assert_refused(ss_steady_find(NULL, &scene, &ss_steady_defaults, &e), &e);
     assert_refused(ss_steady_find(&steady, NULL, &ss_steady_defaults, &e), &e);
     assert_refused(ss_steady_find(&steady, &scene, NULL, &e), &e);
-    assert_refused(ss_steady_check(NULL, SS_COULOMB, &e), &e);
+    assert_refused(ss_steady_check(NULL, &scene, &e), &e);
     assert_refused(ss_sweep_points(NULL, &n, &e), &e);
     assert_refused(ss_sweep_points(&opts, NULL, &e), &e);
     assert_refused(ss_sweep_points(&no_axis, &n, &e), &e);
@@ -687,8 +687,8 @@ refuses_what_is_no_known_choice(void **state)
         assert_int_equal(ss_scene_write(&copy, in), SS_EINVAL);
         assert_null(ss_scene_number(&copy, "mass", NULL, NULL));
         assert_int_equal(ss_scene_supported(&copy, NULL), SS_EINVAL);
-        assert_null(ss_sim_method_for(&copy));
-        assert_int_equal(ss_steady_check(&ss_steady_defaults, (ss_model)k, NULL), SS_EINVAL);
+        assert_null(ss_sim_method_for(&copy, NULL));
+        assert_int_equal(ss_steady_check(&ss_steady_defaults, &copy, NULL), SS_EINVAL);
         assert_int_equal(ss_morlet_new(&plan, 64, 1, &norm, NULL), SS_EINVAL);
         assert_int_equal(ss_morlet_new(&plan, 64, 1, &detrend, NULL), SS_EINVAL);
         assert_int_equal(ss_morlet_new(&plan, 64, 1, &engine, NULL), SS_EINVAL);

@@ -68,7 +68,7 @@ trial_of(uint64_t number)
     ss_error err = { 0 };
     if (ss_scene_check(&t.scene, &err) != SS_OK || ss_scene_supported(&t.scene, &err) != SS_OK)
         complain(t.number, &t.scene, err.text, 0, 0);
-    t.method = t.scene.model == SS_STATE_VARIABLE ? ss_sim_method_for(&t.scene) : "exact";
+    t.method = t.scene.model == SS_STATE_VARIABLE ? ss_sim_method_for(&t.scene, NULL) : "exact";
     t.run = run_alike(&t, &t.scene, 1e-12);
     demand(&t, t.run.err.text, t.run.status, SS_OK);
     ss_scene nudged = t.scene;

@@ -187,9 +187,9 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         return;
     }
     if (opts->method == NULL) {
-        opts->method = ss_sim_method_for(scene);
-        tool_note("method %s: %s", opts->method, strcmp(opts->method, "bsimp") != 0 ? "the default"
-                  : "implicit, as the friction of this scene is stiff");
+        const char *why;
+        opts->method = ss_sim_method_for(scene, &why);
+        tool_note("method %s: %s", opts->method, why);
     }
     if (opts->tol == 0)
         opts->tol = ss_sim_defaults.tol;

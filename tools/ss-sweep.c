@@ -83,14 +83,14 @@ set_measures(const tool_option *o, char *names)
 
 /* Pick the usual measures that the model has. */
 static void
-pick_usual(request *req, ss_model model)
+pick_usual(request *req, const ss_scene *scene)
 {
     static const ss_measure usual[] = { SS_STOPS, SS_STICK_FRACTION, SS_AMPLITUDE, SS_V_MAX,
                                         SS_A_MAX, SS_ENERGY, SS_PERIOD };
     for (size_t i = 0; i < sizeof usual / sizeof *usual; i++) {
         ss_steady_opts has = ss_steady_defaults;
         has.measures = 1u << usual[i];
-        if (ss_steady_check(&has, model, NULL) == SS_OK)
+        if (ss_steady_check(&has, scene, NULL) == SS_OK)
             pick_measure(req, ss_measure_name(usual[i]), strlen(ss_measure_name(usual[i])));
     }
 }
@@ -293,7 +293,7 @@ main(int argc, char *argv[])
     check_settings(&req);
     ss_scene scene = read_scene(&req);
     if (req.n_picks == 0)
-        pick_usual(&req, scene.model);
+        pick_usual(&req, &scene);
     req.opts.axis = req.axis;
     req.opts.user = req.opts.progress.user = &req;
     if (ss_sweep_check(&scene, &req.opts, &err) != SS_OK)

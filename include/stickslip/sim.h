@@ -70,8 +70,8 @@ const char *ss_event_kind_name(ss_event_kind kind);     /* "stick", "slip", "rev
 const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL after the last */
 /* The method for a scene that has passed ss_scene_check: bsimp, an implicit method, if the scene
  * is so stiff that this costs least; else taylor, if the model is not linear and has a Taylor
- * series; else rk8pd. */
-const char *ss_sim_method_for(const ss_scene *scene);
+ * series; else rk8pd.  *why, unless why is NULL, becomes the reason in words. */
+const char *ss_sim_method_for(const ss_scene *scene, const char **why);
 
 /* --- as text ------------------------------------------------------------------------------- */
 

@@ -118,8 +118,8 @@ typedef struct ss_steady {
  * are no cycles.  With any other error, which is one of ss_sim_run, no measure is known. */
 ss_status ss_steady_find(ss_steady *steady, const ss_scene *scene, const ss_steady_opts *opts,
                          ss_error *err);
-/* SS_EINVAL if this is impossible for the model: it lacks a measure, or an option is out of its range. */
-ss_status ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err);
+/* SS_EINVAL if this is impossible for the scene: it lacks a measure, or an option is out of its range. */
+ss_status ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err);
 
 /* --- a grid ----------------------------------------------------------------------------------- */
 

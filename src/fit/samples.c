@@ -2,7 +2,7 @@
 #include "fit/samples.h"
 
 #include <math.h>
-#include "scene/model.h"
+#include "motion/method.h"
 
 enum { STEPS_MOST = 1000000 };          /* of one run */
 
@@ -35,7 +35,7 @@ clear_event(const ss_event *e, void *user)
 ss_sim_opts
 ss_samples_opts(const ss_scene *scene, double tol)
 {
-    return (ss_sim_opts){ .method = ss_model_of(scene)->linear ? "exact" : NULL, .tol = tol,
+    return (ss_sim_opts){ .method = ss_method_for(scene, BEST)->name, .tol = tol,
                           .max_steps = STEPS_MOST };
 }
 

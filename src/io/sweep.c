@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "io/input.h"
 #include "io/rows.h"
+#include "motion/method.h"
 
 /* 1 if this key is varied, or is not about the motion but about its record. */
 static int
@@ -50,7 +51,7 @@ write_axis(struct rows *rows, const ss_axis *axis)
 }
 
 static void
-write_options(struct rows *rows, const ss_steady_opts *s, ss_model model)
+write_options(struct rows *rows, const ss_steady_opts *s, const ss_scene *scene)
 {
     static const char *const search[] = { "simulation, then shooting", "simulation", "shooting" };
     char tol[SS_NUMBER_MAX];
@@ -64,8 +65,7 @@ write_options(struct rows *rows, const ss_steady_opts *s, ss_model model)
         ss_rows_note(rows, "strobe: %d", s->strobe);
     ss_rows_note(rows, "max_steps: %lu", s->max_steps);
     ss_rows_note(rows, "search: %s", (unsigned)s->search < 3 ? search[s->search] : "");
-    ss_rows_note(rows, "method: %s", s->method != NULL ? s->method
-                 : ss_model_is_linear(model) ? "exact" : "taylor, bsimp where stiff");
+    ss_rows_note(rows, "method: %s", s->method != NULL ? s->method : ss_method_best_names(scene));
 }
 
 static ss_status
@@ -118,7 +118,7 @@ ss_sweep_header(char **out, const ss_sweep_text *sweep)
     if (st == SS_OK) {
         for (size_t i = 0; i < sweep->opts->n_axes; i++)
             write_axis(&rows, &sweep->opts->axis[i]);
-        write_options(&rows, &sweep->opts->steady, sweep->scene->model);
+        write_options(&rows, &sweep->opts->steady, sweep->scene);
         st = write_columns(&rows, sweep);
     }
     int whole = !ferror(text);

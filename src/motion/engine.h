@@ -59,18 +59,12 @@ struct engine {
     unsigned long steps, rhs, events;
 };
 
-#define EXACT "exact"                       /* the name of the method in closed form */
-#define TAYLOR "taylor"
-/* Make the engine of a method, for the motion in its present state. */
-ss_status ss_engine_new(engine **out, motion *m, const char *method, double tol, ss_error *err);
-void ss_engine_free(engine *e);                     /* NULL is allowed */
-
-const char *ss_ode_method_name(size_t i);   /* NULL after the last */
-ss_status ss_ode_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
-ss_status ss_taylor_new(engine **out, motion *m, double tol, ss_error *err);
-int ss_exact_applies(const ss_scene *scene);        /* 1: the scene has a closed form */
-ss_status ss_exact_check(const ss_scene *scene, ss_error *err);
+/* Make the engine of a method that can move the scene, for the motion in its present state.  name is that
+ * of a GSL stepper; in taylor.c it serves messages. */
+ss_status ss_ode_new(engine **out, motion *m, const char *name, int multistep, double tol, ss_error *err);
+ss_status ss_taylor_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
+void ss_engine_free(engine *e);                     /* NULL is allowed */
 
 /* The motion has entered a mode. */
 void ss_engine_begin(engine *e);

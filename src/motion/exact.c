@@ -320,29 +320,9 @@ static const struct engine_type exact_type = {
     .response = exact_response, .go_on = exact_go_on
 };
 
-int
-ss_exact_applies(const ss_scene *scene)
-{
-    return ss_model_of(scene)->linear && scene->base == NULL;
-}
-
-ss_status
-ss_exact_check(const ss_scene *scene, ss_error *err)
-{
-    const struct model *model = ss_model_of(scene);
-    if (ss_exact_applies(scene))
-        return SS_OK;
-    if (model->linear)
-        return ss_fail(err, SS_EINVAL, "method " EXACT ": a measured base has no closed form");
-    return ss_fail(err, SS_EINVAL, "method " EXACT ": the %s model has no closed form", model->name);
-}
-
 ss_status
 ss_exact_new(engine **out, motion *m, ss_error *err)
 {
-    ss_status st = ss_exact_check(m->now.scene, err);
-    if (st != SS_OK)
-        return st;
     exact *x = calloc(1, sizeof *x);
     if (x == NULL)
         return ss_fail_memory(err, NULL);

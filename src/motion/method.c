@@ -1,28 +1,134 @@
-/* method.c -- find a method by its name, and choose one for a scene. */
+/* method.c -- all methods, and the choice of one for a scene.  No other file names a method. */
+#include "motion/method.h"
+
 #include <string.h>
-#include "motion/engine.h"
+#include "base/error.h"
+
+enum { EXACT, TAYLOR, RK8PD, RKF45, RKCK, RK4, RK2, RK1IMP, RK2IMP, RK4IMP, BSIMP, MSADAMS, MSBDF, METHODS };
+
+static const struct method list[METHODS] = {
+    [EXACT] = { "exact", CLOSED_FORM, 0, 0 },
+    [TAYLOR] = { "taylor", SERIES, 0.4, 12 },
+    [RK8PD] = { "rk8pd", ONE_STEP, 1, 13 },
+    [RKF45] = { "rkf45", ONE_STEP, 1.1, 6 },
+    [RKCK] = { "rkck", ONE_STEP, 1.1, 6 },
+    [RK4] = { "rk4", ONE_STEP, 1, 11 },
+    [RK2] = { "rk2", ONE_STEP, 1.2, 3 },
+    [RK1IMP] = { "rk1imp", ONE_STEP, 3.5, 9 },
+    [RK2IMP] = { "rk2imp", ONE_STEP, 3.5, 9 },
+    [RK4IMP] = { "rk4imp", ONE_STEP, 3.3, 17 },
+    [BSIMP] = { "bsimp", ONE_STEP, 3, 50 },
+    [MSADAMS] = { "msadams", MULTISTEP, 4.6, 3 },
+    [MSBDF] = { "msbdf", MULTISTEP, 6.4, 3 },
+};
+
+const struct method *
+ss_method_at(size_t i)
+{
+    return i < METHODS ? &list[i] : NULL;
+}
+
+int
+ss_method_follows(const struct method *how)
+{
+    return how->kind == CLOSED_FORM || how->kind == SERIES;
+}
+
+const char *
+ss_method_follower_names(void)
+{
+    return "exact or taylor";
+}
+
+/* --- choice -------------------------------------------------------------------------------- */
+
+static int
+has_closed_form(const ss_scene *scene)
+{
+    return ss_model_of(scene)->linear && scene->base == NULL;
+}
+
+static int
+is_stiff(const ss_scene *scene)
+{
+    const struct model *model = ss_model_of(scene);
+    return model->stiff != NULL && model->stiff(scene);
+}
+
+const struct method *
+ss_method_for(const ss_scene *scene, wish wanted)
+{
+    const struct model *model = ss_model_of(scene);
+    if (wanted == BEST && has_closed_form(scene))
+        return &list[EXACT];
+    if (is_stiff(scene))
+        return &list[BSIMP];
+    return &list[!model->linear && model->series != NULL ? TAYLOR : RK8PD];
+}
+
+const char *
+ss_method_best_names(const ss_scene *scene)
+{
+    return has_closed_form(scene) ? "exact" : "taylor, bsimp where stiff";
+}
+
+int
+ss_method_pair(const ss_scene *scene, int pair, const char *name[2])
+{
+    const struct method *first = ss_method_for(scene, pair == 0 ? BEST : USUAL);
+    int closed = has_closed_form(scene), m = closed && pair == 1 ? TAYLOR : (int)(first - list);
+    name[0] = list[m].name;
+    name[1] = list[m == EXACT ? TAYLOR : m == TAYLOR ? RK8PD : m == RK8PD ? RKCK : MSBDF].name;
+    return pair <= closed;
+}
+
+/* --- use ----------------------------------------------------------------------------------- */
+
+ss_status
+ss_method_named(const struct method **how, const char *name, const ss_scene *scene, ss_error *err)
+{
+    const struct model *model = ss_model_of(scene);
+    size_t i = 0;
+    while (i < METHODS && strcmp(list[i].name, name) != 0)
+        i++;
+    if (i == METHODS)
+        return ss_fail(err, SS_EINVAL, "unknown method '%.32s'", name);
+    method_kind kind = list[i].kind;
+    const char *lacks = kind == CLOSED_FORM && !model->linear ? "closed form"
+        : kind == SERIES && model->series == NULL ? "series" : NULL;
+    if (lacks != NULL)
+        return ss_fail(err, SS_EINVAL, "method %s: the %s model has no %s", name, model->name, lacks);
+    if (kind == CLOSED_FORM && scene->base != NULL)
+        return ss_fail(err, SS_EINVAL, "method %s: a measured base has no closed form", name);
+    if (kind == MULTISTEP && model->guard != NULL && model->derivatives == NULL)
+        return ss_fail(err, SS_EINVAL, "method %s does not repeat a step, by which alone events of "
+                       "the %s model are found", name, model->name);
+    *how = &list[i];
+    return SS_OK;
+}
+
+ss_status
+ss_engine_new(engine **out, motion *m, const struct method *how, double tol, ss_error *err)
+{
+    switch (how->kind) {
+    case CLOSED_FORM: return ss_exact_new(out, m, err);
+    case SERIES:      return ss_taylor_new(out, m, how->name, tol, err);
+    default:          return ss_ode_new(out, m, how->name, how->kind == MULTISTEP, tol, err);
+    }
+}
 
 const char *
 ss_sim_method_name(size_t i)
 {
-    return i == 0 ? EXACT : i == 1 ? TAYLOR : ss_ode_method_name(i - 2);
+    return i < METHODS ? list[i].name : NULL;
 }
 
 const char *
-ss_sim_method_for(const ss_scene *scene)
+ss_sim_method_for(const ss_scene *scene, const char **why)
 {
-    const struct model *model = scene != NULL ? ss_model_of(scene) : NULL;
-    if (model == NULL)
+    if (scene == NULL || ss_model_of(scene) == NULL)
         return NULL;
-    if (model->stiff != NULL && model->stiff(scene))
-        return "bsimp";
-    return !model->linear && model->series != NULL ? TAYLOR : "rk8pd";
-}
-
-ss_status
-ss_engine_new(engine **out, motion *m, const char *method, double tol, ss_error *err)
-{
-    return strcmp(method, EXACT) == 0 ? ss_exact_new(out, m, err)
-        : strcmp(method, TAYLOR) == 0 ? ss_taylor_new(out, m, tol, err)
-        : ss_ode_new(out, m, method, tol, err);
+    if (why != NULL)
+        *why = is_stiff(scene) ? "implicit, as the friction of this scene is stiff" : "the default";
+    return ss_method_for(scene, USUAL)->name;
 }

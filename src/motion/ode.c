@@ -301,29 +301,14 @@ static const struct engine_type ode_type = {
     .release = ode_release
 };
 
-/* GSL's methods.  The linker knows their addresses only at run time, so this is a table of pointers to
- * them. */
-static const struct { const char *name; const gsl_odeiv2_step_type **type; int multistep; }
-method[] = {
-    { "rk8pd", &gsl_odeiv2_step_rk8pd, 0 },
-    { "rkf45", &gsl_odeiv2_step_rkf45, 0 },
-    { "rkck", &gsl_odeiv2_step_rkck, 0 },
-    { "rk4", &gsl_odeiv2_step_rk4, 0 },
-    { "rk2", &gsl_odeiv2_step_rk2, 0 },
-    { "rk1imp", &gsl_odeiv2_step_rk1imp, 0 },
-    { "rk2imp", &gsl_odeiv2_step_rk2imp, 0 },
-    { "rk4imp", &gsl_odeiv2_step_rk4imp, 0 },
-    { "bsimp", &gsl_odeiv2_step_bsimp, 0 },
-    { "msadams", &gsl_odeiv2_step_msadams, 1 },
-    { "msbdf", &gsl_odeiv2_step_msbdf, 1 },
+/* GSL's methods, which know their names.  The linker knows their addresses only at run time, so this is a
+ * table of pointers to them. */
+static const gsl_odeiv2_step_type **const steppers[] = {
+    &gsl_odeiv2_step_rk8pd, &gsl_odeiv2_step_rkf45, &gsl_odeiv2_step_rkck, &gsl_odeiv2_step_rk4,
+    &gsl_odeiv2_step_rk2, &gsl_odeiv2_step_rk1imp, &gsl_odeiv2_step_rk2imp, &gsl_odeiv2_step_rk4imp,
+    &gsl_odeiv2_step_bsimp, &gsl_odeiv2_step_msadams, &gsl_odeiv2_step_msbdf,
 };
-enum { METHODS = sizeof method / sizeof *method };
-
-const char *
-ss_ode_method_name(size_t i)
-{
-    return i < METHODS ? method[i].name : NULL;
-}
+enum { STEPPERS = sizeof steppers / sizeof *steppers };
 
 static void
 set_zeros(ode *o)
@@ -338,18 +323,16 @@ set_zeros(ode *o)
 }
 
 ss_status
-ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err)
+ss_ode_new(engine **out, motion *of, const char *name, int multistep, double tol, ss_error *err)
 {
     const state *m = &of->now;
     size_t i = 0;
     double scale[MAX_DIM];
-    while (i < METHODS && strcmp(name, method[i].name) != 0)
+    while (i < STEPPERS && strcmp(name, (*steppers[i])->name) != 0)
         i++;
-    if (i == METHODS)
-        return ss_fail(err, SS_EINVAL, "unknown method '%.32s'", name);
-    if (method[i].multistep && m->model->guard != NULL && m->model->derivatives == NULL)
-        return ss_fail(err, SS_EINVAL, "method %s does not repeat a step, by which alone events of "
-                       "the %s model are found", name, m->model->name);
+    if (i == STEPPERS)
+        return ss_fail(err, SS_EINVAL, "GSL has no stepper '%s'", name);
+    const gsl_odeiv2_step_type *type = *steppers[i];
     ss_status st = ss_motion_scales(m, tol, scale, err);
     if (st != SS_OK)
         return st;
@@ -357,22 +340,22 @@ ss_ode_new(engine **out, motion *of, const char *name, double tol, ss_error *err
     if (o == NULL)
         return ss_fail_memory(err, NULL);
     o->base = (engine){ .type = &ode_type, .m = of,
-                        .lands_on_samples = method[i].multistep && m->model->guard == NULL };
+                        .lands_on_samples = multistep && m->model->guard == NULL };
     o->system = (gsl_odeiv2_system){ m->moves ? rhs_with_pull : rhs, jacobian, m->model->dim, o };
-    o->multistep = method[i].multistep;
+    o->multistep = multistep;
     o->tol = tol;
     o->h_next = fmax(ss_step_cap(m), ss_step_floor(m));
     for (size_t k = 0; k < m->model->dim; k++) {
         o->unit[k] = ldexp(1, ilogb(scale[k]));
         scale[k] /= o->unit[k];
     }
-    if (*method[i].type == gsl_odeiv2_step_bsimp && m->x_scale > 0 && !m->model->linear)
+    if (type == gsl_odeiv2_step_bsimp && m->x_scale > 0 && !m->model->linear)
         set_zeros(o);
-    o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, *method[i].type, o->h_next,
+    o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, type, o->h_next,
                                                    tol, tol, 1, 0, scale);
-    int sides = m->model->derivatives == NULL && !o->multistep;
+    int sides = m->model->derivatives == NULL && !multistep;
     if (sides)
-        o->side = gsl_odeiv2_step_alloc(*method[i].type, m->model->dim);
+        o->side = gsl_odeiv2_step_alloc(type, m->model->dim);
     if (o->driver == NULL || (sides && o->side == NULL)
         || (sides && gsl_odeiv2_step_set_driver(o->side, o->driver) != GSL_SUCCESS)) {
         ss_engine_free(&o->base);

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/range.h"
-#include "motion/engine.h"
+#include "motion/method.h"
 
 const ss_range ss_sim_tolerances = { 1e-14, 0.1 };
 const ss_sim_opts ss_sim_defaults = { .method = NULL, .tol = 1e-12 };
@@ -347,9 +347,14 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
 {
     if (scene == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
+    const struct method *how = NULL;
     ss_status st = ss_record_check(scene, err);
     if (st == SS_OK)
         st = ss_range_check(opts->tol, ss_sim_tolerances, "tolerance", err);
+    if (st == SS_OK && opts->method != NULL)
+        st = ss_method_named(&how, opts->method, scene, err);
+    else if (st == SS_OK)
+        how = ss_method_for(scene, USUAL);
     if (st != SS_OK)
         return st;
     ss_sample buffer[BUFFERED];
@@ -358,15 +363,14 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, 
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate, .work = work_allowed(scene),
                  .base_further = base_turns(scene) };
-    const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
-    int exact = strcmp(method, EXACT) == 0;
+    int exact = how->kind == CLOSED_FORM;
     motion m = ss_motion_of(scene, exact, opts->tol);
     engine *e = NULL;
     int slips = ss_motion_start(&m);
     st = check_length(&r, &m.now, exact, err);
     if (st != SS_OK)
         return st;
-    st = ss_engine_new(&e, &m, method, opts->tol, err);
+    st = ss_engine_new(&e, &m, how, opts->tol, err);
     if (st == SS_OK)
         st = begin(&r, e, slips);
     if (st == SS_OK)

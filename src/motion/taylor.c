@@ -32,6 +32,7 @@ enum { LONGEST = STEPS_PER_PERIOD / 2 };
 
 typedef struct taylor {
     engine base;
+    const char *name;
     int order;
     double tol;
     double scale[MAX_DIM];                  /* of the state's parts */
@@ -163,8 +164,8 @@ taylor_step(engine *e, double h_max, ss_error *err)
         step = m->model->reach(m, t->c, step);
     t->next = step * t->unit;
     if (!(t->next >= t->shortest))
-        return ss_fail(err, SS_ETOL, TAYLOR " cannot keep the tolerance %.3g at t = %.9g s: the step "
-                       "fell below %.3g s", t->tol, e->m->origin.hi + m->u, t->shortest);
+        return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the step "
+                       "fell below %.3g s", t->name, t->tol, e->m->origin.hi + m->u, t->shortest);
     for (size_t i = 0; i < MAX_DIM; i++)
         e->dq0[i] = t->per_unit * t->c[1][i];
     e->h = m->scene->base != NULL ? fmin(t->next, m->u_knot - m->u) : t->next;
@@ -359,11 +360,8 @@ static const struct engine_type taylor_type = {
 };
 
 ss_status
-ss_taylor_new(engine **out, motion *m, double tol, ss_error *err)
+ss_taylor_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
 {
-    if (m->now.model->series == NULL)
-        return ss_fail(err, SS_EINVAL, "method " TAYLOR ": the %s model has no series",
-                       m->now.model->name);
     taylor *t = calloc(1, sizeof *t);
     if (t == NULL)
         return ss_fail_memory(err, NULL);
@@ -373,6 +371,7 @@ ss_taylor_new(engine **out, motion *m, double tol, ss_error *err)
         return st;
     }
     t->base = (engine){ .type = &taylor_type, .m = m };
+    t->name = name;
     taylor_keep(&t->base, tol);
     t->next = ss_step_cap(&m->now);
     for (int n = 0; n < MOST_ORDER + 2; n++)

@@ -3,15 +3,17 @@
 
 #include <string.h>
 #include "base/error.h"
+#include "motion/method.h"
 
 ss_status
 ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error *err)
 {
-    const char *method = opts->method != NULL ? opts->method : ss_sim_method_for(scene);
-    int exact = strcmp(method, EXACT) == 0;
-    *w = (walk){ .m = ss_motion_of(scene, exact, opts->tol), .max_steps = opts->max_steps };
+    const struct method *how = ss_method_for(scene, USUAL);
+    ss_status st = opts->method != NULL ? ss_method_named(&how, opts->method, scene, err) : SS_OK;
+    *w = (walk){ .m = ss_motion_of(scene, how->kind == CLOSED_FORM, opts->tol), .max_steps = opts->max_steps };
     ss_motion_start(&w->m);
-    ss_status st = ss_engine_new(&w->e, &w->m, method, opts->tol, err);
+    if (st == SS_OK)
+        st = ss_engine_new(&w->e, &w->m, how, opts->tol, err);
     if (st == SS_OK)
         ss_engine_begin(w->e);
     return st;

@@ -127,7 +127,7 @@ bench_scene_of(const char *name, const ss_scene *scene, double duration)
     b.scene.duration = duration;
     size_t n = ss_scene_samples(&b.scene);
     b.x = bench_alloc(n);
-    int linear = strcmp(ss_sim_method_for(scene), "rk8pd") == 0;
+    int linear = strcmp(ss_sim_method_for(scene, NULL), "rk8pd") == 0;
     if (cost_simulate(&b.scene, linear ? "exact" : "rk8pd", 1e-14, b.x, &events) != SS_OK)
         exit(1);
     for (size_t i = 0; i < n; i++)

@@ -5,6 +5,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/range.h"
+#include "motion/method.h"
 #include "study/curve.h"
 #include "study/sweep/finder.h"
 
@@ -82,25 +83,25 @@ ss_measure_unit(ss_measure m)
     return (unsigned)m < SS_MEASURES ? measure[m].unit : NULL;
 }
 
-/* The method for a model.  Without a closed form it stands for the method that each point chooses. */
-static const char *
-method_of(const ss_steady_opts *opts, const struct model *model)
+/* The method of a scene that has passed ss_steady_check. */
+static const struct method *
+method_of(const ss_steady_opts *opts, const ss_scene *scene)
 {
-    return opts->method != NULL ? opts->method : model->linear ? EXACT : TAYLOR;
+    const struct method *how = ss_method_for(scene, BEST);
+    if (opts->method != NULL)
+        ss_method_named(&how, opts->method, scene, NULL);
+    return how;
 }
 
 ss_status
-ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
+ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err)
 {
-    if (opts == NULL)
+    const struct method *given;
+    if (opts == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
-    const struct model *m = ss_model_at((unsigned)model);
+    const struct model *m = ss_model_of(scene);
     if (m == NULL)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
-    const char *method = method_of(opts, m);
-    int exact = strcmp(method, EXACT) == 0, known = 0;
-    for (size_t i = 0; ss_sim_method_name(i) != NULL; i++)
-        known |= strcmp(method, ss_sim_method_name(i)) == 0;
     for (int i = 0; i < SS_MEASURES; i++)
         if ((opts->measures & 1u << i) && measure[i].has != NULL && !measure[i].has(m))
             return ss_fail(err, SS_EINVAL, "model %s has no measure '%s'", m->name,
@@ -114,8 +115,9 @@ ss_steady_check(const ss_steady_opts *opts, ss_model model, ss_error *err)
         return ss_fail(err, SS_EINVAL, "no cycles to look for a period in");
     if (opts->strobe < 0 || opts->strobe > SS_STROBE_MAX)
         return ss_fail(err, SS_EINVAL, "starts of cycles: 1 ... %d", SS_STROBE_MAX);
-    if (!known || (exact && !m->linear))
-        return ss_fail(err, SS_EINVAL, "no method '%s' for model %s", method, m->name);
+    st = opts->method != NULL ? ss_method_named(&given, opts->method, scene, err) : SS_OK;
+    if (st != SS_OK)
+        return st;
     if (opts->search < SS_SEARCH_AUTO || opts->search > SS_SEARCH_SHOOT)
         return ss_fail(err, SS_EINVAL, "search is no known choice");
     if (opts->search == SS_SEARCH_SHOOT && !differs(m))
@@ -133,8 +135,7 @@ static int
 can_shoot(const ss_scene *scene, const ss_steady_opts *opts)
 {
     const struct model *model = ss_model_of(scene);
-    const char *method = method_of(opts, model);
-    int knows = model->still != NULL || strcmp(method, EXACT) == 0 || strcmp(method, TAYLOR) == 0;
+    int knows = model->still != NULL || ss_method_follows(method_of(opts, scene));
     return differs(model) && (scene->base_frequency > 0 || knows);
 }
 
@@ -146,11 +147,9 @@ enum { APPROACH = 4 };
 static ss_status
 begin(finder *f)
 {
-    const struct model *model = ss_model_of(f->scene);
-    const char *method = method_of(f->opts, model);
-    int is_free = f->opts->method == NULL && !model->linear;
-    f->in_closed_form = strcmp(method, EXACT) == 0;
-    return ss_finder_begin(f, is_free ? NULL : method);
+    const struct method *how = method_of(f->opts, f->scene);
+    f->in_closed_form = how->kind == CLOSED_FORM;
+    return ss_finder_begin(f, how->name);
 }
 
 static ss_status
@@ -262,10 +261,11 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
                        "keeps it moving");
     if (opts->measures & MODEL_ERRORS)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, two models have no common phase");
-    if (asks && !can_shoot(scene, opts))
-        return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting, multipliers and "
-                       "exponents of model %s need method %s or %s", ss_model_of(scene)->name, EXACT, TAYLOR);
-    return SS_OK;
+    if (!asks || can_shoot(scene, opts))
+        return SS_OK;
+    return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting, multipliers and "
+                   "exponents of model %s need method %s",
+                   ss_model_of(scene)->name, ss_method_follower_names());
 }
 
 ss_status
@@ -279,7 +279,7 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts
     out->n_strobes = 0;
     ss_status limit = SS_OK, st = ss_scene_check(scene, err);
     if (st == SS_OK)
-        st = ss_steady_check(opts, scene->model, err);
+        st = ss_steady_check(opts, scene, err);
     if (st != SS_OK)
         return st;
     st = check_cycle(scene, opts, err);

@@ -99,7 +99,7 @@ ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
         return SS_FAIL_NULL(err);
     ss_scene copy = *scene;
     size_t all;
-    ss_status st = ss_steady_check(&opts->steady, scene->model, err);
+    ss_status st = ss_steady_check(&opts->steady, scene, err);
     if (st == SS_OK)
         st = ss_sweep_points(opts, &all, err);
     for (size_t i = 0; st == SS_OK && i < opts->n_axes; i++) {

@@ -8,25 +8,12 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/range.h"
-#include "motion/engine.h"
+#include "motion/method.h"
 #include "study/trade/runs.h"
 
 #define OUTRAGEOUS 300              /* a method may take so many times the steps of the reference */
 
 const ss_range ss_trade_accuracies = { 1e-12, 1e-3 };
-
-/* The cost of a right-hand side with the work beside it, in units of rk8pd's, and the number of right-hand
- * sides of a step; at_samples is 1 if each sample needs a step, too.  ss-trade measured them on
- * the state-variable scene, and they serve only to compare methods. */
-static const struct cost { const char *method; double rhs; unsigned a_step; int at_samples; }
-cost[] = {
-    { TAYLOR, 0.4, 12, 0 }, { "rk8pd", 1, 13, 1 }, { "rkf45", 1.1, 6, 1 }, { "rkck", 1.1, 6, 1 },
-    { "rk4", 1, 11, 1 },
-    { "rk2", 1.2, 3, 1 }, { "rk1imp", 3.5, 9, 1 }, { "rk2imp", 3.5, 9, 1 },
-    { "rk4imp", 3.3, 17, 1 }, { "bsimp", 3, 50, 1 }, { "msadams", 4.6, 3, 0 },
-    { "msbdf", 6.4, 3, 0 },
-};
-enum { COSTS = sizeof cost / sizeof *cost };
 
 typedef struct choice {
     probe p;
@@ -78,18 +65,21 @@ static ss_status
 choose_cheapest(choice *s, ss_sim_opts *opts, ss_error *err)
 {
     double least = INFINITY;
-    for (size_t i = 0; i < COSTS; i++) {
-        double most = least / cost[i].rhs / cost[i].a_step;
-        if (cost[i].at_samples)
+    const struct method *how;
+    for (size_t i = 0; (how = ss_method_at(i)) != NULL; i++) {
+        if (how->kind == CLOSED_FORM)
+            continue;
+        double most = least / how->cost / how->rhs_a_step;
+        if (how->kind == ONE_STEP)
             most -= (double)ss_scene_samples(&s->p.scene);
         most = fmin(most, s->max_steps);
         if (!(most >= 1))
             continue;
-        ss_status st = loosest(s, cost[i].method, (unsigned long)most, err);
-        double work = cost[i].rhs * (double)s->run.stats.rhs;
+        ss_status st = loosest(s, how->name, (unsigned long)most, err);
+        double work = how->cost * (double)s->run.stats.rhs;
         if (st == SS_OK && work < least) {
             least = work;
-            opts->method = cost[i].method;
+            opts->method = how->name;
             opts->tol = s->tol;
         } else if (st == SS_STOP || st == SS_ENOMEM) {
             return st;
@@ -128,13 +118,14 @@ choose(choice *s, ss_sim_opts *opts, ss_error *err)
     if (st != SS_OK)
         return st;
     st = SS_ETOL;
-    for (int i = 0; st == SS_ETOL && ss_trade_witnesses(&s->p.scene, i, witness); i++)
+    for (int i = 0; st == SS_ETOL && ss_method_pair(&s->p.scene, i, witness); i++)
         st = refer_to(s, witness, err);
     if (st != SS_OK)
         return st;
-    if (strcmp(witness[0], EXACT) == 0
-        && (opts->method == NULL || strcmp(opts->method, EXACT) == 0)) {
-        opts->method = EXACT;
+    const struct method *best = ss_method_for(&s->p.scene, BEST);
+    if (best->kind == CLOSED_FORM && strcmp(witness[0], best->name) == 0
+        && (opts->method == NULL || strcmp(opts->method, best->name) == 0)) {
+        opts->method = best->name;
         opts->tol = ss_sim_defaults.tol;
         return SS_OK;
     }
@@ -156,8 +147,9 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
     ss_status st = ss_record_check(scene, err);
     if (st == SS_OK)
         st = ss_range_check(accuracy, ss_trade_accuracies, "accuracy", err);
-    if (st == SS_OK && opts->method != NULL && strcmp(opts->method, EXACT) == 0)
-        st = ss_exact_check(scene, err);
+    const struct method *given;
+    if (st == SS_OK && opts->method != NULL)
+        st = ss_method_named(&given, opts->method, scene, err);
     if (st != SS_OK)
         return st;
     const run empty = { .progress = opts->progress };

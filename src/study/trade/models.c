@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "find/numbers.h"
-#include "motion/engine.h"
+#include "motion/method.h"
 #include "study/curve.h"
 #include "study/trade/common.h"
 
@@ -109,7 +109,7 @@ static ss_status
 simulate(const ss_scene *scene, portrait *p, double *seconds, ss_error *err)
 {
     ss_sim_opts opts = ss_sim_defaults;
-    opts.method = ss_model_is_linear(scene->model) ? EXACT : NULL;
+    opts.method = ss_method_for(scene, BEST)->name;
     opts.samples = p != NULL ? keep_samples : pass_samples;
     opts.events = p != NULL ? count_event : NULL;
     opts.user = p;

@@ -247,16 +247,6 @@ ss_trade_compare(ss_trade_row *row, const run *k, const run *ref)
 
 /* --- the reference ------------------------------------------------------------------------- */
 
-int
-ss_trade_witnesses(const ss_scene *scene, int pair, const char *method[2])
-{
-    int linear = ss_exact_applies(scene);
-    method[0] = !linear ? ss_sim_method_for(scene) : pair == 0 ? EXACT : TAYLOR;
-    method[1] = strcmp(method[0], EXACT) == 0 ? TAYLOR : strcmp(method[0], TAYLOR) == 0 ? "rk8pd"
-        : strcmp(method[0], "rk8pd") == 0 ? "rkck" : "msbdf";
-    return pair <= linear;
-}
-
 ss_status
 ss_trade_refer(run *ref, run *other, const probe *p, const char *method[2], unsigned long max_steps,
                char text[64], ss_error *err)

@@ -41,11 +41,8 @@ void ss_trade_run_free(run *k);
 ss_status ss_trade_run(run *k, const probe *p, const char *method, double tol, unsigned long max_steps,
                        ss_error *err);
 
-/* The two methods of the reference, both implicit if the scene is stiff; 0 if there is no such
- * pair.  Pair 1 serves where pair 0 does not agree: the closed form may round more than steps do.
- */
-int ss_trade_witnesses(const ss_scene *scene, int pair, const char *method[2]);
-/* Run the reference into ref, and its witness into other; text names them. */
+/* Run the reference into ref, and its witness into other; text names them.  The methods are
+ * a pair of ss_method_pair. */
 ss_status ss_trade_refer(run *ref, run *other, const probe *p, const char *method[2],
                          unsigned long max_steps, char text[64], ss_error *err);
 /* The error of the reference from the distance of the two runs: at least rounding. */

@@ -4,7 +4,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/sort.h"
-#include "motion/engine.h"
+#include "motion/method.h"
 #include "study/trade/common.h"
 #include "study/trade/runs.h"
 
@@ -50,22 +50,21 @@ ss_trade_cheapest(const ss_trade *trade, double accuracy)
 static ss_status
 make_rows(ss_trade *trade, const ss_scene *scene)
 {
+    const struct method *how;
     size_t methods = 0;
-    while (ss_sim_method_name(methods) != NULL)
+    while (ss_method_at(methods) != NULL)
         methods++;
     trade->row = calloc(methods * TOLERANCES, sizeof *trade->row);
     if (trade->row == NULL)
         return SS_ENOMEM;
-    for (size_t m = 0; m < methods; m++) {
-        const char *method = ss_sim_method_name(m);
-        int exact = strcmp(method, EXACT) == 0;
-        if (exact && !ss_exact_applies(scene))
-            continue;
-        for (int i = 1; i < TOLERANCES - 1; i++) {
-            trade->row[trade->n++] = (ss_trade_row){ .method = method, .status = SS_STOP,
-                                                     .tol = exact ? 0 : ss_trade_tolerance[i] };
-            if (exact)
-                break;
+    int closed = ss_method_for(scene, BEST)->kind == CLOSED_FORM;
+    for (size_t m = 0; (how = ss_method_at(m)) != NULL; m++) {
+        const ss_trade_row row = { .method = how->name, .status = SS_STOP };
+        if (how->kind == CLOSED_FORM && closed)
+            trade->row[trade->n++] = row;
+        for (int i = 1; how->kind != CLOSED_FORM && i < TOLERANCES - 1; i++) {
+            trade->row[trade->n] = row;
+            trade->row[trade->n++].tol = ss_trade_tolerance[i];
         }
     }
     return SS_OK;
@@ -156,7 +155,7 @@ measure_rows(measurement *t, ss_error *err)
     ss_trade *trade = t->trade;
     ss_trade_row between = { .tol = 0 };
     const char *method[2];
-    ss_trade_witnesses(&t->p.scene, 0, method);
+    ss_method_pair(&t->p.scene, 0, method);
     ss_status st = ss_trade_run_init(&t->ref, &t->p);
     if (st == SS_OK)
         st = ss_trade_run_init(&t->run, &t->p);
