@@ -112,12 +112,10 @@ makers_and_writers_refuse_null(void **state)
     assert_refused(ss_store_writer_note(NULL, "a", "b", &e), &e);
     assert_refused(ss_store_writer_end(NULL, 1, &e), &e);
     ss_store_writer_free(NULL);
-    ss_store_reader *reader = NULL;
-    assert_refused(ss_store_reader_new(NULL, "x.h5", &e), &e);
-    assert_refused(ss_store_reader_new(&reader, NULL, &e), &e);
-    assert_null(ss_store_reader_grid(NULL));
-    assert_refused(ss_store_reader_scale(NULL, 0, &(double){ 0 }, &e), &e);
-    ss_store_reader_free(NULL);
+    ss_coefficients *map = NULL;
+    assert_refused(ss_store_open_coefficients(NULL, "x.h5", &e), &e);
+    assert_refused(ss_store_open_coefficients(&map, NULL, &e), &e);
+    assert_refused(ss_map_read(NULL, NULL, 0, &e), &e);
     assert_int_equal(head->n_columns + head->n_notes, 0);
     ss_header_free(head);
 }

@@ -611,19 +611,19 @@ zero_everywhere_gives_an_empty_picture(void **state)
 }
 
 typedef struct origin {
+    ss_map_source source;
     const ss_coefficients *c;
     size_t next, fail_at;
     double done;
 } origin;
 
 static ss_status
-give_scale(size_t i, double *w, void *user, ss_error *err)
+give_scale(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err)
 {
-    origin *o = user;
-    (void)err;
-    assert_int_equal(i, o->next++);
-    memcpy(w, o->c->w + 2 * o->c->scale[i].offset, 2 * o->c->scale[i].n * sizeof *w);
-    return i == o->fail_at ? SS_EDATA : SS_OK;
+    origin *o = (origin *)map->source;
+    assert_true(n == 1 && part->scale == o->next++ && part->n == map->scale[part->scale].n);
+    assert_int_equal(ss_map_read(o->c, part, n, err), SS_OK);
+    return part->scale == o->fail_at ? SS_EDATA : SS_OK;
 }
 
 static int
@@ -640,27 +640,28 @@ static void
 coefficients_may_come_scale_by_scale(void **state)
 {
     ss_coefficients *c = new_coefficients(), grid = *c;
-    origin o = { .c = c, .fail_at = SIZE_MAX };
+    origin o = { .source = { give_scale, NULL }, .c = c, .fail_at = SIZE_MAX };
     ss_contour_opts opts = ss_contour_defaults;
     (void)state;
     for (size_t i = 0; i < 2 * 3000; i++)
         c->w[i] = sin((double)i * (double)i / 4e6) * (double)(i % 2000);
     char *all = contour_script(c, &opts), *pieces;
-    opts.source = give_scale, opts.source_user = &o;
     opts.progress = (ss_progress){ note_progress, &o };
     grid.w = NULL;
+    grid.source = &o.source;
     pieces = contour_script(&grid, &opts);
     assert_string_equal(pieces, all);
     assert_true(o.next == 3 && o.done == 1);
     free(pieces);
     free(all);
-    o = (origin){ .c = c, .fail_at = 1 };
+    o = (origin){ .source = { give_scale, NULL }, .c = c, .fail_at = 1 };
     size_t size = 0;
     FILE *out = open_memstream(&pieces, &size);
     assert_int_equal(ss_plot_contour(out, &grid, &opts, &ss_plot_defaults, NULL), SS_EDATA);
     fclose(out);
     assert_int_equal(size, 0);
     free(pieces);
+    grid.source = NULL;
     assert_int_equal(ss_plot_contour(stdout, &grid, &ss_contour_defaults, &ss_plot_defaults, NULL),
                      SS_EINVAL);
     ss_coefficients_free(c);

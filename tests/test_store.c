@@ -338,23 +338,35 @@ scales_can_be_read_one_by_one(void **state)
     for (int dense = 0; dense < 2; dense++) {
         ss_signal *signal = new_signal(500);
         ss_coefficients *c = transform(signal, dense);
-        ss_store_reader *reader;
+        ss_coefficients *map;
         ss_error err = { 0 };
-        double *w = malloc(2 * c->scale[c->n_scales - 1].n * sizeof *w);
+        size_t longest = c->scale[c->n_scales - 1].n;
+        double *w = malloc(2 * longest * sizeof *w), *level = malloc(longest * sizeof *level);
         write_ok(&(ss_record){ .signal = signal, .coefficients = c });
-        assert_int_equal(ss_store_reader_new(&reader, path, NULL), SS_OK);
-        const ss_coefficients *grid = ss_store_reader_grid(reader);
-        assert_null(grid->w);
-        assert_true(grid->n == c->n && grid->n_scales == c->n_scales);
-        assert_same_notes(c->head, grid->head);
+        assert_int_equal(ss_store_open_coefficients(&map, path, NULL), SS_OK);
+        assert_null(map->w);
+        assert_true(map->n == c->n && map->n_scales == c->n_scales);
+        assert_same_notes(c->head, map->head);
         for (size_t i = c->n_scales; i-- > 0;) {
-            assert_int_equal(ss_store_reader_scale(reader, i, w, NULL), SS_OK);
-            assert_same_bits(w, c->w + 2 * c->scale[i].offset, 2 * c->scale[i].n);
+            size_t n = c->scale[i].n, part = n / 3;
+            const double *all = c->w + 2 * c->scale[i].offset;
+            assert_int_equal(ss_map_read(map, &(ss_map_part){ i, 0, n, w, NULL }, 1, NULL), SS_OK);
+            assert_same_bits(w, all, 2 * n);
+            const ss_map_part thirds[] = { { i, part, n - part, w, NULL }, { i, 0, part, NULL, level } };
+            assert_int_equal(ss_map_read(map, thirds, 2, NULL), SS_OK);
+            assert_same_bits(w, all + 2 * part, 2 * (n - part));
+            for (size_t k = 0; k < part; k++)
+                assert_true(fabs(level[k] - hypot(all[2 * k], all[2 * k + 1])) <= 4e-16 * level[k]);
         }
-        assert_int_equal(ss_store_reader_scale(reader, c->n_scales, w, &err), SS_EINVAL);
-        assert_true(isnan(ss_coefficients_max(grid)));
-        ss_store_reader_free(reader);
+        const ss_map_part none[] = { { c->n_scales, 0, 1, w, NULL }, { 0, c->scale[0].n, 1, w, NULL },
+                                     { 0, 0, 1, NULL, NULL } };
+        for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+            assert_int_equal(ss_map_read(map, &none[i], 1, &err), SS_EINVAL);
+        const double most[2] = { ss_coefficients_max(map), ss_coefficients_max(c) };
+        assert_same_bits(&most[0], &most[1], 1);
+        ss_coefficients_free(map);
         free(w);
+        free(level);
         ss_coefficients_free(c);
         ss_signal_free(signal);
     }

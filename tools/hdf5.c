@@ -77,22 +77,13 @@ FORWARD(ss_store_signal_reader,
          ss_error *err),
         (out, path, dataset, opts, err))
 FORWARD(ss_store_read_coefficients, (ss_coefficients **out, const char *path, ss_error *err), (out, path, err))
-FORWARD(ss_store_reader_new, (ss_store_reader **out, const char *path, ss_error *err), (out, path, err))
-FORWARD(ss_store_reader_scale, (ss_store_reader *reader, size_t i, double *w, ss_error *err),
-        (reader, i, w, err))
+FORWARD(ss_store_open_coefficients, (ss_coefficients **out, const char *path, ss_error *err), (out, path, err))
 
 int
 ss_store_has_signal(const char *path)
 {
     int (*function)(const char *);
     return find(&function, "ss_store_has_signal", NULL) && function(path);
-}
-
-const ss_coefficients *
-ss_store_reader_grid(const ss_store_reader *reader)
-{
-    const ss_coefficients *(*function)(const ss_store_reader *);
-    return find(&function, "ss_store_reader_grid", NULL) ? function(reader) : NULL;
 }
 
 /* If no writer was made, the library need not be opened to free it. */
@@ -102,12 +93,4 @@ ss_store_writer_free(ss_store_writer *writer)
     void (*function)(ss_store_writer *);
     if (writer != NULL && find(&function, "ss_store_writer_free", NULL))
         function(writer);
-}
-
-void
-ss_store_reader_free(ss_store_reader *reader)
-{
-    void (*function)(ss_store_reader *);
-    if (reader != NULL && find(&function, "ss_store_reader_free", NULL))
-        function(reader);
 }

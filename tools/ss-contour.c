@@ -34,8 +34,7 @@ TOOL_READING_USAGE
 typedef struct drawing {
     const char *path, *output;
     const char *signal_path, *column, *events, *features;       /* NULL: not given */
-    ss_coefficients *own;       /* all in memory; NULL if a file has them */
-    ss_store_reader *reader;
+    ss_coefficients *own;       /* of a file; NULL: of the overview */
     ss_overview *overview;      /* of a recording */
     const ss_coefficients *coefficients;
     ss_contour_opts opts;
@@ -50,13 +49,6 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 {
     const drawing *d = user;
     return ss_plot_contour(out, d->coefficients, &d->opts, opts, err);
-}
-
-/* An ss_coefficient_source. */
-static ss_status
-read_scale(size_t i, double *w, void *user, ss_error *err)
-{
-    return ss_store_reader_scale(user, i, w, err);
 }
 
 /* --- a recording, in one pass -------------------------------------------------------------- */
@@ -189,7 +181,7 @@ open_input(drawing *d)
             d->coefficients = d->own = tool_read_coefficients(d->path);
         return;
     }
-    ss_status st = ss_store_reader_new(&d->reader, tool_reads(d->path), &err);
+    ss_status st = ss_store_open_coefficients(&d->own, tool_reads(d->path), &err);
     if (st == SS_EKIND) {
         ss_reader *reader = tool_read_rows(d->path, &d->reading.opts);
         draw_rows(d, &reader);
@@ -197,9 +189,7 @@ open_input(drawing *d)
         return;
     }
     tool_check(st, &err);
-    d->coefficients = ss_store_reader_grid(d->reader);
-    d->opts.source = read_scale;
-    d->opts.source_user = d->reader;
+    d->coefficients = d->own;
 }
 
 /* Warn of a signal with another clock, as panel (a) shows the time of panel (b). */
@@ -329,7 +319,6 @@ main(int argc, char *argv[])
     ss_overlay_free(d.overlay);
     ss_signal_free(signal);
     ss_coefficients_free(d.own);
-    ss_store_reader_free(d.reader);
     ss_overview_free(d.overview);
     tool_end();
     return 0;

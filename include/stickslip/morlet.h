@@ -195,8 +195,25 @@ void ss_stream_free(ss_stream *stream);         /* NULL is allowed */
 
 /* --- coefficients on their grid -------------------------------------------------------------- */
 
-/* Coefficients with their grid, as computed or as read back. */
-typedef struct ss_coefficients {
+typedef struct ss_coefficients ss_coefficients;
+
+/* Some of the coefficients of a scale, and room for them: either w or level is NULL. */
+typedef struct ss_map_part {
+    size_t scale, first, n;     /* translations first ... first + n - 1 */
+    double *w;                  /* [2 n]: re and im of each */
+    double *level;              /* [n]: |W| of each */
+} ss_map_part;
+
+/* Where coefficients are that are not all in memory: in a file, for example.  It begins the object that
+ * knows this. */
+typedef struct ss_map_source {
+    /* Fill in n parts of the map, which are within its grid. */
+    ss_status (*read)(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err);
+    void (*free)(struct ss_map_source *source);
+} ss_map_source;
+
+/* A map: coefficients with their grid, as computed or as read back. */
+struct ss_coefficients {
     ss_header *head;            /* the transformed column, rate, start and notes of its signal, and the
                                    options as notes: samples, column, unit, center, voices, step (or
                                    dense: yes), lattice (if B is a fraction of samples), norm,
@@ -206,11 +223,12 @@ typedef struct ss_coefficients {
     double center;              /* omega_c */
     size_t n_scales;            /* > 0 */
     ss_scale *scale;            /* long to short; each has n > 0 */
-    double *w;                  /* as in ss_morlet_execute; NULL if only the grid is known */
+    double *w;                  /* as in ss_morlet_execute; NULL if they are not all in memory */
+    ss_map_source *source;      /* has them, if w is NULL; it belongs to the map */
     ss_span *gap;               /* the gaps that head's note names, where samples were filled in; NULL
                                    if there are none */
     size_t n_gaps;
-} ss_coefficients;
+};
 
 /* The simple case: transform one column of a signal.  The caller frees *out with
  * ss_coefficients_free. */
@@ -222,6 +240,9 @@ ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, 
  * reader may read more of in than it needs, and nothing may have been read from a pipe before. */
 ss_status ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err);
 void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is allowed */
+
+/* Fill in n parts of a map, wherever it is.  SS_EINVAL: it has no such coefficients. */
+ss_status ss_map_read(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err);
 
 /* 1 if translation k of scale i lies inside the cone of influence, in a gap, or nearer than
  * sqrt(2) a to a gap; else 0. */
@@ -259,11 +280,8 @@ ss_status ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_sca
 ss_status ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples);
 void ss_coefficient_writer_free(ss_coefficient_writer *writer);     /* NULL is allowed */
 
-/* A source writes the coefficients of scale i to w, 2 n doubles.  It serves where not all
- * coefficients fit in memory. */
-typedef ss_status ss_coefficient_source(size_t i, double *w, void *user, ss_error *err);
-
-/* The largest |W| outside the cone of influence (or of all, if all lie inside): 0 dB of the contours. */
+/* The largest |W| outside the cone of influence (or of all, if all lie inside): 0 dB of the contours.
+ * NaN if they cannot be read. */
 double ss_coefficients_max(const ss_coefficients *coefficients);
 
 SS_END_DECLARATIONS

@@ -91,8 +91,6 @@ typedef struct ss_contour_opts {
     const double *event;        /* [s] on the source's clock; each is a vertical line; NULL: none */
     size_t n_events;
     const ss_overlay *overlay;  /* NULL: none */
-    ss_coefficient_source *source;  /* called once for every scale if the coefficients' w is NULL */
-    void *source_user;          /* passed to source */
     ss_progress progress;       /* called after every scale */
 } ss_contour_opts;
 extern const ss_range ss_contour_levels;

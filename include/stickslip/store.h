@@ -83,13 +83,9 @@ ss_status ss_store_read_signal(ss_signal **out, const char *path, const char *da
 /* Read all of /wavelet.  The caller frees *out with ss_coefficients_free. */
 ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err);
 
-/* Read /wavelet scale by scale, in the memory of one scale.  The grid belongs to the reader; its w
- * is NULL.  ss_store_reader_scale writes the n coefficients of scale i to w, 2 n doubles. */
-typedef struct ss_store_reader ss_store_reader;
-ss_status ss_store_reader_new(ss_store_reader **out, const char *path, ss_error *err);
-const ss_coefficients *ss_store_reader_grid(const ss_store_reader *reader);
-ss_status ss_store_reader_scale(ss_store_reader *reader, size_t i, double *w, ss_error *err);
-void ss_store_reader_free(ss_store_reader *reader);     /* NULL is allowed */
+/* Read its grid alone.  The file stays open until *out is freed: ss_map_read reads coefficients from it,
+ * in the memory of one scale. */
+ss_status ss_store_open_coefficients(ss_coefficients **out, const char *path, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -15,6 +15,7 @@
 #include "base/list.h"
 #include "base/versions.h"
 #include "find/basins.h"
+#include "map/map.h"
 #include "map/plan.h"
 
 #define DRY SIZE_MAX            /* a way that leads nowhere: no hill */
@@ -41,7 +42,6 @@ typedef struct line {
 } line;
 
 typedef struct map {
-    const map_source *source;
     basins *out;
     double outside, all;        /* the largest levels so far: outside the cone of influence, of all */
     line *line;                 /* of row first and on */
@@ -72,7 +72,7 @@ map_free(map *m)
 static const ss_scale *
 scale_of(const map *m, size_t row)
 {
-    return &m->out->grid->scale[row];
+    return &m->out->map->scale[row];
 }
 
 /* Move all rows on to their points up to time t; returns the number of points. */
@@ -129,17 +129,17 @@ dry_out(map *m, size_t row)
 {
     const line *l = &m->line[row - m->out->first];
     const ss_scale *scale = scale_of(m, row);
-    double *level = m->level + l->at, rate = m->out->grid->head->rate;
+    double *level = m->level + l->at, rate = m->out->map->head->rate;
     size_t n = l->end - l->lo, from = 0, to = n;
     double top = top_of(level, n);
     for (size_t k = 0; k < n && top > m->outside; k++)
-        if (level[k] > m->outside && !ss_coefficients_edge(m->out->grid, row, l->lo + k))
+        if (level[k] > m->outside && !ss_coefficients_edge(m->out->map, row, l->lo + k))
             m->outside = level[k];
     m->all = fmax(m->all, top);
     dry_below(level, n, m->out->floor);
-    while (from < to && ss_scale_edge(scale, l->lo + from, m->out->grid->n, rate))
+    while (from < to && ss_scale_edge(scale, l->lo + from, m->out->map->n, rate))
         level[from++] = 0;
-    while (to > from && ss_scale_edge(scale, l->lo + to - 1, m->out->grid->n, rate))
+    while (to > from && ss_scale_edge(scale, l->lo + to - 1, m->out->map->n, rate))
         level[--to] = 0;
 }
 
@@ -147,14 +147,14 @@ static ss_status
 fill(map *m)
 {
     size_t rows = m->out->last - m->out->first + 1;
-    level_part *part = malloc(rows * sizeof *part);
+    ss_map_part *part = malloc(rows * sizeof *part);
     if (part == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < rows; i++) {
         const line *l = &m->line[i];
-        part[i] = (level_part){ m->out->first + i, l->lo, l->end - l->lo, m->level + l->at };
+        part[i] = (ss_map_part){ m->out->first + i, l->lo, l->end - l->lo, NULL, m->level + l->at };
     }
-    ss_status st = ss_levels_fill(m->source, part, rows);
+    ss_status st = ss_map_read(m->out->map, part, rows, NULL);
     for (size_t row = m->out->first; st == SS_OK && row <= m->out->last; row++)
         dry_out(m, row);
     free(part);
@@ -482,7 +482,7 @@ find_borders(map *m)
 static ss_status
 survey(map *m)
 {
-    double total = 0, length = (double)m->out->grid->n / m->out->grid->head->rate;
+    double total = 0, length = (double)m->out->map->n / m->out->map->head->rate;
     for (size_t row = m->out->first; row <= m->out->last; row++)
         total += (double)scale_of(m, row)->n;
     size_t strips = (size_t)(total / STRIP) + 1;
@@ -494,7 +494,7 @@ survey(map *m)
         climb(m);
         if (!m->failed)
             find_borders(m);
-        st = m->failed ? SS_ENOMEM : ss_levels_progress(m->source, (double)i / (double)strips);
+        st = m->failed ? SS_ENOMEM : ss_map_progress(m->out->map, (double)i / (double)strips);
     }
     for (size_t i = 0; i < RECENT; i++)
         if (m->recent[i].q > 0)
@@ -505,15 +505,14 @@ survey(map *m)
 /* --- all of it ----------------------------------------------------------------------------- */
 
 ss_status
-ss_basins_find(basins *out, const map_source *source, size_t first, size_t last, double floor)
+ss_basins_find(basins *out, const ss_coefficients *grid, size_t first, size_t last, double floor)
 {
-    *out = (basins){ .grid = source->grid, .first = first, .last = last, .floor = floor };
+    *out = (basins){ .map = grid, .first = first, .last = last, .floor = floor };
     map *m = calloc(1, sizeof *m);
     if (m == NULL || (m->line = calloc(last - first + 1, sizeof *m->line)) == NULL) {
         map_free(m);
         return SS_ENOMEM;
     }
-    m->source = source;
     m->out = out;
     m->outside = -1;
     ss_status st = survey(m);

@@ -6,7 +6,7 @@
 #define BASINS_H
 
 #include <stdint.h>
-#include "find/levels.h"
+#include <stickslip/morlet.h>
 
 typedef struct peak {
     size_t row, k;              /* its coefficient */
@@ -20,7 +20,7 @@ typedef struct border {
 } border;
 
 typedef struct basins {
-    const ss_coefficients *grid;
+    const ss_coefficients *map;
     size_t first, last;         /* the rows that were searched */
     double floor;               /* |W| >= 0; points that are not above it belong to no basin */
     double top;                 /* ss_coefficients_max of these rows */
@@ -30,7 +30,7 @@ typedef struct basins {
 } basins;
 
 /* Find the basins of rows first ... last.  Free them with ss_basins_free, also if this fails. */
-ss_status ss_basins_find(basins *out, const map_source *source, size_t first, size_t last,
+ss_status ss_basins_find(basins *out, const ss_coefficients *map, size_t first, size_t last,
                          double floor);
 void ss_basins_free(basins *b);
 

@@ -26,11 +26,11 @@ const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displace
 static ss_status
 find_noise(search *s)
 {
-    size_t shortest = s->map.grid->n_scales - 1, n = 0;
-    const ss_scale *last = &s->map.grid->scale[shortest];
+    size_t shortest = s->map->n_scales - 1, n = 0;
+    const ss_scale *last = &s->map->scale[shortest];
     double *level = malloc((last->n + 1) * sizeof *level);
     ss_status st = level == NULL ? SS_ENOMEM
-        : ss_levels_fill(&s->map, &(level_part){ shortest, 0, last->n, level }, 1);
+        : ss_map_read(s->map, &(ss_map_part){ shortest, 0, last->n, NULL, level }, 1, NULL);
     for (size_t k = 0; st == SS_OK && k < last->n; k++)
         if (!ss_gaps_near(s->gap, s->n_gaps, ss_scale_b(last, k), ROW_REACH * last->a))
             level[n++] = level[k];
@@ -45,7 +45,7 @@ find_noise(search *s)
 static double
 noise_floor(const search *s)
 {
-    double shortest = s->map.grid->scale[s->map.grid->n_scales - 1].a;
+    double shortest = s->map->scale[s->map->n_scales - 1].a;
     return 1.5 * s->out->noise / sqrt(s->rate) / (s->opts->norm == SS_NORM_L1 ? sqrt(shortest) : 1);
 }
 
@@ -155,20 +155,20 @@ plan_map(search *s, size_t column, ss_error *err)
     opts.threads = s->opts->threads;
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin : lowest * (1 + 1e-9);
     opts.progress = (ss_progress){ report_transform, s };
-    return ss_levels_new(&s->map, s->signal, column, &opts, err);
+    return ss_map_plan(&s->map, s->signal, column, &opts, err);
 }
 
 static ss_status
 read_map(search *s, const double *x, ss_error *err)
 {
     if (s->n_gaps == 0)
-        return ss_levels_read(&s->map, x, err);
+        return ss_map_begin(s->map, x, err);
     double *bridged = malloc(s->n * sizeof *bridged);   /* zeros in a gap are steep */
     if (bridged == NULL)
         return SS_ENOMEM;
     memcpy(bridged, x, s->n * sizeof *x);
     ss_gaps_bridge(bridged, s->n, s->rate, s->gap, s->n_gaps);
-    ss_status st = ss_levels_read(&s->map, bridged, err);
+    ss_status st = ss_map_begin(s->map, bridged, err);
     free(bridged);
     return st;
 }
@@ -178,7 +178,7 @@ find_maxima(search *s)
 {
     ss_status st = find_noise(s);
     if (st == SS_OK)
-        st = ss_maxima_above(&s->found, &s->n_found, &s->map, fmin(SLIGHT, s->opts->threshold),
+        st = ss_maxima_above(&s->found, &s->n_found, s->map, fmin(SLIGHT, s->opts->threshold),
                              noise_floor(s), &s->top);
     if (st != SS_OK)
         return st;
@@ -302,7 +302,7 @@ find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
         st = read_map(&s, x, err);
     if (st == SS_OK && (st = find_with_map(&s)) != SS_OK)
         ss_fail(err, st, "%s", ss_strerror(st));
-    ss_levels_free(&s.map);
+    ss_coefficients_free(s.map);
     free(s.gap);
     free(s.found);
     if (st == SS_ESCALE && !(s.opts->fmin > 0))         /* it is too short to have features */

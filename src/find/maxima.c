@@ -88,8 +88,8 @@ on_border(const basins *b, size_t row, size_t k)
 {
     if (b->first < b->last && (row == b->first || row == b->last))
         return 1;
-    return k == 0 || k + 1 == b->grid->scale[row].n || ss_coefficients_edge(b->grid, row, k)
-        || ss_coefficients_edge(b->grid, row, k - 1) || ss_coefficients_edge(b->grid, row, k + 1);
+    return k == 0 || k + 1 == b->map->scale[row].n || ss_coefficients_edge(b->map, row, k)
+        || ss_coefficients_edge(b->map, row, k - 1) || ss_coefficients_edge(b->map, row, k + 1);
 }
 
 static int
@@ -111,7 +111,7 @@ list_maxima(ss_maximum *out, const basins *b, const double *saddle, double top, 
         highest = fmax(highest, b->peak[i].level);
     for (size_t i = 0; i < b->n_peaks; i++) {
         const peak *p = &b->peak[i];
-        const ss_scale *scale = &b->grid->scale[p->row];
+        const ss_scale *scale = &b->map->scale[p->row];
         /* the highest alone has no saddle */
         double below = saddle[i] > 0 || p->level == highest ? saddle[i] : b->floor;
         double fall = below > 0 ? 20 * log10(p->level / below) : INFINITY;
@@ -160,11 +160,11 @@ report(ss_maximum **out, size_t *n, basins *b, double top, double range, double 
 }
 
 ss_status
-ss_maxima_above(ss_maximum **out, size_t *n, const map_source *source, double min_prominence,
+ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *map, double min_prominence,
                 double floor, double *top)
 {
     basins b;
-    ss_status st = ss_basins_find(&b, source, 0, source->grid->n_scales - 1, floor);
+    ss_status st = ss_basins_find(&b, map, 0, map->n_scales - 1, floor);
     if (st == SS_OK) {
         *top = b.top;
         st = report(out, n, &b, b.top, INFINITY, min_prominence);
@@ -174,11 +174,11 @@ ss_maxima_above(ss_maximum **out, size_t *n, const map_source *source, double mi
 }
 
 ss_status
-ss_maxima_of_row(ss_maximum **out, size_t *n, const map_source *source, size_t row, double top,
+ss_maxima_of_row(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t row, double top,
                  double range, double min_prominence)
 {
     basins b;
-    ss_status st = ss_basins_find(&b, source, row, row, 0);
+    ss_status st = ss_basins_find(&b, map, row, row, 0);
     if (st == SS_OK)
         st = report(out, n, &b, top, range, min_prominence);
     ss_basins_free(&b);
@@ -191,7 +191,7 @@ ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
     if (out == NULL || n == NULL || coefficients == NULL)
         return SS_EINVAL;
     double top;
-    return ss_maxima_above(out, n, &(map_source){ .grid = coefficients }, min_prominence, 0, &top);
+    return ss_maxima_above(out, n, coefficients, min_prominence, 0, &top);
 }
 
 ss_status
@@ -200,6 +200,6 @@ ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients
 {
     if (out == NULL || n == NULL || coefficients == NULL || scale >= coefficients->n_scales)
         return SS_EINVAL;
-    return ss_maxima_of_row(out, n, &(map_source){ .grid = coefficients }, scale,
+    return ss_maxima_of_row(out, n, coefficients, scale,
                             ss_coefficients_max(coefficients), range, min_prominence);
 }

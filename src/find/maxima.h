@@ -3,14 +3,13 @@
 #define MAXIMA_H
 
 #include <stickslip/features.h>
-#include "find/levels.h"
 
 /* ss_maxima_find of the map above floor, a |W| >= 0: a lower saddle counts as one at floor.  *top:
  * ss_coefficients_max of the map. */
-ss_status ss_maxima_above(ss_maximum **out, size_t *n, const map_source *source,
+ss_status ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *map,
                           double min_prominence, double floor, double *top);
 /* ss_maxima_along of the map whose ss_coefficients_max is top. */
-ss_status ss_maxima_of_row(ss_maximum **out, size_t *n, const map_source *source, size_t row,
+ss_status ss_maxima_of_row(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t row,
                            double top, double range, double min_prominence);
 
 #endif

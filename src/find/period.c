@@ -13,7 +13,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include "base/fft.h"
-#include "find/levels.h"
+#include "map/map.h"
 
 #define NEARLY 0.9              /* part of the highest peak: the first peak that is so high is that of the
                                    period */

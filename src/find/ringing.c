@@ -210,7 +210,7 @@ ss_ringing_find(search *s, double prominence)
     out->why_ringing = "no oscillation swells again and again";
     if (st != SS_OK || label == 0)
         return st;
-    st = ss_maxima_of_row(&swell, &n, &s->map, row_of(s->map.grid, label), s->top, RANGE,
+    st = ss_maxima_of_row(&swell, &n, s->map, row_of(s->map, label), s->top, RANGE,
                           s->opts->threshold);
     if (st == SS_OK)
         st = ss_transitions_new(out, n);
@@ -274,8 +274,8 @@ point_at(const ss_scale *scale, double t)
 static ss_status
 fill_behind(const search *s, size_t index, double *level)
 {
-    const ss_scale *scale = &s->map.grid->scale[index];
-    level_part part[STRETCHES];
+    const ss_scale *scale = &s->map->scale[index];
+    ss_map_part part[STRETCHES];
     size_t n = 0, end = 0;
     double from, to, ignored;
     for (size_t i = 0; i < STRETCHES; i++) {
@@ -287,10 +287,10 @@ fill_behind(const search *s, size_t index, double *level)
         size_t first = point_at(scale, from) > end ? point_at(scale, from) : end;
         if (first >= behind)
             continue;
-        part[n++] = (level_part){ index, first, behind - first, level + first };
+        part[n++] = (ss_map_part){ index, first, behind - first, NULL, level + first };
         end = behind;
     }
-    return ss_levels_fill(&s->map, part, n);
+    return ss_map_read(s->map, part, n, NULL);
 }
 
 /* The mean square of |W| behind a transition; 0: the transition does not last so long. */
@@ -352,7 +352,7 @@ is_beside(const double *power, size_t n, size_t i, double least)
 static ss_status
 powers_behind(const search *s, double *power, size_t n)
 {
-    const ss_scale *scale = s->map.grid->scale;
+    const ss_scale *scale = s->map->scale;
     double *level = malloc((scale[n - 1].n + 1) * sizeof *level), most = 0;
     ss_status st = level != NULL ? SS_OK : SS_ENOMEM;
     for (int fine = 0; fine < 2; fine++) {
@@ -377,7 +377,7 @@ powers_behind(const search *s, double *power, size_t n)
 static ss_status
 strongest_band(const search *s, double *f)
 {
-    const ss_coefficients *grid = s->map.grid;
+    const ss_coefficients *grid = s->map;
     double *power = malloc(grid->n_scales * sizeof *power), best = 0;
     ss_status st = power != NULL ? powers_behind(s, power, grid->n_scales) : SS_ENOMEM;
     *f = 0;

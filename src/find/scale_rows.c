@@ -17,6 +17,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "find/levels.h"
 #include "find/scale_rows.h"
 #include <stickslip/morlet.h>
 
@@ -205,8 +206,8 @@ open_octaves(row_source *source, double octave, ss_error *err)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
     double longest = log2(MARGIN * (double)source->n / (ROW_REACH * source->rate));
-    ss_levels_free(&source->rows);
-    source->rows.levels = NULL;
+    ss_coefficients_free(source->rows);
+    source->rows = NULL;
     source->octave = octave;
     source->end = octave + fmax(1, fmin(TOGETHER, floor(longest - octave)));
     opts.center = ROW_CENTER, opts.voices = ROW_VOICES, opts.force = 1, opts.accuracy = ACCURACY;
@@ -215,7 +216,7 @@ open_octaves(row_source *source, double octave, ss_error *err)
     source->margin = (size_t)ceil(ROW_REACH * exp2(opts.m1) * source->rate);
     double *x = continued(source->x, source->n, source->margin);
     ss_status st = x == NULL ? SS_ENOMEM
-        : ss_levels_of_samples(&source->rows, x, source->n + 2 * source->margin, source->rate, &opts,
+        : ss_map_of_samples(&source->rows, x, source->n + 2 * source->margin, source->rate, &opts,
                                err);
     free(x);
     return st;
@@ -242,16 +243,16 @@ ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error
 {
     double j = number_of(f), octave = floor(j / ROW_VOICES);
     ss_status st = SS_OK;
-    if (source->rows.levels == NULL || octave < source->octave || octave >= source->end)
+    if (source->rows == NULL || octave < source->octave || octave >= source->end)
         st = open_octaves(source, octave, err);
     if (st != SS_OK)
         return st;
     size_t index = (size_t)(source->end * ROW_VOICES - 1 - j);          /* long to short */
-    const ss_scale *scale = ss_levels_scale(&source->rows, index);
+    const ss_scale *scale = &source->rows->scale[index];
     if (scale->n + 1 > source->room && (st = make_room(source, scale->n + 1)) != SS_OK)
         return st;
     *r = (row){ .a = scale->a, .f = scale->f };
-    st = ss_levels_fill(&source->rows, &(level_part){ index, 0, scale->n, source->level }, 1);
+    st = ss_map_read(source->rows, &(ss_map_part){ index, 0, scale->n, NULL, source->level }, 1, NULL);
     return st == SS_OK ? fill_row(r, source, loud, scale, (double)source->margin / source->rate) : st;
 }
 
@@ -267,8 +268,8 @@ ss_row_head(const row_source *source, double f)
 void
 ss_row_source_free(row_source *source)
 {
-    ss_levels_free(&source->rows);
-    source->rows.levels = NULL;
+    ss_coefficients_free(source->rows);
+    source->rows = NULL;
     free(source->level);
     source->level = NULL;
     source->room = 0;

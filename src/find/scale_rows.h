@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/spikes.h>
-#include "find/levels.h"
+#include "map/map.h"
 
 #define ROW_CENTER 6.0
 #define ROW_VOICES 4
@@ -34,9 +34,9 @@ typedef struct row_source {
     double rounding;            /* rms of |W| that the rounding of the samples makes */
     const ss_span *gap;         /* in time order [s]: samples in them are not of the signal */
     size_t n_gaps;
-    /* computes the rows of scales from 2^octave s up to 2^end s, from x with margin samples before it;
-     * levels is NULL before the first row */
-    map_source rows;
+    /* computes the rows of scales from 2^octave s up to 2^end s, from x with margin samples before it; NULL
+     * before the first row */
+    ss_coefficients *rows;
     double octave, end;
     size_t margin;
     double *level;              /* room for so many of a row */

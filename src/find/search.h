@@ -7,6 +7,7 @@
 #include <stickslip/features.h>
 #include "find/cycles.h"
 #include "find/levels.h"
+#include "map/map.h"
 #include "find/quantity.h"
 #include "find/window.h"
 
@@ -28,7 +29,7 @@ typedef struct search {
     size_t n_gaps;
     ss_span *gap;               /* [s] from the first sample */
     const ss_features_opts *opts;
-    map_source map;             /* |W| */
+    ss_coefficients *map;       /* computed where it is read */
     double top;                 /* its largest outside the cone of influence */
     struct row_source *rows;    /* of x (scale_rows.h) */
     ss_maximum *found;          /* all maxima, also slight ones */

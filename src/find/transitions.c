@@ -111,8 +111,8 @@ static ss_status
 find_single(search *s)
 {
     ss_bursts *found = NULL;
-    ss_levels_free(&s->map);
-    s->map = (map_source){ NULL, NULL };
+    ss_coefficients_free(s->map);
+    s->map = NULL;
     ss_status st = ss_bursts_in(&found, s->rows, CLEAR, NULL);
     if (st == SS_OK && is_clipped_between(s, found))
         s->out->why_slips = "two events may be one that is clipped: it stands still at an extreme between them";

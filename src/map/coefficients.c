@@ -11,50 +11,26 @@ static const char *const engine_name[] = { "auto", "quadrature", "fft" };
 static const char *const detrend_name[] = { "none", "mean", "linear" };
 
 void
-ss_coefficients_free(ss_coefficients *coefficients)
+ss_coefficients_free(ss_coefficients *map)
 {
-    if (coefficients == NULL)
+    if (map == NULL)
         return;
-    ss_header_free(coefficients->head);
-    free(coefficients->scale);
-    free(coefficients->w);
-    free(coefficients->gap);
-    free(coefficients);
+    if (map->source != NULL)
+        map->source->free(map->source);
+    ss_header_free(map->head);
+    free(map->scale);
+    free(map->w);
+    free(map->gap);
+    free(map);
 }
 
 int
-ss_coefficients_edge(const ss_coefficients *c, size_t i, size_t k)
+ss_coefficients_edge(const ss_coefficients *map, size_t i, size_t k)
 {
-    if (c == NULL || i >= c->n_scales)
+    if (map == NULL || i >= map->n_scales)
         return 1;
-    return wavelet_edge(&c->scale[i], k, c->n, c->head->rate, c->head->start, c->gap, c->n_gaps);
+    return wavelet_edge(&map->scale[i], k, map->n, map->head->rate, map->head->start, map->gap, map->n_gaps);
 }
-
-double
-ss_coefficients_max(const ss_coefficients *coefficients)
-{
-    if (coefficients == NULL || coefficients->w == NULL)
-        return NAN;
-    double outside = -1, all = 0, passed = 0;
-    for (size_t i = 0; i < coefficients->n_scales; i++) {
-        const ss_scale *scale = &coefficients->scale[i];
-        const double *w = coefficients->w + 2 * scale->offset;
-        for (size_t k = 0; k < scale->n; k++) {
-            double re = w[2 * k], im = w[2 * k + 1];
-            if (re * re + im * im < passed)             /* true of most, which need no hypot */
-                continue;
-            double level = hypot(re, im);
-            all = fmax(all, level);
-            if (level > outside && !ss_coefficients_edge(coefficients, i, k)) {
-                outside = level;
-                passed = level > 1e-140 ? level * level * (1 - 1e-14) : 0;
-            }
-        }
-    }
-    return outside >= 0 ? outside : all;
-}
-
-/* --- transforming -------------------------------------------------------------------------- */
 
 static ss_status
 note_number(ss_header *head, const char *key, double value)
@@ -116,10 +92,14 @@ ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
     ss_coefficients *coef = *out = calloc(1, sizeof *coef);
     if (coef == NULL)
         return SS_ENOMEM;
-    ss_status st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts);
-    if (st != SS_OK || (st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head)) != SS_OK)
+    ss_status st = SS_OK;
+    if (signal != NULL)
+        st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts);
+    if (st == SS_OK && signal != NULL)
+        st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head);
+    if (st != SS_OK)
         return st;
-    coef->n = signal->n;
+    coef->n = plan->n;
     coef->center = opts->center;
     coef->n_scales = plan->n_scales;
     coef->scale = malloc(plan->n_scales * sizeof *coef->scale);

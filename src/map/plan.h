@@ -75,7 +75,8 @@ ss_status ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double ra
                          const ss_morlet_opts *opts, ss_error *err);
 /* The part of the accuracy that rounding leaves, if there is any, once the grid is chosen. */
 void ss_morlet_leave_rounding(ss_morlet_opts *opts);
-/* The grid of a column's transform by plan, w being NULL; to be freed, failed or not. */
+/* The grid of a column's transform by plan, w being NULL; to be freed, failed or not.  signal may be NULL:
+ * there is no header then. */
 ss_status ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
                             const ss_morlet *plan, const ss_morlet_opts *opts);
 /* m, if translation k of a scale lies at sample k 2^p/m exactly, 2^p being b_num, else 0. */

@@ -226,7 +226,7 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
         return ss_fail(err, SS_EINVAL, "no palette '%.40s'", contour->palette);
     if (contour->signal != NULL && contour->column >= contour->signal->head->n_columns)
         return ss_fail_column(err, contour->column, contour->signal->head->n_columns);
-    if (c->w == NULL && contour->source == NULL)
+    if (c->w == NULL && c->source == NULL)
         return ss_fail(err, SS_EINVAL, "no coefficients, and no source of them");
     if (c->n_scales < 2)
         return ss_fail(err, SS_EINVAL, "contours need two scales at least, there are %zu",

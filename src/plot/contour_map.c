@@ -23,71 +23,65 @@ typedef struct filling {
     noise_level *noise;         /* NULL: not measured */
 } filling;
 
-static double
-magnitude(const double *w, size_t k)
-{
-    return hypot(w[2 * k], w[2 * k + 1]);
-}
-
 /* The |W| of a scale in the column of the times lo ... hi from the first sample. */
 static double
-in_column(const ss_scale *scale, const double *w, double lo, double hi)
+in_column(const ss_scale *scale, const double *level, double lo, double hi)
 {
     double step = scale->b_num / scale->b_den, at = (lo + hi) / 2 / step;
     size_t last = scale->n - 1, k = at > 0 ? (size_t)fmin(at, (double)last) : 0;
     double part = fmin(fmax(at - (double)k, 0), 1);
-    double level = magnitude(w, k);
+    double here = level[k];
     if (k < last)
-        level += part * (magnitude(w, k + 1) - level);
+        here += part * (level[k + 1] - here);
     for (k = lo > 0 ? (size_t)fmin(ceil(lo / step), (double)last) : 0;
          k <= last && (double)k * step <= hi; k++)
-        level = fmax(level, magnitude(w, k));
-    return level;
+        here = fmax(here, level[k]);
+    return here;
 }
 
 /* Find the largest |W| and the noise of scale i.  Returns 0 if a |W| is not finite. */
 static int
-survey(filling *f, size_t i, const double *w)
+survey(filling *f, size_t i, const double *level)
 {
     for (size_t k = 0; k < f->c->scale[i].n; k++) {
-        double level = magnitude(w, k);
-        if (!isfinite(level))
+        double here = level[k];
+        if (!isfinite(here))
             return 0;
-        f->anywhere = fmax(f->anywhere, level);
-        if ((f->noise == NULL && (f->contour->top > 0 || level <= f->outside)) || ss_coefficients_edge(f->c, i, k))
+        f->anywhere = fmax(f->anywhere, here);
+        if ((f->noise == NULL && (f->contour->top > 0 || here <= f->outside)) || ss_coefficients_edge(f->c, i, k))
             continue;
-        f->outside = fmax(f->outside, level);
+        f->outside = fmax(f->outside, here);
         if (f->noise != NULL)
-            ss_noise_level_add(f->noise, &f->c->scale[i], i, &(double){ level * level }, k, 1);
+            ss_noise_level_add(f->noise, &f->c->scale[i], i, &(double){ here * here }, k, 1);
     }
     return 1;
 }
 
 static void
-fill_row(double *row, const contour_map *map, const filling *f, size_t s, const double *w)
+fill_row(double *row, const contour_map *map, const filling *f, size_t s,
+         const double *level)
 {
     double width = (map->to - map->from) / CONTOUR_COLUMNS;
     for (size_t i = 0; i <= CONTOUR_COLUMNS; i++) {
         double t = map->from - f->c->head->start + (double)i * width;
-        row[i] = in_column(&f->c->scale[s], w, t - width / 2, t + width / 2);
+        row[i] = in_column(&f->c->scale[s], level, t - width / 2, t + width / 2);
     }
 }
 
 /* Fill the rows with |W|, and survey all scales. */
 static ss_status
-fill_rows(contour_map *map, filling *f, double *own, ss_error *err)
+fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
 {
     const ss_coefficients *c = f->c;
     for (size_t s = 0; s < c->n_scales; s++) {
-        const double *w = own != NULL ? own : c->w + 2 * c->scale[s].offset;
-        ss_status st = own != NULL ? f->contour->source(s, own, f->contour->source_user, err) : SS_OK;
+        ss_status st = ss_map_read(c, &(ss_map_part){ s, 0, c->scale[s].n, NULL, level }, 1, err);
         if (st != SS_OK)
             return st;
-        if (!survey(f, s, w))
+        if (!survey(f, s, level))
             return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite",
                            c->scale[s].f);
         if (s >= f->first && s - f->first < map->rows)
-            fill_row(map->level + (s - f->first) * (CONTOUR_COLUMNS + 1), map, f, s, w);
+            fill_row(map->level + (s - f->first) * (CONTOUR_COLUMNS + 1), map, f, s, level);
         if (ss_progress_at(&f->contour->progress, (double)(s + 1) / (double)c->n_scales) != SS_OK)
             return SS_STOP;
     }
@@ -163,7 +157,6 @@ ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_contour_opts
 {
     filling f = { .c = c, .contour = contour, .outside = -1 };
     size_t longest = 0;
-    double *own = NULL;
     double start = c->head->start, end = start + (double)c->n / c->head->rate;
     *map = (contour_map){ .span_of_time = span, .from = fmax(span->from, start), .to = fmin(span->to, end) };
     ss_status st = choose_rows(map, &f, err);
@@ -173,20 +166,19 @@ ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_contour_opts
         longest = c->scale[s].n > longest ? c->scale[s].n : longest;
     map->f = malloc(map->rows * sizeof *map->f);
     map->level = malloc(map->rows * (CONTOUR_COLUMNS + 1) * sizeof *map->level);
-    own = c->w == NULL ? malloc(2 * longest * sizeof *own) : NULL;
+    double *level = malloc(longest * sizeof *level);
     f.noise = isnan(contour->noise) ? ss_noise_level_new(c->n_scales) : NULL;
-    if (map->f == NULL || map->level == NULL || (c->w == NULL && own == NULL)
-        || (isnan(contour->noise) && f.noise == NULL))
+    if (map->f == NULL || map->level == NULL || level == NULL || (isnan(contour->noise) && f.noise == NULL))
         st = ss_fail_memory(err, NULL);
     for (size_t i = 0; st == SS_OK && i < map->rows; i++)
         map->f[i] = c->scale[f.first + i].f;
     if (st == SS_OK)
-        st = fill_rows(map, &f, own, err);
+        st = fill_rows(map, &f, level, err);
     if (st == SS_OK) {
         set_levels(map, &f);
         cut_rows(map, contour->fmin, contour->fmax);
     }
     ss_noise_level_free(f.noise);
-    free(own);
+    free(level);
     return st;
 }

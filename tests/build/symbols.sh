@@ -5,7 +5,7 @@ nm -D --defined-only "$library" | sed 's/.* //' | grep -v '^_' | sort > shown
 
 # Functions and constants that the headers declare.
 echo '#include <stickslip.h>' | $CC -I"$SRC/include" -x c -E -P - | grep -v '^#' |
-    tr '\n;{}' ' \n\n\n' | grep -v typedef |
+    tr '\n;{}' ' \n\n\n' | grep -v -e typedef -e '^[^(]*(\*' |
     sed -n -e 's/^.*[ *]\(ss_[a-z0-9_]*\) *(.*/\1/p' \
         -e 's/^ *extern const.*[ *]\(ss_[a-z0-9_]*\).*$/\1/p' |
     sort -u > declared

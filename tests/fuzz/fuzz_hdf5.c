@@ -46,15 +46,16 @@ read_coefficients(const uint8_t *bytes, size_t size)
     if (file.id < 0)
         return;
     wavelet_reader reader = { .file = &file };
-    ss_status status = ss_wavelet_reader_open(&reader, &file);
-    const ss_coefficients *c = reader.grid;
+    ss_coefficients *c = calloc(1, sizeof *c);
+    ss_status status = c != NULL ? ss_wavelet_reader_open(&reader, &file, c) : SS_ENOMEM;
     double *w = status == SS_OK ? malloc(2 * reader.total * sizeof *w) : NULL;
     for (size_t i = 0; w != NULL && status == SS_OK && i < c->n_scales; i++)
-        status = ss_wavelet_reader_scale(&reader, i, w + 2 * c->scale[i].offset);
+        status = ss_wavelet_reader_scale(&reader, c, i, w + 2 * c->scale[i].offset);
     if (status != SS_OK && status != SS_ENOMEM)
         fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, &err);
     free(w);
     ss_wavelet_reader_close(&reader);
+    ss_coefficients_free(c);
     ss_h5_close(&file);
 }
 

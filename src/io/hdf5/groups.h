@@ -79,17 +79,17 @@ void ss_wavelet_writer_free(wavelet_writer *w);
 
 typedef struct wavelet_reader {
     h5_file *file;
-    ss_coefficients *grid;
+    ss_coefficients *grid;      /* while it is read */
     int dense;
     hid_t group, part[2];       /* part: re and im, if dense, else -1 */
     size_t total;               /* coefficients of all scales */
     double *row;                /* the longest, re or im */
 } wavelet_reader;
 
-/* Read the grid; to be closed even after a failure. */
-ss_status ss_wavelet_reader_open(wavelet_reader *r, h5_file *file);
+/* Read the grid of a map that has nothing yet; to be closed even after a failure. */
+ss_status ss_wavelet_reader_open(wavelet_reader *r, h5_file *file, ss_coefficients *map);
 /* The coefficients of scale i, as pairs. */
-ss_status ss_wavelet_reader_scale(wavelet_reader *r, size_t i, double *w);
+ss_status ss_wavelet_reader_scale(wavelet_reader *r, const ss_coefficients *map, size_t i, double *w);
 void ss_wavelet_reader_close(wavelet_reader *r);        /* the file stays open */
 
 #endif

@@ -1,15 +1,22 @@
 /* read.c -- read our own files, and arrays in files of other programs, into memory. */
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "io/hdf5/groups.h"
+#include "map/map.h"
 
-struct ss_store_reader {
+/* The source of a map that lies in a file. */
+typedef struct file_source {
+    ss_map_source source;               /* must be the first member */
     h5_file file;
     char *path;
     ss_error error;
     wavelet_reader wavelet;
-};
+    size_t longest;                     /* coefficients of a scale */
+    double *w;                          /* those of scale `held`; NULL: of none yet */
+    size_t held;
+} file_source;
 
 int
 ss_store_has_signal(const char *path)
@@ -69,85 +76,105 @@ ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
     return status;
 }
 
+/* --- coefficients --------------------------------------------------------------------------- */
+
+static void
+close_file(ss_map_source *source)
+{
+    file_source *s = (file_source *)source;
+    QUIETLY(
+        ss_wavelet_reader_close(&s->wavelet);
+        ss_h5_close(&s->file);
+    );
+    free(s->path);
+    free(s->w);
+    free(s);
+}
+
+/* HDF5 takes as long for a part of a scale as for all of it: the last one is kept. */
+static ss_status
+read_parts(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err)
+{
+    file_source *s = (file_source *)map->source;
+    ss_status status = SS_OK;
+    for (size_t i = 0; status == SS_OK && i < n; i++) {
+        size_t scale = part[i].scale;
+        int all = part[i].w != NULL && part[i].n == map->scale[scale].n;
+        if (!all && s->w == NULL && (s->w = malloc(2 * s->longest * sizeof *s->w)) == NULL)
+            return ss_fail_memory(err, s->path);
+        double *whole = all ? part[i].w : s->w;
+        if (all || s->held != scale)
+            QUIETLY(
+                status = ss_wavelet_reader_scale(&s->wavelet, map, scale, whole);
+            );
+        if (!all)
+            s->held = status == SS_OK ? scale : SIZE_MAX;
+        if (status == SS_OK && !all)
+            ss_map_give(&part[i], 0, part[i].n, s->w + 2 * part[i].first);
+    }
+    if (status != SS_OK && err != NULL)
+        *err = s->error;
+    return status;
+}
+
 ss_status
-ss_store_reader_new(ss_store_reader **out, const char *path, ss_error *err)
+ss_store_open_coefficients(ss_coefficients **out, const char *path, ss_error *err)
 {
     if (out == NULL || path == NULL)
         return SS_FAIL_NULL(err);
-    ss_store_reader *r = calloc(1, sizeof *r);
+    ss_coefficients *map = calloc(1, sizeof *map);
+    file_source *s = calloc(1, sizeof *s);
     ss_status status = SS_ENOMEM;
-    if (r != NULL)
-        r->file = (h5_file){ .id = -1, .path = r->path = strdup(path), .err = &r->error };
-    QUIETLY(
-        if (r != NULL && r->path != NULL && (status = ss_h5_open(&r->file)) == SS_OK)
-            status = ss_wavelet_reader_open(&r->wavelet, &r->file);
-    );
-    if (status == SS_OK)
-        *out = r;
-    else if (status == SS_ENOMEM)
+    if (s != NULL)
+        *s = (file_source){ .source = { read_parts, close_file }, .held = SIZE_MAX, .path = strdup(path),
+                            .wavelet = { .group = -1, .part = { -1, -1 } } };
+    if (s != NULL)
+        s->file = (h5_file){ .id = -1, .path = s->path, .err = &s->error };
+    if (map != NULL && s != NULL && s->path != NULL)
+        QUIETLY(
+            if ((status = ss_h5_open(&s->file)) == SS_OK)
+                status = ss_wavelet_reader_open(&s->wavelet, &s->file, map);
+        );
+    for (size_t i = 0; status == SS_OK && i < map->n_scales; i++)
+        s->longest = map->scale[i].n > s->longest ? map->scale[i].n : s->longest;
+    if (status == SS_ENOMEM)
         ss_fail(err, status, "%s: %s", path, ss_strerror(status));
-    else if (err != NULL)
-        *err = r->error;
-    if (status != SS_OK)
-        ss_store_reader_free(r);
+    else if (status != SS_OK && err != NULL)
+        *err = s->error;
+    if (map != NULL && s != NULL)
+        map->source = &s->source;
+    else if (s != NULL)
+        close_file(&s->source);
+    if (status == SS_OK)
+        *out = map;
+    else
+        ss_coefficients_free(map);
     return status;
-}
-
-const ss_coefficients *
-ss_store_reader_grid(const ss_store_reader *r)
-{
-    return r != NULL ? r->wavelet.grid : NULL;
-}
-
-ss_status
-ss_store_reader_scale(ss_store_reader *r, size_t i, double *w, ss_error *err)
-{
-    ss_status status;
-    if (r == NULL || w == NULL)
-        return SS_FAIL_NULL(err);
-    size_t n = r->wavelet.grid->n_scales;
-    if (i >= n)
-        return ss_fail(err, SS_EINVAL, "no scale %zu, there are %zu", i, n);
-    QUIETLY(
-        status = ss_wavelet_reader_scale(&r->wavelet, i, w);
-    );
-    if (status != SS_OK && err != NULL)
-        *err = r->error;
-    return status;
-}
-
-void
-ss_store_reader_free(ss_store_reader *r)
-{
-    if (r == NULL)
-        return;
-    QUIETLY(
-        ss_wavelet_reader_close(&r->wavelet);
-        ss_h5_close(&r->file);
-    );
-    free(r->path);
-    free(r);
 }
 
 ss_status
 ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err)
 {
-    ss_store_reader *r;
+    ss_coefficients *map;
     if (out == NULL)
         return SS_FAIL_NULL(err);
-    ss_status status = ss_store_reader_new(&r, path, err);
+    ss_status status = ss_store_open_coefficients(&map, path, err);
     if (status != SS_OK)
         return status;
-    ss_coefficients *c = r->wavelet.grid;
-    c->w = malloc(2 * r->wavelet.total * sizeof *c->w);
-    if (c->w == NULL)
+    const ss_scale *last = &map->scale[map->n_scales - 1];
+    double *w = malloc(2 * (last->offset + last->n) * sizeof *w);
+    if (w == NULL)
         status = ss_fail_memory(err, path);
-    for (size_t i = 0; status == SS_OK && i < c->n_scales; i++)
-        status = ss_store_reader_scale(r, i, c->w + 2 * c->scale[i].offset, err);
-    if (status == SS_OK) {
-        *out = c;
-        r->wavelet.grid = NULL;
+    for (size_t i = 0; status == SS_OK && i < map->n_scales; i++) {
+        const ss_scale *scale = &map->scale[i];
+        status = ss_map_read(map, &(ss_map_part){ i, 0, scale->n, w + 2 * scale->offset, NULL }, 1, err);
     }
-    ss_store_reader_free(r);
+    map->source->free(map->source);
+    map->source = NULL;
+    map->w = w;
+    if (status == SS_OK)
+        *out = map;
+    else
+        ss_coefficients_free(map);
     return status;
 }

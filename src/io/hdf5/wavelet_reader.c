@@ -188,14 +188,12 @@ read_grid(wavelet_reader *r)
 }
 
 ss_status
-ss_wavelet_reader_open(wavelet_reader *r, h5_file *file)
+ss_wavelet_reader_open(wavelet_reader *r, h5_file *file, ss_coefficients *map)
 {
     size_t longest = 0;
     r->file = file;
     r->group = r->part[0] = r->part[1] = -1;
-    r->grid = calloc(1, sizeof *r->grid);
-    if (r->grid == NULL)
-        return SS_ENOMEM;
+    r->grid = map;
     if (H5Lexists(file->id, "wavelet", H5P_DEFAULT) <= 0)
         return ss_fail_wanted(ss_h5_fail(file, SS_EKIND, 0, "", "no /wavelet in it"),
                               SS_KIND_COEFFICIENTS, file->err);
@@ -215,21 +213,21 @@ ss_wavelet_reader_open(wavelet_reader *r, h5_file *file)
 
 /* Read row i of re (k = 0) or im (k = 1) of a rectangle. */
 static ss_status
-read_row(wavelet_reader *r, int k, size_t i)
+read_row(wavelet_reader *r, int k, size_t i, size_t n)
 {
-    const hsize_t at[2] = { i, 0 }, count[2] = { 1, r->grid->n };
+    const hsize_t at[2] = { i, 0 }, count[2] = { 1, n };
     return ss_h5_read_piece(r->part[k], 2, at, count, r->row) ? SS_OK
         : ss_h5_fail(r->file, SS_EIO, r->group, part_name[k], "cannot be read");
 }
 
 ss_status
-ss_wavelet_reader_scale(wavelet_reader *r, size_t i, double *w)
+ss_wavelet_reader_scale(wavelet_reader *r, const ss_coefficients *map, size_t i, double *w)
 {
-    size_t n = r->grid->scale[i].n;
+    size_t n = map->scale[i].n;
     hid_t group = r->dense ? r->group : open_scale(r->group, i);
     ss_status status = SS_OK;
     for (size_t k = 0; status == SS_OK && k < 2; k++) {
-        status = r->dense ? read_row(r, (int)k, i)
+        status = r->dense ? read_row(r, (int)k, i, n)
                           : ss_h5_read_values(r->file, group, part_name[k], r->row, n);
         if (status == SS_OK)
             status = ss_h5_check_finite(r->file, group, part_name[k], r->row, n);
@@ -247,6 +245,5 @@ ss_wavelet_reader_close(wavelet_reader *r)
     H5Dclose(r->part[0]);
     H5Dclose(r->part[1]);
     H5Gclose(r->group);
-    ss_coefficients_free(r->grid);
     free(r->row);
 }

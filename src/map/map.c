@@ -1,0 +1,207 @@
+/* map.c -- see map.h: maps in memory, and maps that are computed where they are read. */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "base/versions.h"
+#include "map/map.h"
+#include "map/plan.h"
+
+/* The magnitude of each.  Hardly any number needs hypot, and then this is faster. */
+VERSIONS static void
+magnitudes_of(const double *restrict w, size_t n, double *restrict level)
+{
+    uint64_t others = 0;
+    for (size_t k = 0; k < n; k++) {
+        double square = w[2 * k] * w[2 * k] + w[2 * k + 1] * w[2 * k + 1];
+        others += square > SQUARE_LEAST ? 0 : 1;
+        others += square < SQUARE_MOST ? 0 : 1;
+        level[k] = sqrt(square);
+    }
+    for (size_t k = 0; k < n && others > 0; k++)
+        level[k] = magnitude_of(w + 2 * k);
+}
+
+void
+ss_map_give(const ss_map_part *part, size_t at, size_t n, const double *w)
+{
+    if (part->w != NULL)
+        memcpy(part->w + 2 * at, w, 2 * n * sizeof *w);
+    else
+        magnitudes_of(w, n, part->level + at);
+}
+
+ss_status
+ss_map_read(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err)
+{
+    if (map == NULL || (part == NULL && n > 0))
+        return SS_FAIL_NULL(err);
+    if (map->w == NULL && map->source == NULL)
+        return ss_fail(err, SS_EINVAL, "a map without coefficients, and no source of them");
+    for (size_t i = 0; i < n; i++) {
+        const ss_map_part *p = &part[i];
+        size_t have = p->scale < map->n_scales ? map->scale[p->scale].n : 0;
+        if (p->first > have || p->n > have - p->first || (p->n > 0 && (p->w == NULL) == (p->level == NULL)))
+            return ss_fail(err, SS_EINVAL, "the map has no %zu coefficients from number %zu of scale %zu on",
+                           p->n, p->first, p->scale);
+    }
+    if (map->w == NULL)
+        return map->source->read(map, part, n, err);
+    for (size_t i = 0; i < n; i++)
+        ss_map_give(&part[i], 0, part[i].n, map->w + 2 * (map->scale[part[i].scale].offset + part[i].first));
+    return SS_OK;
+}
+
+double
+ss_coefficients_max(const ss_coefficients *map)
+{
+    enum { PIECE = 512 };
+    double outside = -1, all = 0, level[PIECE];
+    for (size_t i = 0; map != NULL && i < map->n_scales; i++)
+        for (size_t k = 0, n; k < map->scale[i].n; k += n) {
+            n = map->scale[i].n - k < PIECE ? map->scale[i].n - k : PIECE;
+            if (ss_map_read(map, &(ss_map_part){ i, k, n, NULL, level }, 1, NULL) != SS_OK)
+                return NAN;
+            for (size_t c = 0; c < n; c++) {
+                all = fmax(all, level[c]);
+                if (level[c] > outside && !ss_coefficients_edge(map, i, k + c))
+                    outside = level[c];
+            }
+        }
+    return map == NULL ? NAN : outside >= 0 ? outside : all;
+}
+
+/* --- computed where it is read ------------------------------------------------------------------ */
+
+typedef struct computed {
+    ss_map_source source;               /* must be the first member */
+    ss_morlet *plan;
+    record rec;
+    spectra spectra;
+} computed;
+
+/* The parts of one thread: those from first on, `every` apart. */
+typedef struct task {
+    const computed *map;
+    const ss_map_part *part;
+    size_t n, first, every;
+    ss_status status;
+    ss_error error;
+} task;
+
+static ss_status
+compute_part(const computed *c, const ss_map_part *part, double *scratch, double *w, ss_error *err)
+{
+    ss_status st = SS_OK;
+    double most = 0;
+    for (size_t k = 0, n; st == SS_OK && k < part->n; k += n) {
+        n = ss_morlet_part_length(c->plan, part->scale, part->first + k);
+        n = n < part->n - k ? n : part->n - k;
+        span now = { part->first + k, n };
+        st = ss_morlet_part(c->plan, part->scale, &c->rec, &c->spectra, scratch, NULL, now, &most, w, err);
+        if (st == SS_OK)
+            ss_map_give(part, k, n, w);
+    }
+    return st;
+}
+
+static void
+compute_parts(void *user)
+{
+    task *t = user;
+    const computed *c = t->map;
+    double *w = malloc(2 * ss_morlet_part_most(c->plan) * sizeof *w), *scratch = NULL;
+    t->status = w != NULL ? ss_morlet_scratch(c->plan, &scratch) : SS_ENOMEM;
+    for (size_t i = t->first; t->status == SS_OK && i < t->n; i += t->every)
+        t->status = compute_part(c, &t->part[i], scratch, w, &t->error);
+    ss_fft_scratch_free(scratch);
+    free(w);
+}
+
+static ss_status
+compute(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err)
+{
+    const computed *c = (const computed *)map->source;
+    task share[SS_THREADS_MAX];
+    size_t threads = (size_t)c->plan->opts.threads;
+    for (size_t t = 0; t < threads; t++)
+        share[t] = (task){ .map = c, .part = part, .n = n, .first = t, .every = threads };
+    ss_pool_run(compute_parts, share, sizeof *share, threads);
+    for (size_t t = 0; t < threads; t++)
+        if (share[t].status != SS_OK) {
+            if (err != NULL)
+                *err = share[t].error;
+            return share[t].status;
+        }
+    return SS_OK;
+}
+
+static void
+computed_free(ss_map_source *source)
+{
+    computed *c = (computed *)source;
+    ss_morlet_spectra_free(&c->spectra);
+    free(c->rec.x);
+    ss_morlet_free(c->plan);
+    free(c);
+}
+
+/* Make a map of this plan, with the header of a column or without one. */
+static ss_status
+map_of(ss_coefficients **out, const ss_signal *signal, size_t column, size_t n, double rate,
+       const ss_morlet_opts *opts, ss_error *err)
+{
+    computed *c = calloc(1, sizeof *c);
+    ss_coefficients *map = NULL;
+    if (c == NULL)
+        return SS_ENOMEM;
+    c->source = (ss_map_source){ compute, computed_free };
+    ss_status st = ss_morlet_new(&c->plan, n, rate, opts, err);
+    if (st == SS_OK)
+        st = ss_morlet_grid_of(&map, signal, column, c->plan, opts);
+    if (st == SS_OK) {
+        map->source = &c->source;
+        *out = map;
+        return SS_OK;
+    }
+    ss_coefficients_free(map);
+    computed_free(&c->source);
+    return st;
+}
+
+ss_status
+ss_map_plan(ss_coefficients **out, const ss_signal *signal, size_t column, const ss_morlet_opts *opts,
+            ss_error *err)
+{
+    return map_of(out, signal, column, signal->n, signal->head->rate, opts, err);
+}
+
+ss_status
+ss_map_begin(ss_coefficients *map, const double *x, ss_error *err)
+{
+    computed *c = (computed *)map->source;
+    ss_status st = ss_morlet_record(&c->rec, x, c->plan->n, c->plan->opts.detrend, err);
+    return st == SS_OK ? ss_morlet_forward(c->plan, &c->rec, &c->spectra) : st;
+}
+
+ss_status
+ss_map_of_samples(ss_coefficients **out, const double *x, size_t n, double rate,
+                  const ss_morlet_opts *opts, ss_error *err)
+{
+    ss_status st = map_of(out, NULL, 0, n, rate, opts, err);
+    if (st != SS_OK || (st = ss_map_begin(*out, x, err)) == SS_OK)
+        return st;
+    ss_coefficients_free(*out);
+    *out = NULL;
+    return st;
+}
+
+ss_status
+ss_map_progress(const ss_coefficients *map, double done)
+{
+    if (map->source == NULL || map->source->read != compute)
+        return SS_OK;
+    return ss_progress_at(&((const computed *)map->source)->plan->opts.progress, done);
+}

@@ -1,0 +1,40 @@
+/* map.h -- a map of coefficients, whoever holds or makes them.
+ *
+ * A map is an ss_coefficients: its grid, and its coefficients in memory (w) or in a source, which reads a
+ * range of the translations of a scale where that is asked for.  A record that was transformed, a file, an
+ * overview of a recording and a plan that computes on demand look alike to those who read a map with
+ * ss_map_read and free it with ss_coefficients_free. */
+#ifndef MAP_H
+#define MAP_H
+
+#include <math.h>
+#include <stickslip/morlet.h>
+
+#define SQUARE_LEAST 1e-280
+#define SQUARE_MOST 1e280
+
+/* |w|, for numbers whose squares neither overflow nor underflow, without the cost of hypot. */
+static inline double
+magnitude_of(const double w[2])
+{
+    double square = w[0] * w[0] + w[1] * w[1];
+    return square > SQUARE_LEAST && square < SQUARE_MOST ? sqrt(square) : hypot(w[0], w[1]);
+}
+
+/* For sources: fill in n coefficients w of a part, from its translation first + at on. */
+void ss_map_give(const ss_map_part *part, size_t at, size_t n, const double *w);
+
+/* The grid of a column's transform, with a source that computes what is read, on the threads that opts name,
+ * once ss_map_begin has been called.  SS_ESCALE as ss_morlet_new. */
+ss_status ss_map_plan(ss_coefficients **out, const ss_signal *signal, size_t column,
+                      const ss_morlet_opts *opts, ss_error *err);
+/* The samples of the column, with those of gaps replaced. */
+ss_status ss_map_begin(ss_coefficients *map, const double *x, ss_error *err);
+/* Both for n samples that have no header: the map's head is NULL. */
+ss_status ss_map_of_samples(ss_coefficients **out, const double *x, size_t n, double rate,
+                            const ss_morlet_opts *opts, ss_error *err);
+/* Report the part of the work on a map that is done, 0 to 1, to the progress function of its options, if it
+ * is computed; SS_STOP if that stops the work. */
+ss_status ss_map_progress(const ss_coefficients *map, double done);
+
+#endif
