@@ -93,7 +93,7 @@ score_find(const score_scene *s, double snr, unsigned long seed)
     if (x == NULL)
         exit(2);
     memcpy(x, s->a, s->n * sizeof *x);
-    if (isfinite(snr) && ss_noise_add_once(x, s->n, ss_noise_rms(x, s->n, snr), seed) != SS_OK)
+    if (isfinite(snr) && ss_noise_add_once(x, s->n, ss_noise_rms(x, s->n, snr), seed, NULL) != SS_OK)
         exit(2);
     if (ss_spikes_find(&found, x, s->n, s->scene.rate, &ss_spike_defaults, NULL) != SS_OK)
         exit(2);

@@ -12,6 +12,7 @@
 #include <unistd.h>
 #include <stickslip.h>
 
+#include "store_samples.h"
 #include "unit.h"
 
 static char dir[] = "/tmp/test_store.XXXXXX", path[64];
@@ -111,7 +112,7 @@ write_pieces(const ss_signal *signal, const ss_coefficients *c, int known, ss_er
     while (st == SS_OK && samples < signal->n) {
         size_t n = draw(signal->n / 3 + 1);
         n = n < signal->n - samples ? n : signal->n - samples;
-        st = ss_store_writer_signal(writer, signal->values + samples, n, 1, signal->n, err);
+        st = store_samples(writer, signal, samples, n, err);
         samples += n;
     }
     while (st == SS_OK && left > 0) {

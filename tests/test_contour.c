@@ -84,7 +84,7 @@ the_noise_of_scenes_is_found(void **state)
                 double rms = ss_noise_rms(signal->values, signal->n, snr);
                 opts.step = step == 1 ? 1 : 0.25;
                 opts.dense = step == 2;
-                assert_int_equal(ss_noise_add_once(signal->values, signal->n, rms, 7), SS_OK);
+                assert_int_equal(ss_noise_add_once(signal->values, signal->n, rms, 7, NULL), SS_OK);
                 ss_coefficients *c = transform(signal, &opts);
                 double top = ss_coefficients_max(c), found = noise_of(c);
                 double truth = 20 * log10(rms / sqrt(signal->head->rate) / top) + rise(c, 3);

@@ -13,6 +13,7 @@
 #include <unistd.h>
 #include <stickslip.h>
 
+#include "store_samples.h"
 #include "unit.h"
 
 /* --- the allocator ------------------------------------------------------------------------- */
@@ -232,7 +233,9 @@ read_twice(int variant)
 {
     static const char table[] = "t,x\n0,1\n0.1,\n0.2,3\n";
     static const ss_read_opts opts = { .gaps = SS_GAPS_INTERPOLATE };
-    double rows[64];
+    double row[64], *column[16];
+    for (int c = 0; c < 16; c++)
+        column[c] = row + 4 * c;
     size_t n;
     ss_reader *reader = NULL;
     const char *from = variant < 2 ? text[variant] : table;
@@ -241,7 +244,7 @@ read_twice(int variant)
     if (st == SS_OK)
         st = ss_reader_keep(&reader, NULL, &err);
     for (int again = 0; st == SS_OK && again < 2; again++) {
-        st = ss_reader_rows(reader, rows, 4, &n, &err);
+        st = ss_reader_rows(reader, column, 4, &n, &err);
         if (st == SS_OK)
             st = ss_reader_rewind(reader, &err);
     }
@@ -280,7 +283,7 @@ noises(int variant)
 {
     double x[100] = { 0 };
     ss_noise *noise = NULL;
-    ss_status st = ss_noise_new(&noise, 1);
+    ss_status st = ss_noise_new(&noise, 1, NULL);
     (void)variant;
     if (st == SS_OK)
         st = ss_noise_add_band(noise, x, 100, 100, (ss_range){ 10, 20 }, 1, &err);
@@ -690,7 +693,7 @@ store_pieces(int variant)
     grid.n = variant == 0 ? n : 0;
     ss_status st = ss_store_writer_new(&writer, other, signal->head, &grid, &err);
     if (st == SS_OK)
-        st = ss_store_writer_signal(writer, signal->values, n, 1, n, &err);
+        st = store_samples(writer, signal, 0, n, &err);
     for (size_t i = 0; st == SS_OK && i < grid.n_scales; i++)
         st = ss_store_writer_rows(writer, &grid.scale[i], 0, grid.scale[i].n,
                                   grid.w + 2 * grid.scale[i].offset, n, &err);
@@ -787,7 +790,7 @@ set_up(void **state)
         || ss_sim_signal(&signal, &scene[SS_COMPLIANT], NULL) != SS_OK
         || ss_sim_signal(&cycles, &slips, NULL) != SS_OK
         || ss_sim_signal(&pulled, &pull, NULL) != SS_OK
-        || ss_noise_add_once(cycles->values + 2 * cycles->n, cycles->n, 1e-3, 1) != SS_OK
+        || ss_noise_add_once(cycles->values + 2 * cycles->n, cycles->n, 1e-3, 1, NULL) != SS_OK
         || ss_header_note(signal->head, "key", "value") != SS_OK
         || ss_morlet_transform(&coefficients, signal, 2, &opts, NULL) != SS_OK
         || ss_trade_measure(&trade, &scene[SS_COULOMB], &brief, NULL) != SS_OK)

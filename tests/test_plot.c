@@ -156,7 +156,7 @@ an_envelope_has_the_extremes_of_each_block(void **state)
         size_t n = length[row], first = row < 3 ? 0 : 12250;
         ss_signal *signal = new_signal(n, 1000, 5, "a", "");
         ss_plot_opts opts = ss_plot_defaults;
-        ss_noise_add_once(signal->values, n, 1, 1);
+        ss_noise_add_once(signal->values, n, 1, 1, NULL);
         opts.from = from[row], opts.to = to[row];
         ss_signal *thin = read_thin(signal, 0, 5, &opts);
         const double *x = signal->values, *pair = thin->values;
@@ -201,7 +201,7 @@ long_line(int noise)
         y[i] = noise ? 0 : sin(2 * M_PI * (double)i / 1000.1);
     }
     if (noise)
-        ss_noise_add_once(x, 2 * LONG, 1, 4);
+        ss_noise_add_once(x, 2 * LONG, 1, 4, NULL);
     x[APART] = 1.5;
     y[APART] = 1.2;
     return signal;

@@ -91,7 +91,7 @@ record_by(const ss_scene *scene, const char *method, double snr, unsigned long s
                                .events = append_event, .user = &t };
     assert_int_equal(ss_sim_run(scene, &opts, NULL, NULL), SS_OK);
     double *x = t.signal->values;
-    ss_noise_add_once(x, t.n, ss_noise_rms(x, t.n, snr), seed);
+    ss_noise_add_once(x, t.n, ss_noise_rms(x, t.n, snr), seed, NULL);
     for (size_t i = 0; i < t.n; i++)
         x[i] *= sign;
     return t;
@@ -243,7 +243,7 @@ add_pink(double *x, size_t n, double rms, unsigned long seed)
     for (unsigned k = 0; k < OCTAVES; k++) {
         double level = 0, keeps = exp(-exp2(-(double)k));
         memset(white, 0, n * sizeof *white);
-        ss_noise_add_once(white, n, rms / sqrt(OCTAVES), seed * OCTAVES + k);
+        ss_noise_add_once(white, n, rms / sqrt(OCTAVES), seed * OCTAVES + k, NULL);
         for (size_t i = 0; i < n; i++) {
             level = keeps * level + sqrt(1 - keeps * keeps) * white[i];
             pink[i] += level;
@@ -299,7 +299,7 @@ a_bent_recovery_leaves_its_slope_open(void **state)
             x[i] = u < 1 ? 1 + (1 - exp(-bend * u)) / (1 - exp(-bend))
                 : 1 + .5 * (1 + cos(M_PI * fallen));
         }
-        ss_noise_add_once(x, signal->n, ss_noise_rms(x, signal->n, k % 2 ? 60 : 40), k + 1);
+        ss_noise_add_once(x, signal->n, ss_noise_rms(x, signal->n, k % 2 ? 60 : 40), k + 1, NULL);
         assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
         assert_int_equal((int)f->slips.value, CYCLES);
         if (bend < .5)
@@ -446,7 +446,7 @@ what_is_no_slip_has_no_friction(void **state)
             double rise = fmin(1, (double)(i % CYCLE) / RISE);
             signal->values[i] = 1 + relaxation(run / 2, rise, ((double)(i % CYCLE) / RISE - rise) * RISE / FALL);
         }
-        ss_noise_add_once(signal->values, N, run % 2 ? .003 : .015, 1);
+        ss_noise_add_once(signal->values, N, run % 2 ? .003 : .015, 1, NULL);
         ss_features *f = features_of(signal);
         assert_int_equal(f->n, 20);
         assert_true(run / 2 == 1 || fabs(f->slope.value - (double)RATE / RISE) <= 3 * f->slope.error);
@@ -476,7 +476,7 @@ slips_of_two_rigs(double way)
             cycle++;
         }
     }
-    ss_noise_add_once(signal->values, signal->n, .005, 1);
+    ss_noise_add_once(signal->values, signal->n, .005, 1, NULL);
     return signal;
 }
 
@@ -512,7 +512,7 @@ what_falls_as_it_rises_does_not_slip(void **state)
             level = state_of >> 25 == 0 ? 4 - level : level;
             signal->values[i] = kind == 0 ? 3 - cos(M_PI * u) : kind == 1 ? 2 + u : level;
         }
-        ss_noise_add_once(signal->values, N, .003, 1);
+        ss_noise_add_once(signal->values, N, .003, 1, NULL);
         assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
         assert_true(isnan(f->slips.value) && f->loading == NULL && f->why_slips != NULL);
         ss_features_free(f);
@@ -766,7 +766,7 @@ medians_behind_a_slow_sensor_cover(void **state)
             record t = record_of(&s, 300, 1, 1);
             for (size_t p = 0; p < poles[k % 2]; p++)
                 smooth(t.signal->values, t.n, s.rate, corner);
-            ss_noise_add_once(t.signal->values, t.n, ss_noise_rms(t.signal->values, t.n, 40), i + 1);
+            ss_noise_add_once(t.signal->values, t.n, ss_noise_rms(t.signal->values, t.n, 40), i + 1, NULL);
             ss_features *f = NULL;
             assert_int_equal(ss_features_find(&f, t.signal, 0, NULL, NULL), SS_OK);
             count_medians(&medians, truth, f);

@@ -29,7 +29,7 @@ record_of(const ss_scene *scene, double snr)
     assert_int_equal(ss_signal_select(&one, all, &a, 1, 0, all->n, NULL), SS_OK);
     ss_signal_free(all);
     if (snr < 200)
-        ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), 5);
+        ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), 5, NULL);
     return one;
 }
 
@@ -104,7 +104,7 @@ folds_at_the_period_that_repeats(void **state)
     (void)state;
     for (size_t i = 0; i < N; i++)
         x[i] = 500 + wave((double)i / 100.37);      /* the mean repeats after any time */
-    ss_noise_add_once(x, N, 0.1, 3);
+    ss_noise_add_once(x, N, 0.1, 3, NULL);
     double period = ss_cycle_period(x, NULL, N, 1000, 0.1);
     assert_true(fabs(period / 0.10037 - 1) <= 1. / 64 / (N / 100.37));
     assert_int_equal(ss_cycle_fold(&c, x, NULL, N, 1000, period, NULL), SS_OK);
@@ -236,7 +236,7 @@ what_has_no_transitions_is_not_named(void **state)
         for (size_t i = 0; i < signal->n; i++)
             signal->values[i] = row[k].constant + row[k].ramp * (double)i
                                 + row[k].sine * sin(2 * M_PI * 2.5 * (double)i / 2000);
-        ss_noise_add_once(signal->values, signal->n, row[k].rms, 11);
+        ss_noise_add_once(signal->values, signal->n, row[k].rms, 11, NULL);
         ss_ranking *r = rank(signal);
         if (r->verdict == SS_NAMED || r->why[0] == '\0')
             fail_msg("%s: named", row[k].what);
@@ -260,7 +260,7 @@ what_no_scene_explains_is_not_named(void **state)
         foreign_signal(kinds[i], signal->values, signal->n, signal->head->rate, rng);
         double noise = ss_noise_rms(signal->values, signal->n, 40);
         double power = pow(ss_noise_rms(signal->values, signal->n, 0), 2);
-        ss_noise_add_once(signal->values, signal->n, noise, 3);
+        ss_noise_add_once(signal->values, signal->n, noise, 3, NULL);
         ss_ranking *r = rank(signal);
         double left = power * pow(10, r->row[0].value[SS_BY_RESIDUAL] / 10);
         if (r->verdict == SS_NAMED && left > 2 * noise * noise)
@@ -292,7 +292,7 @@ columns_that_contradict_each_other_are_not_named(void **state)
         assert_int_equal(ss_signal_select(&both, all, column, 2, 0, all->n, NULL), SS_OK);
         for (size_t c = 0; c < 2; c++)
             ss_noise_add_once(both->values + c * both->n, both->n,
-                              ss_noise_rms(both->values + c * both->n, both->n, 40), 4);
+                              ss_noise_rms(both->values + c * both->n, both->n, 40), 4, NULL);
         opts.also[SS_DISPLACEMENT] = 0;
         assert_int_equal(ss_ranking_new(&r, both, 1, scene, 2, &opts, NULL), SS_OK);
         assert_int_equal(r->verdict, rig > 0 ? SS_UNDECIDED : SS_NAMED);
@@ -452,7 +452,7 @@ ask(held of[HELD_TERMS], double *part, const ss_scene *rig, double lag_samples)
     c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS] = c.own[CANDIDATE_STIFFNESS];
     if (lag_samples > 0)
         lag(signal->values, signal->n, lag_samples);
-    ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, 40), 5);
+    ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, 40), 5, NULL);
     assert_int_equal(ss_record_noise(&r, period * r.rate), SS_OK);
     assert_int_equal(ss_match_find(&m, &c, &start, period, &r, NULL, 0, &silent), SS_OK);
     assert_int_equal(ss_held_gains(of, &c, &m, &r), SS_OK);
@@ -610,7 +610,7 @@ does_not_fit_what_is_not_compliant(void **state)
         ss_fit fit;
         if (other[k] == LIGHT) {            /* noise and nothing else */
             memset(signal->values, 0, signal->n * sizeof *signal->values);
-            ss_noise_add_once(signal->values, signal->n, 1, 2);
+            ss_noise_add_once(signal->values, signal->n, 1, 2, NULL);
         }
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, NULL, NULL), SS_OK);
         assert_true(!fit.conclusive && fit.why[0] != '\0');

@@ -21,7 +21,7 @@ au_is_not_written_where_it_would_not_be_read(void **state)
         ss_header_add_column(head, "a", NULL);
     FILE *f = tmpfile();
     assert_int_equal(ss_writer_new(&writer, f, SS_AU, head, NULL), SS_OK);
-    ss_writer_flush(writer);
+    ss_writer_flush(writer, NULL);
     ss_writer_free(writer);
     rewind(f);
     assert_int_equal(ss_signal_read(&back, f, "in", NULL, NULL), SS_OK);
@@ -159,7 +159,7 @@ gives_what_a_slow_pipe_has_delivered(void **state)
 {
     static const char first[] = "# stickslip signal 1\n# rate: 10\n# columns: t/s x\n0\t1\n0.1";
     int fd[2];
-    double row[16];
+    double row[16], *column = row;
     size_t n;
     ss_reader *reader;
     (void)state;
@@ -168,13 +168,13 @@ gives_what_a_slow_pipe_has_delivered(void **state)
     FILE *in = fdopen(fd[0], "r");
     assert_int_equal(ss_reader_new(&reader, in, "in", NULL, NULL), SS_OK);
     assert_int_equal(ss_reader_piece(reader), 4096);
-    assert_int_equal(ss_reader_rows(reader, row, 16, &n, NULL), SS_OK);
+    assert_int_equal(ss_reader_rows(reader, &column, 16, &n, NULL), SS_OK);
     assert_true(n == 1 && row[0] == 1);
     assert_int_equal(write(fd[1], "\t2\n", 3), 3);
-    assert_int_equal(ss_reader_rows(reader, row, 16, &n, NULL), SS_OK);
+    assert_int_equal(ss_reader_rows(reader, &column, 16, &n, NULL), SS_OK);
     assert_true(n == 1 && row[0] == 2);
     close(fd[1]);
-    assert_int_equal(ss_reader_rows(reader, row, 16, &n, NULL), SS_OK);
+    assert_int_equal(ss_reader_rows(reader, &column, 16, &n, NULL), SS_OK);
     assert_int_equal(n, 0);
     ss_reader_free(reader);
     fclose(in);

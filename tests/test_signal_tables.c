@@ -416,7 +416,7 @@ a_long_record_is_interpolated_as_by_one_spline(void **state)
     static double t[N], x[N];
     char *text = malloc(60 * N), *end = text + sprintf(text, "t_s,x\n");
     (void)state;
-    assert_int_equal(ss_noise_add_once(x, N, 1, 3), SS_OK);
+    assert_int_equal(ss_noise_add_once(x, N, 1, 3, NULL), SS_OK);
     for (size_t i = 0; i < N; i++) {
         t[i] = (double)i / 1000 + 0.0004 * sin((double)(i * i));
         end += sprintf(end, "%.17g,%.17g\n", t[i], x[i]);
@@ -564,7 +564,7 @@ reads_a_file_as_it_was_at_first(void **state)
         char *text = long_table(LONG, ""), *at = strstr(text, "8.000,");
         FILE *f = file_of(text, strlen(text));
         ss_reader *reader;
-        double row[1000];
+        double row[1000], *column = row;
         size_t n, all = 0;
         ss_status st = ss_reader_new(&reader, f, "in", NULL, NULL);
         assert_int_equal(st, SS_OK);
@@ -574,7 +574,7 @@ reads_a_file_as_it_was_at_first(void **state)
             assert_int_equal(ftruncate(fileno(f), at - text), 0);
         else
             assert_true(pwrite(fileno(f), "8.000,8001", 10, at - text) == 10);
-        while ((st = ss_reader_rows(reader, row, 1000, &n, NULL)) == SS_OK && n > 0)
+        while ((st = ss_reader_rows(reader, &column, 1000, &n, NULL)) == SS_OK && n > 0)
             for (size_t i = 0; i < n; i++)
                 assert_true(row[i] == (double)all++);
         assert_int_equal(st, SS_OK);
@@ -590,15 +590,16 @@ static void
 refuses_a_gap_that_was_not_there(void **state)
 {
     enum { ROWS = 4, READINGS = 4 };
-    const double first[ROWS] = { 1, NAN, 3, 4 };
+    double first[ROWS] = { 1, NAN, 3, 4 }, *column = first;
     double again[READINGS][ROWS] = { { 1, NAN, 3, 4 }, { NAN, 2, 3, 4 }, { 1, NAN, NAN, 4 }, { 1, 2, 3, NAN } };
     (void)state;
     for (int k = 0; k < READINGS; k++) {
+        double *other = again[k];
         ss_header *head = ss_header_new(10, 0);
         gap_filler *g = ss_gaps_new(1, SS_GAPS_INTERPOLATE);
-        assert_true(head != NULL && g != NULL && ss_gaps_add(g, first, ROWS));
+        assert_true(head != NULL && g != NULL && ss_gaps_add(g, &column, ROWS));
         assert_int_equal(ss_gaps_begin(g, head, "rows", NULL), SS_OK);
-        assert_int_equal(ss_gaps_fill(g, again[k], ROWS), k == 0);
+        assert_int_equal(ss_gaps_fill(g, &other, ROWS), k == 0);
         assert_true(k > 0 || again[k][1] == 2);
         ss_gaps_free(g);
         ss_header_free(head);

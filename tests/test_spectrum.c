@@ -26,7 +26,7 @@ white_noise_is_flat(void **state)
 {
     static double x[N];
     (void)state;
-    assert_int_equal(ss_noise_add_once(x, N, 3, 1), SS_OK);
+    assert_int_equal(ss_noise_add_once(x, N, 3, 1, NULL), SS_OK);
     ss_spectrum *s = spectrum_of(x, N, 1.5 * RATE / 512);
     assert_int_equal(s->n, 257);
     assert_int_equal(s->segments, 255);
@@ -119,7 +119,7 @@ a_spectrum_comes_from_pieces_too(void **state)
     ss_spectrum *pieces;
     ss_error err = { 0 };
     (void)state;
-    assert_int_equal(ss_noise_add_once(x, N, 3, 1), SS_OK);
+    assert_int_equal(ss_noise_add_once(x, N, 3, 1, NULL), SS_OK);
     ss_spectrum *whole = spectrum_of(x, 60000, 0);
     assert_int_equal(ss_welch_new(&welch, 60000, RATE, 0, &err), SS_OK);
     for (size_t i = 0, n = 1; i < 60000; i += n, n = 3 * n % 7001)

@@ -78,7 +78,7 @@ units_and_clocks_do_not_matter(void **state)
         { 1e-9, 0, RATE }, { -1e150, 0, RATE }, { 1, 100, RATE }, { 1, 0, 1e-3 }, { 1, 0, 1e9 } };
     for (size_t k = 0; k < sizeof change / sizeof *change; k++) {
         memcpy(x, s.a, s.n * sizeof *x);
-        ss_noise_add_once(x, s.n, ss_noise_rms(x, s.n, 40), 1);
+        ss_noise_add_once(x, s.n, ss_noise_rms(x, s.n, 40), 1, NULL);
         for (size_t i = 0; i < s.n; i++)
             x[i] = change[k].gain * x[i] + change[k].offset;
         found = find(x, s.n, change[k].rate);
@@ -229,7 +229,7 @@ noise_alone_has_no_spikes(void **state)
     (void)state;
     for (unsigned long seed = 1; seed <= 2 * RECORDS; seed++) {
         memset(x, 0, sizeof x);
-        ss_noise_add_once(x, N, 1, seed);
+        ss_noise_add_once(x, N, 1, seed, NULL);
         for (size_t i = 1; i < N && seed > RECORDS; i++)
             x[i] += 0.9 * x[i - 1];             /* red */
         ss_spikes *found = find(x, N, RATE);
@@ -313,7 +313,7 @@ finds_the_one_event(void **state)
     static double x[N];
     ss_bursts *found = NULL;
     (void)state;
-    ss_noise_add_once(x, N, 0.001, 5);
+    ss_noise_add_once(x, N, 0.001, 5, NULL);
     for (size_t i = 1; i < N; i++)
         x[i] += 0.8 * x[i - 1];
     for (size_t i = 0; i < N; i++)
@@ -340,7 +340,7 @@ a_gap_is_no_event(void **state)
     static double x[N];
     ss_bursts *found = NULL;
     (void)state;
-    ss_noise_add_once(x, N, 0.001, 5);
+    ss_noise_add_once(x, N, 0.001, 5, NULL);
     for (size_t i = 0; i < N; i++) {
         double t = (double)i / 50000;
         x[i] += 5 + 1 / cosh(((double)i - 7000) / 20);
@@ -385,7 +385,7 @@ counts_drops_by_their_height(void **state)
     for (int kind = 0; kind < 5; kind++) {
         memcpy(y, x, sizeof y);
         if (kind > 0)
-            ss_noise_add_once(y, N, 0.1, 1);
+            ss_noise_add_once(y, N, 0.1, 1, NULL);
         for (size_t i = 0; i < N; i++) {
             y[i] += kind == 2 ? -0.3 * (double)i / RATE : 0;            /* drift */
             y[i] += kind == 3 && i % 97 == 0 ? (i % 2 ? 50 : -50) : 0;  /* wrong samples */

@@ -16,7 +16,7 @@ a_file_that_is_not_brought_to_its_end_is_no_file(void **state)
         ss_error err = { 0 };
         grid.n = row % 2 ? c->n : 0;
         assert_int_equal(ss_store_writer_new(&writer, path, signal->head, &grid, NULL), SS_OK);
-        ss_status st = ss_store_writer_signal(writer, signal->values, 300, 1, 300, &err);
+        ss_status st = store_samples(writer, signal, 0, 300, &err);
         assert_int_equal(st, SS_OK);
         assert_int_equal(ss_store_writer_rows(writer, scale, 0, 200, c->w, 300, NULL), SS_OK);
         if (row < 2)            /* a gap in the rows of a scale */
@@ -24,7 +24,7 @@ a_file_that_is_not_brought_to_its_end_is_no_file(void **state)
         else if (row < 4)       /* rows are missing */
             st = ss_store_writer_end(writer, 300, &err);
         else if (row == 5)      /* a sample too many */
-            st = ss_store_writer_signal(writer, signal->values, 1, 1, 300, &err);
+            st = store_samples(writer, signal, 0, 1, &err);
         assert_int_equal(st, row == 4 ? SS_OK : SS_EINVAL);
         if (row != 4) {         /* it says so once and for all */
             char first[sizeof err.text];

@@ -54,7 +54,7 @@ make_own(void *user)
         opts.engine = SS_ENGINE_FFT;    /* FFTW's planner, too */
         j->status = ss_sim_signal(&signal, &scene, NULL);
         if (j->status == SS_OK)
-            j->status = ss_noise_add_once(signal->values, signal->n, 1e-3, 7);
+            j->status = ss_noise_add_once(signal->values, signal->n, 1e-3, 7, NULL);
         if (j->status == SS_OK)
             j->status = ss_morlet_transform(&c, signal, 0, &opts, NULL);
         free(j->text);

@@ -29,7 +29,7 @@ features_in(const ss_scene *scene, double snr, unsigned long seed, double unit, 
     size_t column = (size_t)ss_header_column(signal->head, "a");
     double *a = signal->values + column * signal->n;
     if (isfinite(snr))
-        ss_noise_add_once(a, signal->n, ss_noise_rms(a, signal->n, snr), seed);
+        ss_noise_add_once(a, signal->n, ss_noise_rms(a, signal->n, snr), seed, NULL);
     for (size_t i = 0; i < signal->n; i++)
         a[i] *= unit;
     signal->head->rate /= seconds;
@@ -251,7 +251,7 @@ static ss_signal *
 plain(size_t n, double rms)
 {
     ss_signal *signal = new_signal(n, 1000, 0, "a", "");
-    ss_noise_add_once(signal->values, n, rms, 1);
+    ss_noise_add_once(signal->values, n, rms, 1, NULL);
     return signal;
 }
 
@@ -348,7 +348,7 @@ the_ringing_of_a_filter_is_no_contact(void **state)
         size_t column = (size_t)ss_header_column(signal->head, "a"), n = signal->n;
         double *a = signal->values + column * n;
         filter_sharply(a, n, 0.2);
-        ss_noise_add_once(a, n, ss_noise_rms(a, n, 60), 1 + (unsigned long)k);
+        ss_noise_add_once(a, n, ss_noise_rms(a, n, 60), 1 + (unsigned long)k, NULL);
         assert_int_equal(ss_features_find(&f, signal, column, NULL, NULL), SS_OK);
         slips += isfinite(f->slip_rate.value);
         assert_true(isnan(f->frequency.value) && isnan(f->damping_ratio.value) && f->why_ringing != NULL);
@@ -576,7 +576,7 @@ check_gaps(const char *name, int is_noisy)
     size_t column = (size_t)ss_header_column(signal->head, "a");
     double *a = signal->values + column * signal->n;
     if (is_noisy)
-        ss_noise_add_once(a, signal->n, ss_noise_rms(a, signal->n, 40), 3);
+        ss_noise_add_once(a, signal->n, ss_noise_rms(a, signal->n, 40), 3, NULL);
     signal->head->start = 7;
     assert_int_equal(ss_features_find(&whole, signal, column, NULL, NULL), SS_OK);
     assert_true(whole->n >= 15);

@@ -63,8 +63,10 @@ void tool_writes(const char *path);
 FILE *tool_open(const char *path);
 /* Begin to read a signal from "-", a file or HDF5 (with ":/dataset") row by row, or die. */
 ss_reader *tool_read_rows(const char *path, const ss_read_opts *opts);
+/* Room for so many rows of n columns, to be freed by one free(), or die. */
+double **tool_columns(size_t n, size_t rows);
 /* Read at most max rows, as ss_reader_rows does, or die.  Returns their number; 0 at the end. */
-size_t tool_rows(ss_reader *reader, double *rows, size_t max);
+size_t tool_rows(ss_reader *reader, double *const column[], size_t max);
 /* What tool_read_rows does for --resample, with a reader that was opened otherwise. */
 void tool_resample(ss_reader **reader, const char *path, const ss_read_opts *opts);
 /* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
@@ -128,12 +130,12 @@ void tool_cut(FILE *out, long offset);
 /* Write a whole signal to the output that -o names, as .tsv, .au or .h5, or die. */
 void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
 
-/* The same for a signal that comes in pieces, in constant memory; its header is copied.  Rows, of
- * which the first open the file, are one after the other.  A note that is known at the end is left
+/* The same for a signal that comes in pieces, in constant memory; its header is copied.  The first
+ * rows open the file.  A note that is known at the end is left
  * out by AU and CSV.  The functions die if they fail; end frees. */
 typedef struct tool_signal tool_signal;
 tool_signal *tool_signal_new(const ss_header *head, const char *path, tool_kind kind);
-void tool_signal_rows(tool_signal *signal, const double *rows, size_t n);
+void tool_signal_rows(tool_signal *signal, double *const column[], size_t n);
 void tool_signal_note(tool_signal *signal, const char *key, const char *value);
 void tool_signal_end(tool_signal *signal);
 

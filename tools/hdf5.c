@@ -62,8 +62,7 @@ FORWARD(ss_store_writer_new,
          ss_error *err),
         (out, path, signal, grid, err))
 FORWARD(ss_store_writer_signal,
-        (ss_store_writer *writer, const double *x, size_t n, size_t row, size_t column, ss_error *err),
-        (writer, x, n, row, column, err))
+        (ss_store_writer *writer, double *const column[], size_t n, ss_error *err), (writer, column, n, err))
 FORWARD(ss_store_writer_rows,
         (ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n, const double *w,
          size_t samples, ss_error *err),

@@ -86,12 +86,21 @@ tool_read_rows(const char *path, const ss_read_opts *opts)
     return reader;
 }
 
+double **
+tool_columns(size_t n, size_t rows)
+{
+    double **column = tool_room(NULL, n + 1, sizeof *column + rows * sizeof **column);
+    for (size_t c = 0; c < n; c++)
+        column[c] = (double *)(column + n) + c * rows;
+    return column;
+}
+
 size_t
-tool_rows(ss_reader *reader, double *rows, size_t max)
+tool_rows(ss_reader *reader, double *const column[], size_t max)
 {
     size_t n;
     ss_error err = { 0 };
-    tool_check(ss_reader_rows(reader, rows, max, &n, &err), &err);
+    tool_check(ss_reader_rows(reader, column, max, &n, &err), &err);
     return n;
 }
 

@@ -95,7 +95,7 @@ struct tool_signal {
     FILE *out;
     ss_writer *writer;          /* NULL before the first rows, and for HDF5 */
     ss_store_writer *store;     /* NULL as long as all rows are kept */
-    double *kept;
+    double **kept;
     size_t n;                   /* rows so far */
 };
 
@@ -108,7 +108,7 @@ tool_signal_new(const ss_header *head, const char *path, tool_kind kind)
     s->path = path;
     s->kind = kind;
     if (kind == TOOL_H5)
-        s->kept = tool_room(NULL, WHOLE + head->n_columns, sizeof *s->kept);
+        s->kept = tool_columns(head->n_columns, WHOLE / (head->n_columns + 1) + 1);
     return s;
 }
 
@@ -122,40 +122,41 @@ begin_stream(tool_signal *s)
 
 /* Keep the rows.  Returns 0 if they become too many. */
 static int
-keep_rows(tool_signal *s, const double *rows, size_t n)
+keep_rows(tool_signal *s, double *const column[], size_t n)
 {
     size_t columns = s->head->n_columns;
-    if (s->store != NULL || (s->n + n) * columns > WHOLE)
+    if (s->store != NULL || s->n + n > WHOLE / (columns + 1))
         return 0;
-    memcpy(s->kept + s->n * columns, rows, n * columns * sizeof *rows);
+    for (size_t c = 0; c < columns; c++)
+        memcpy(s->kept[c] + s->n, column[c], n * sizeof *column[c]);
     return 1;
 }
 
 static void
-store_rows(tool_signal *s, const double *rows, size_t n)
+store_rows(tool_signal *s, double *const column[], size_t n)
 {
     ss_error err = { 0 };
-    size_t columns = s->head->n_columns;
     if (s->store == NULL) {
         tool_check(ss_store_writer_new(&s->store, tool_output_path(s->path), s->head, NULL, &err), &err);
-        tool_check(ss_store_writer_signal(s->store, s->kept, s->n, columns, 1, &err), &err);
+        tool_check(ss_store_writer_signal(s->store, s->kept, s->n, &err), &err);
     }
-    tool_check(ss_store_writer_signal(s->store, rows, n, columns, 1, &err), &err);
+    tool_check(ss_store_writer_signal(s->store, column, n, &err), &err);
 }
 
 void
-tool_signal_rows(tool_signal *s, const double *rows, size_t n)
+tool_signal_rows(tool_signal *s, double *const column[], size_t n)
 {
+    ss_error err = { 0 };
     if (s->kind == TOOL_H5) {
-        if (!keep_rows(s, rows, n))
-            store_rows(s, rows, n);
+        if (!keep_rows(s, column, n))
+            store_rows(s, column, n);
         s->n += n;
         return;
     }
     if (s->writer == NULL)
         begin_stream(s);
-    tool_check(ss_writer_rows(s->writer, rows, n), NULL);
-    tool_check(ss_writer_flush(s->writer), NULL);
+    tool_check(ss_writer_rows(s->writer, column, n, &err), &err);
+    tool_check(ss_writer_flush(s->writer, &err), &err);
 }
 
 void
@@ -178,8 +179,7 @@ store_whole(const tool_signal *s)
     size_t columns = s->head->n_columns;
     tool_check(ss_signal_new(&signal, s->head, s->n), NULL);
     for (size_t c = 0; c < columns; c++)
-        for (size_t i = 0; i < s->n; i++)
-            signal->values[c * s->n + i] = s->kept[i * columns + c];
+        memcpy(signal->values + c * s->n, s->kept[c], s->n * sizeof *signal->values);
     tool_write_signal(signal, s->path, s->kind);
     ss_signal_free(signal);
 }

@@ -56,22 +56,21 @@ copy_rows(tool_kind kind, const ss_read_opts *opts)
     ss_reader *reader = tool_read_rows(path, opts);
     const ss_header *head = ss_reader_header(reader);
     ss_header *chosen;
-    size_t n, got, *column = choose_columns(head, &n), all = head->n_columns, piece = ss_reader_piece(reader);
-    double *rows = tool_room(NULL, piece * (all + n), sizeof *rows), *part = rows + piece * all;
+    size_t n, got, *column = choose_columns(head, &n), piece = ss_reader_piece(reader);
+    double **from = tool_columns(head->n_columns, piece), **to = tool_room(NULL, n + 1, sizeof *to);
+    for (size_t i = 0; i < n; i++)
+        to[i] = from[column[i]];
     say_header(head);
     tool_check(ss_header_select(&chosen, head, column, n, 0), NULL);
     tool_signal *out = tool_signal_new(chosen, output, kind);
-    while ((got = tool_rows(reader, rows, piece)) > 0) {
-        for (size_t i = 0; i < got; i++)
-            for (size_t j = 0; j < n; j++)
-                part[i * n + j] = rows[i * all + column[j]];
-        tool_signal_rows(out, part, got);
-    }
+    while ((got = tool_rows(reader, from, piece)) > 0)
+        tool_signal_rows(out, to, got);
     tool_signal_end(out);
     ss_header_free(chosen);
     ss_reader_free(reader);
     free(column);
-    free(rows);
+    free(from);
+    free(to);
 }
 
 int

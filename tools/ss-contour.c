@@ -101,15 +101,15 @@ typedef struct trend {
 
 /* Find the mean of a column, or its line of least squares, as ss-morlet does, and begin again. */
 static trend
-find_trend(ss_reader *reader, size_t column, ss_detrend detrend, double *rows)
+find_trend(ss_reader *reader, double *const wanted[], const double *value, ss_detrend detrend)
 {
     ss_error err = { 0 };
-    size_t columns = ss_reader_header(reader)->n_columns, piece = ss_reader_piece(reader), n;
+    size_t piece = ss_reader_piece(reader), n;
     long double sum = 0, moment = 0, count = 0;
     trend t = { 0 };
-    while ((n = tool_rows(reader, rows, piece)) > 0)
+    while ((n = tool_rows(reader, wanted, piece)) > 0)
         for (size_t i = 0; i < n; i++, count++) {
-            double x = rows[i * columns + column];
+            double x = value[i];
             if (count == 0)
                 t.first = x;
             sum += x - t.first;
@@ -132,18 +132,21 @@ draw_rows(drawing *d, ss_reader **source)
         tool_check(ss_reader_keep(source, d->reading.opts.folder, &err), &err);
     ss_reader *reader = *source;
     const ss_header *head = ss_reader_header(reader);
-    size_t columns = head->n_columns, column = open_overview(d, head), piece = ss_reader_piece(reader), n;
-    double *rows = tool_room(NULL, (columns + 1) * piece, sizeof *rows), *x = rows + columns * piece;
+    size_t column = open_overview(d, head), piece = ss_reader_piece(reader), n;
+    double *x = tool_room(NULL, piece, sizeof *x), **wanted = tool_room(NULL, head->n_columns, sizeof *wanted);
+    memset(wanted, 0, head->n_columns * sizeof *wanted);
+    wanted[column] = x;
     trend t = { 0 };
     if (d->detrend != SS_DETREND_NONE)
-        t = find_trend(reader, column, d->detrend, rows);
+        t = find_trend(reader, wanted, x, d->detrend);
     long double at = 0;
-    while ((n = tool_rows(reader, rows, piece)) > 0) {
+    while ((n = tool_rows(reader, wanted, piece)) > 0) {
         for (size_t i = 0; i < n; i++, at++)
-            x[i] = (double)(rows[i * columns + column] - t.first - t.mean - t.slope * (at - t.middle));
+            x[i] = (double)(x[i] - t.first - t.mean - t.slope * (at - t.middle));
         push(d, x, n);
     }
-    free(rows);
+    free(wanted);
+    free(x);
     end_overview(d);
 }
 

@@ -190,10 +190,10 @@ write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_
 }
 
 static void
-store_samples(flow *f, const double *x, size_t n, size_t row, size_t column)
+store_samples(flow *f, double *const column[], size_t n)
 {
     if (f->store != NULL)
-        tool_check(ss_store_writer_signal(f->store, x, n, row, column, &f->error), &f->error);
+        tool_check(ss_store_writer_signal(f->store, column, n, &f->error), &f->error);
 }
 
 /* Open the output for n samples on this grid; n is 0 if their number is not known yet. */
@@ -284,7 +284,11 @@ transform_whole(const request *req, const char *path)
         f.w = tool_room(NULL, 2 * ss_morlet_total(plan), sizeof *f.w);
     open_output(&f, req, signal->head, column, signal->n, ss_morlet_scale(plan, 0),
                 ss_morlet_scales(plan));
-    store_samples(&f, signal->values, signal->n, 1, signal->n);
+    double **all = tool_room(NULL, signal->head->n_columns, sizeof *all);
+    for (size_t c = 0; c < signal->head->n_columns; c++)
+        all[c] = signal->values + c * signal->n;
+    store_samples(&f, all, signal->n);
+    free(all);
     check_flow(&f, ss_morlet_each(plan, x, write_rows, &f, &err), &err, path);
     say_what_was_done(plan, signal->n, now() - begin - f.seconds);
     if (req->check)
@@ -333,15 +337,13 @@ push_samples(flow *f, const double *x, size_t n, const request *req, const char 
 
 /* Push a column of n rows; n may be 0.  The first call opens the output. */
 static void
-push_rows(flow *f, const double *rows, double *x, size_t n, const ss_header *head, size_t column,
-          const request *req, const char *path)
+push_rows(flow *f, double *const x[], size_t n, const ss_header *head, size_t column, const request *req,
+          const char *path)
 {
     if (f->text == NULL && f->store == NULL)
         open_output(f, req, head, column, 0, ss_stream_scale(f->stream, 0), ss_stream_scales(f->stream));
-    for (size_t i = 0; i < n; i++)
-        x[i] = rows[i * head->n_columns + column];
-    store_samples(f, rows, n, head->n_columns, 1);
-    push_samples(f, x, n, req, path);
+    store_samples(f, x, n);
+    push_samples(f, x[column], n, req, path);
 }
 
 /* Push samples as they come, until there are no more. */
@@ -350,21 +352,21 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
 {
     const ss_header *head = ss_reader_header(reader);
     size_t n, all = 0, piece = ss_reader_piece(reader);
-    double *rows = tool_room(NULL, (head->n_columns + 1) * piece, sizeof *rows), *x = rows + head->n_columns * piece;
+    double **x = tool_columns(head->n_columns, piece);
     ss_error bad = { 0 }, err = { 0 };
     do {
-        ss_status st = ss_reader_rows(reader, rows, piece, &n, &bad);
+        ss_status st = ss_reader_rows(reader, x, piece, &n, &bad);
         all += n;
         if (all == 0)                   /* then nothing is written */
             tool_check(st, &bad);
-        push_rows(f, rows, x, n, head, column, req, path);
+        push_rows(f, x, n, head, column, req, path);
         if (st != SS_OK)                /* coefficients that are complete before bad data are written */
             check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
         if (f->out != NULL && (st != SS_OK || ss_reader_waits(reader)) && fflush(f->out) != 0)
             check_written(SS_EIO, NULL);
         tool_check(st, &bad);
     } while (n > 0 && !tool_stopping());
-    free(rows);
+    free(x);
 }
 
 static void

@@ -128,7 +128,7 @@ add_band(tool_kind kind, ss_noise *noise)
 
 /* The rms of the noise of each column of white noise; that of a ratio takes two readings of its rows. */
 static double *
-find_levels(ss_reader *reader, const double *chosen, double *rows)
+find_levels(ss_reader *reader, const double *chosen, double *const x[])
 {
     const ss_header *head = ss_reader_header(reader);
     size_t columns = head->n_columns, n;
@@ -137,9 +137,9 @@ find_levels(ss_reader *reader, const double *chosen, double *rows)
     ss_variance *variance = tool_room(NULL, columns, sizeof *variance);
     memset(variance, 0, columns * sizeof *variance);
     for (int again = 0; again < 2 && !isnan(snr); again++) {
-        while ((n = tool_rows(reader, rows, ss_reader_piece(reader))) > 0)
+        while ((n = tool_rows(reader, x, ss_reader_piece(reader))) > 0)
             for (size_t c = 0; c < columns; c++)
-                (again ? ss_variance_square : ss_variance_mean)(&variance[c], rows + c, n, columns);
+                (again ? ss_variance_square : ss_variance_mean)(&variance[c], x[c], n);
         tool_check(ss_reader_rewind(reader, &err), &err);
     }
     for (size_t c = 0; c < columns; c++)
@@ -162,24 +162,23 @@ change_rows(tool_kind kind, ss_noise *noise)
     ss_header *head = ss_header_copy(ss_reader_header(reader));
     if (head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
-    double *rows = tool_room(NULL, ss_reader_piece(reader) * head->n_columns, sizeof *rows);
-    double *chosen = choose_columns(head), *level = find_levels(reader, chosen, rows);
+    size_t columns = head->n_columns, piece = ss_reader_piece(reader);
+    double **x = tool_columns(columns, piece), *chosen = choose_columns(head), *level = find_levels(reader, chosen, x);
     add_notes(head);
     tool_signal *out = tool_signal_new(head, output, kind);
-    while ((n = tool_rows(reader, rows, ss_reader_piece(reader))) > 0) {
-        tool_check(ss_noise_add(noise, rows, n, head->n_columns, head->n_columns, 1, level), NULL);
-        size_t step = head->n_columns == 1 ? n : 1;     /* values of one column, side by side */
-        for (size_t i = 0; i < n * head->n_columns && bits > 0; i += step)
-            if (chosen[i % head->n_columns] == 1)
-                convert(&rows[i], step);
-        tool_signal_rows(out, rows, n);
+    while ((n = tool_rows(reader, x, piece)) > 0) {
+        tool_check(ss_noise_add(noise, x, columns, n, level, &err), &err);
+        for (size_t c = 0; c < columns && bits > 0; c++)
+            if (chosen[c] == 1)
+                convert(x[c], n);
+        tool_signal_rows(out, x, n);
     }
     if (note_clipped(text, sizeof text))
         tool_signal_note(out, "clipped", text);
     tool_signal_end(out);
     ss_header_free(head);
     ss_reader_free(reader);
-    free(rows);
+    free(x);
     free(level);
     free(chosen);
 }
@@ -197,6 +196,7 @@ main(int argc, char *argv[])
     const ss_range of_bits = { 1, SS_BITS_MAX }, seeds = { 0, 0x7fffffff };
     tool_kind kind = TOOL_TSV;
     ss_noise *noise;
+    ss_error err = { 0 };
     const tool_option options[] = {
         TOOL_NUMBER(0, "snr", &snr, decibels), TOOL_NUMBER(0, "rms", &rms, size),
         TOOL_VALUE(0, "band", set_band, band), TOOL_WHOLE(0, "bits", &bits, of_bits),
@@ -217,7 +217,7 @@ main(int argc, char *argv[])
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     path = tool_input(argc, argv, first);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
-    tool_check(ss_noise_new(&noise, (unsigned long)seed), NULL);
+    tool_check(ss_noise_new(&noise, (unsigned long)seed, &err), &err);
     if (!isnan(band[0]))
         add_band(kind, noise);
     else

@@ -67,11 +67,13 @@ static int
 stream_samples(const ss_sample *s, size_t n, void *user)
 {
     output *o = user;
-    double row[SS_SIM_COLUMNS];
+    double row[SS_SIM_COLUMNS], *column[SS_SIM_COLUMNS];
     begin_samples(o);
+    for (size_t c = 0; c < o->req->columns.n; c++)
+        column[c] = &row[c];
     for (size_t i = 0; i < n; i++) {
         ss_sim_row(&o->req->columns, &s[i], row);
-        if (tool_stopping() || ss_writer_rows(o->writer, row, 1) != SS_OK)
+        if (tool_stopping() || ss_writer_rows(o->writer, column, 1, NULL) != SS_OK)
             return 1;
     }
     return 0;
@@ -292,7 +294,7 @@ finish(output *o, int has_events)
         tool_check(ss_event_writer_flush(o->event_writer), NULL);
     } else {
         begin_samples(o);
-        tool_check(ss_writer_flush(o->writer), NULL);
+        tool_check(ss_writer_flush(o->writer, &err), &err);
     }
     ss_writer_free(o->writer);
     ss_event_writer_free(o->event_writer);

@@ -138,10 +138,10 @@ ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_re
                         ss_error *err);
 const ss_header *ss_reader_header(const ss_reader *reader);     /* owned by the reader */
 
-/* Read at most max rows of n_columns values each, one row after the other, into rows.  *n becomes
- * their number; SS_OK with *n = 0 is the end.  If some rows have arrived, the call returns them and
- * does not wait for more. */
-ss_status ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
+/* Read at most max rows: the value of row i in column c becomes column[c][i].  NULL for a column: its
+ * values are not wanted.  *n becomes the number of rows; SS_OK with *n = 0 is the end.  If some rows
+ * have arrived, the call returns them and does not wait for more. */
+ss_status ss_reader_rows(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err);
 /* The rows to read at a time, fast and in half a megabyte: 4096, fewer if they have many columns, or one. */
 size_t ss_reader_piece(const ss_reader *reader);
 /* 1 if that call would wait for the source; 0 if a part of a row has arrived, or at the end. */
@@ -199,10 +199,11 @@ typedef struct ss_writer ss_writer;
  * SS_EINVAL: AU allows no more than 4096 columns and a header of 1 MiB. */
 ss_status ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head,
                         ss_error *err);
-/* Append n rows of n_columns values each, one row after the other.  SS_EIO: out refuses them. */
-ss_status ss_writer_rows(ss_writer *writer, const double *rows, size_t n);
+/* Append n rows, whose values in column c are column[c][0] ... column[c][n - 1].  SS_EIO: out refuses
+ * them. */
+ss_status ss_writer_rows(ss_writer *writer, double *const column[], size_t n, ss_error *err);
 /* Flush out.  SS_EIO: this or an earlier write failed. */
-ss_status ss_writer_flush(ss_writer *writer);
+ss_status ss_writer_flush(ss_writer *writer, ss_error *err);
 void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flush */
 
 /* The simple case: write a whole signal. */
@@ -244,14 +245,14 @@ ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, s
 
 /* Add Gaussian white noise of standard deviation rms >= 0 to the n values of x.  The same seed
  * gives the same noise (GSL's mt19937 and its Ziggurat). */
-ss_status ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed);
-/* The same for several columns, n rows at a time.  Value c of row i is x[i * row + c * column]; its
- * noise has the standard deviation rms[c] >= 0, and where this is 0 no number is drawn.  SS_ERANGE,
- * here and below: a sum is not finite; x has then been changed. */
+ss_status ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed, ss_error *err);
+/* The same for several columns, n rows at a time.  The noise of column[c][0] ... column[c][n - 1] has
+ * the standard deviation rms[c] >= 0; where this is 0 no number is drawn.  SS_ERANGE, here and below: a
+ * sum is not finite; the columns have then been changed. */
 typedef struct ss_noise ss_noise;
-ss_status ss_noise_new(ss_noise **out, unsigned long seed);
-ss_status ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
-                  const double *rms);
+ss_status ss_noise_new(ss_noise **out, unsigned long seed, ss_error *err);
+ss_status ss_noise_add(ss_noise *noise, double *const column[], size_t n_columns, size_t n, const double *rms,
+                       ss_error *err);
 /* Add noise that has only frequencies in band [Hz], 0 <= from <= to <= rate / 2, to the n samples
  * of one column.  The added noise has exactly this rms.  SS_EINVAL: no frequency of the record
  * lies in the band. */
@@ -260,15 +261,15 @@ ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, s
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
 /* The rms of noise whose power is snr_db [dB] below the variance of x about its mean. */
 double ss_noise_rms(const double *x, size_t n, double snr_db);
-/* The same for values that come in pieces of n, x[i * step], and are read twice: from zeros, with _mean for
- * all, then with _square for all again. */
+/* The same for values that come in pieces of n and are read twice: from zeros, with _mean for all, then
+ * with _square for all again. */
 typedef struct ss_variance {
     size_t n;
     double largest;
     double mean, square;        /* of the values times a power of 2; the sum of squares about the mean */
 } ss_variance;
-void ss_variance_mean(ss_variance *variance, const double *x, size_t n, size_t step);
-void ss_variance_square(ss_variance *variance, const double *x, size_t n, size_t step);
+void ss_variance_mean(ss_variance *variance, const double *x, size_t n);
+void ss_variance_square(ss_variance *variance, const double *x, size_t n);
 double ss_variance_noise(const ss_variance *variance, double snr_db);
 
 /* Replace x by the output of a converter of so many bits whose input spans -range to range: the

@@ -47,9 +47,8 @@ ss_status ss_store_write(const char *path, const ss_record *record, ss_error *er
 typedef struct ss_store_writer ss_store_writer;
 ss_status ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
                               const ss_coefficients *grid, ss_error *err);
-/* Append n samples of each column: sample i of column c is x[i * row + c * column]. */
-ss_status ss_store_writer_signal(ss_store_writer *writer, const double *x, size_t n, size_t row,
-                                 size_t column, ss_error *err);
+/* Append n samples of each column: those of column c are column[c][0] ... column[c][n - 1]. */
+ss_status ss_store_writer_signal(ss_store_writer *writer, double *const column[], size_t n, ss_error *err);
 /* Append coefficients; the arguments are those of an ss_coefficient_sink.  SS_ERANGE: they outgrow
  * 32-bit floats. */
 ss_status ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first,

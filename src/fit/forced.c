@@ -62,7 +62,7 @@ observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, uns
     run->head->start = w->signal->head->start;
     st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps) : SS_OK;
     if (st == SS_OK)
-        st = ss_noise_add_once(x, run->n, sqrt(w->record.noise), seed);
+        st = ss_noise_add_once(x, run->n, sqrt(w->record.noise), seed, NULL);
     for (size_t c = 0; c < run->head->n_columns; c++)
         ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
     if (st == SS_OK)

@@ -102,16 +102,13 @@ ss_calibrate_header(ss_header *head, const ss_read_opts *opts, const char *name,
 }
 
 ss_status
-ss_calibrate_rows(double *rows, size_t n, size_t columns, size_t row, size_t column,
-                  const double *factor, const char *name, ss_error *err)
+ss_calibrate(double *const column[], size_t n, size_t columns, const double *factor, const char *name,
+             ss_error *err)
 {
-    for (size_t i = 0; factor != NULL && i < n; i++)
-        for (size_t c = 0; c < columns; c++) {
-            double *x = &rows[i * row + c * column];
-            if (!isfinite(*x *= factor[c]))
-                return ss_fail(err, SS_ERANGE, "%s: a value times %g is beyond double precision", name,
-                               factor[c]);
-        }
+    for (size_t c = 0; factor != NULL && c < columns; c++)
+        for (size_t i = 0; column[c] != NULL && i < n; i++)
+            if (!isfinite(column[c][i] *= factor[c]))
+                return ss_fail(err, SS_ERANGE, "%s: a value times %g is beyond double precision", name, factor[c]);
     return SS_OK;
 }
 

@@ -11,9 +11,9 @@
  * no such column. */
 ss_status ss_calibrate_header(ss_header *head, const ss_read_opts *opts, const char *name, double **factor,
                               ss_error *err);
-/* Multiply n rows; value c of row i is rows[i * row + c * column].  SS_ERANGE: a product is not finite. */
-ss_status ss_calibrate_rows(double *rows, size_t n, size_t columns, size_t row, size_t column,
-                            const double *factor, const char *name, ss_error *err);
+/* Multiply n rows.  SS_ERANGE: a product is not finite. */
+ss_status ss_calibrate(double *const column[], size_t n, size_t columns, const double *factor, const char *name,
+                       ss_error *err);
 
 /* Find the rows *first ... *end - 1 that opts select of a signal with this header, all by default;
  * the start of the header becomes that of the first. */

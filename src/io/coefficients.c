@@ -280,7 +280,10 @@ read_rows_of_scales(coefficient_reader *r)
     double row[COEFFICIENT_COLUMNS];
     size_t n;
     ss_status st;
-    while ((st = ss_reader_rows(&r->in, row, 1, &n, r->err)) == SS_OK && n > 0) {
+    double *column[COEFFICIENT_COLUMNS];
+    for (int c = 0; c < COEFFICIENT_COLUMNS; c++)
+        column[c] = &row[c];
+    while ((st = ss_reader_rows(&r->in, column, 1, &n, r->err)) == SS_OK && n > 0) {
         st = row[1] == 0 ? set_length(r, rint(row[2] * r->coef->head->rate) + 1) : append_row(r, row);
         if (st != SS_OK)
             return st;

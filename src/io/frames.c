@@ -56,11 +56,13 @@ refuse_end(const ss_reader *reader, size_t frame, size_t rest, ss_error *err)
 }
 
 static ss_status
-decode_row(ss_reader *reader, const char *p, double *row, ss_error *err)
+decode_row(ss_reader *reader, const char *p, double *const column[], size_t at, ss_error *err)
 {
     for (size_t c = 0; c < reader->head->n_columns; c++) {
-        row[c] = decode((const unsigned char *)p + c * reader->type.bytes, reader->type);
-        if (!isfinite(row[c]))
+        double x = decode((const unsigned char *)p + c * reader->type.bytes, reader->type);
+        if (column[c] != NULL)
+            column[c][at] = x;
+        if (!isfinite(x))
             return ss_fail(err, SS_EDATA, "%s: row %llu, column %s: not a finite number",
                            reader->in.name, (unsigned long long)reader->row + 1,
                            reader->head->column[c].name);
@@ -122,10 +124,10 @@ refuse_more(ss_reader *reader, ss_error *err)
 }
 
 static ss_status
-read_frames(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+read_frames(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct input *in = &reader->in;
-    size_t n_columns = reader->head->n_columns, frame = n_columns * reader->type.bytes;
+    size_t frame = reader->head->n_columns * reader->type.bytes;
     for (; *n < max && reader->bytes_left > 0; ++*n) {
         if (*n > 0 && in->hi - in->lo < frame)
             break;
@@ -138,7 +140,7 @@ read_frames(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *er
         if (there < frame || reader->bytes_left < frame)
             return refuse_end(reader, frame, reader->bytes_left < there
                               ? (size_t)reader->bytes_left : there, err);
-        st = decode_row(reader, in->buffer + in->lo, rows + *n * n_columns, err);
+        st = decode_row(reader, in->buffer + in->lo, column, *n, err);
         if (st != SS_OK)
             return st;
         in->lo += frame;

@@ -1,20 +1,22 @@
 /* kept_reader.c -- a reader of what another gives, which can go back to its first row. */
 #include <stdlib.h>
 #include <string.h>
+#include "base/columns.h"
 #include "base/error.h"
 #include "signal/gaps.h"
 #include "io/kept.h"
 #include "io/reader.h"
 
-
 static ss_status
-give_kept(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+give_kept(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct kept *kept = reader->source;
     const double *row;
     ss_status st = SS_OK;
     for (*n = 0; *n < max && (st = ss_kept_next(kept, &row, err)) == SS_OK && row != NULL; ++*n)
-        memcpy(rows + *n * kept->width, row, kept->width * sizeof *row);
+        for (size_t c = 0; c < kept->width; c++)
+            if (column[c] != NULL)
+                column[c][*n] = row[c];
     return st;
 }
 
@@ -42,17 +44,18 @@ static ss_status
 keep_rows(struct kept *kept, ss_reader *from, ss_error *err)
 {
     size_t columns = from->head->n_columns, piece = ss_reader_piece(from), n = 1;
-    double *rows = malloc(piece * columns * sizeof *rows), *row;
-    ss_status st = rows != NULL ? SS_OK : ss_fail_memory(err, from->in.name);
+    double **column = ss_columns_new(columns, piece), *row;
+    ss_status st = column != NULL ? SS_OK : ss_fail_memory(err, from->in.name);
     while (st == SS_OK && n > 0) {
-        st = ss_reader_rows(from, rows, piece, &n, err);
+        st = ss_reader_rows(from, column, piece, &n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++)
             if ((st = ss_kept_new(kept, &row, err)) == SS_OK) {
-                memcpy(row, rows + i * columns, columns * sizeof *row);
+                for (size_t c = 0; c < columns; c++)
+                    row[c] = column[c][i];
                 ss_kept_add(kept);
             }
     }
-    free(rows);
+    free(column);
     return st == SS_OK ? ss_kept_end(kept, err) : st;
 }
 

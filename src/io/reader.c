@@ -4,7 +4,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
-#include "base/list.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
 #include "io/calibration.h"
@@ -127,17 +126,16 @@ ss_reader_header(const ss_reader *reader)
 }
 
 ss_status
-ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+ss_reader_rows(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
 {
-    if (reader == NULL || rows == NULL || n == NULL)
+    if (reader == NULL || column == NULL || n == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = SS_OK;
-    size_t columns = reader->head->n_columns;
     do {                                        /* skip the rows before the first one wanted */
         uint64_t end = reader->passed < reader->first ? reader->first : reader->end_row;
         uint64_t left = end - reader->passed;
         *n = 0;
-        st = left > 0 ? reader->rows(reader, rows, left < max ? (size_t)left : max, n, err) : SS_OK;
+        st = left > 0 ? reader->rows(reader, column, left < max ? (size_t)left : max, n, err) : SS_OK;
         reader->passed += *n;
     } while (st == SS_OK && *n > 0 && reader->passed <= reader->first);
     int none = reader->passed <= reader->first;
@@ -146,7 +144,7 @@ ss_reader_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error 
         ss_progress_at(&reader->in.progress, ss_delimited_given(reader->table));
     if (st == SS_OK && none && max > 0 && reader->from < reader->to)
         return ss_fail_no_rows(reader->in.name, reader->from, reader->to, err);
-    ss_status scaled = ss_calibrate_rows(rows, *n, columns, columns, 1, reader->factor, reader->in.name, err);
+    ss_status scaled = ss_calibrate(column, *n, reader->head->n_columns, reader->factor, reader->in.name, err);
     return st == SS_OK ? scaled : st;
 }
 
@@ -179,72 +177,48 @@ ss_reader_free(ss_reader *reader)
 
 /* --- whole signals ------------------------------------------------------------------------- */
 
-/* Read all rows that are left into an array, to be freed. */
+/* Give each column of a signal room for `more` rows in place of *room. */
 static ss_status
-read_all(ss_reader *reader, double **rows, size_t *n, ss_error *err)
+set_room(ss_signal *signal, size_t *room, size_t more, const char *name, ss_error *err)
 {
-    size_t columns = reader->head->n_columns, piece = 1 + 16384 / columns, room = 0, got;
-    *rows = NULL;
-    *n = 0;
-    do {
-        double *more = ss_list_grow(*rows, &room, *n + piece, columns * sizeof *more);
-        if (more == NULL)
-            return ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", reader->in.name);
-        *rows = more;
-        ss_status st = ss_reader_rows(reader, *rows + *n * columns, room - *n, &got, err);
-        if (st != SS_OK)
-            return st;
-        *n += got;
-    } while (got > 0);
+    size_t columns = signal->head->n_columns, n = signal->n;
+    double *values = signal->values;
+    for (size_t c = 1; more < *room && c < columns; c++)
+        memmove(values + c * more, values + c * *room, n * sizeof *values);
+    int fits = more < SIZE_MAX / sizeof *values / (columns + 1);
+    values = fits ? realloc(values, (columns * more + 1) * sizeof *values) : NULL;
+    if (values == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", name);
+    signal->values = values;
+    for (size_t c = columns; more > *room && c-- > 1;)
+        memmove(values + c * more, values + c * *room, n * sizeof *values);
+    *room = more;
     return SS_OK;
-}
-
-/* Put n rows, from number `first` on, into the columns of a signal. */
-static void
-copy_rows(ss_signal *signal, size_t first, const double *rows, size_t n)
-{
-    size_t columns = signal->head->n_columns;
-    for (size_t i = 0; i < n; i++)
-        for (size_t c = 0; c < columns; c++)
-            signal->values[c * signal->n + first + i] = rows[i * columns + c];
-}
-
-/* Read the rows of a signal that has room for all of them. */
-static ss_status
-read_into(ss_signal *signal, ss_reader *reader, ss_error *err)
-{
-    size_t columns = signal->head->n_columns, piece = ss_reader_piece(reader), done = 0, got;
-    double *rows = malloc(piece * columns * sizeof *rows);
-    if (rows == NULL)
-        return ss_fail_memory(err, reader->in.name);
-    ss_status st;
-    do {
-        st = ss_reader_rows(reader, rows, piece, &got, err);
-        copy_rows(signal, done, rows, got);
-        done += got;
-    } while (st == SS_OK && got > 0);
-    free(rows);
-    return st;
 }
 
 ss_status
 ss_reader_all(ss_signal **out, ss_reader *reader, ss_error *err)
 {
-    double *rows = NULL;
-    ss_status st = SS_OK;
+    const char *name = reader->in.name;
+    size_t columns = reader->head->n_columns, room = 0, got = 1, first = 1 + 16384 / columns;
     ss_signal *signal = NULL;
-    int known = reader->length < UINT64_MAX;
-    uint64_t end = reader->length < reader->end_row ? reader->length : reader->end_row;
-    size_t n = known ? (size_t)(end - reader->first) : 0;
-    if (!known)
-        st = read_all(reader, &rows, &n, err);
-    if (st == SS_OK && ss_signal_new(&signal, reader->head, n) != SS_OK)
-        st = ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", reader->in.name);
-    if (st == SS_OK && known)
-        st = read_into(signal, reader, err);
-    else if (st == SS_OK)
-        copy_rows(signal, 0, rows, n);
-    free(rows);
+    double **column = malloc(columns * sizeof *column);
+    ss_status st = column != NULL ? ss_signal_new(&signal, reader->head, 0) : SS_ENOMEM;
+    if (st != SS_OK)
+        ss_fail_memory(err, name);
+    if (reader->length < UINT64_MAX)
+        first = (size_t)((reader->length < reader->end_row ? reader->length : reader->end_row) - reader->first) + 1;
+    while (st == SS_OK && got > 0) {
+        if (signal->n == room && (st = set_room(signal, &room, room > 0 ? 2 * room : first, name, err)) != SS_OK)
+            break;
+        for (size_t c = 0; c < columns; c++)
+            column[c] = signal->values + c * room + signal->n;
+        st = ss_reader_rows(reader, column, room - signal->n, &got, err);
+        signal->n += got;
+    }
+    if (st == SS_OK)
+        st = set_room(signal, &room, signal->n, name, err);
+    free(column);
     if (st == SS_OK)
         *out = signal;
     else

@@ -7,7 +7,7 @@
 #include "io/input.h"
 
 /* Rows as ss_reader_rows gives them; each format has its own. */
-typedef ss_status read_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err);
+typedef ss_status read_rows(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err);
 
 typedef struct sample_type {    /* of a sound file; integers are signed, big-endian comes first */
     unsigned bytes;
@@ -30,7 +30,7 @@ struct ss_reader {
     uint64_t bytes_left;        /* frames: UINT64_MAX if unknown */
     uint64_t end;               /* frames: their end in the file, unless that is unknown */
     int is_chunk;               /* frames: behind them, another chunk of a WAV file is no error */
-    double *values;             /* HDF5: rows, one after the other: a piece */
+    double **values;            /* HDF5: a piece of each column */
     size_t n_rows, next;        /* next: of these, to be given */
     uint64_t length;            /* rows of the source; UINT64_MAX: not known before its end */
     void *source;               /* what the reader has opened itself */
@@ -56,8 +56,6 @@ ss_status ss_reader_adjust(ss_reader *reader, const ss_read_opts *opts, ss_error
 /* Fill the gaps of a reader whose rows have NaN there, and which can go back: all rows are read first. */
 ss_status ss_reader_fill_gaps(ss_reader *reader, ss_gaps how, ss_error *err);
 
-/* Give at most max rows of reader->values; *n becomes their number. */
-void ss_reader_give(ss_reader *reader, double *rows, size_t max, size_t *n);
 /* Read all remaining rows. */
 ss_status ss_reader_all(ss_signal **out, ss_reader *reader, ss_error *err);
 

@@ -1,7 +1,6 @@
 /* resampled.c -- a reader of what another gives, at another rate. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "base/error.h"
 #include "signal/header.h"
 #include "signal/resample.h"
@@ -12,34 +11,25 @@
 struct inner {
     ss_reader *reader;
     resampler *resampler;
-    double *rows;               /* the rows that were read */
-    size_t n, next;             /* their number; the next of them to be given */
-    size_t row;                 /* rows given so far */
+    size_t row;                 /* rows read so far */
 };
 
 static ss_status
-next_row(void *source, int *there, double *stamp, double *row, ss_error *err)
+next_rows(void *source, double *stamp, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct inner *in = source;
     const ss_header *head = in->reader->head;
-    ss_status st = SS_OK;
-    if (in->next == in->n) {
-        in->next = in->n = 0;
-        st = ss_reader_rows(in->reader, in->rows, ss_reader_piece(in->reader), &in->n, err);
-    }
-    *there = st == SS_OK && in->next < in->n;
-    if (!*there)
-        return st;
-    memcpy(row, in->rows + in->next++ * head->n_columns, head->n_columns * sizeof *row);
-    *stamp = head->start + (double)in->row++ / head->rate;
-    return SS_OK;
+    ss_status st = ss_reader_rows(in->reader, column, max, n, err);
+    for (size_t i = 0; i < *n; i++)
+        stamp[i] = head->start + (double)in->row++ / head->rate;
+    return st;
 }
 
 static ss_status
-give_samples(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+give_samples(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct inner *in = reader->source;
-    return ss_resampler_rows(in->resampler, rows, max, n, err);
+    return ss_resampler_rows(in->resampler, column, max, n, err);
 }
 
 static int
@@ -55,7 +45,6 @@ close_inner(ss_reader *reader)
     struct inner *in = reader->source;
     ss_resampler_free(in->resampler);
     ss_reader_free(in->reader);
-    free(in->rows);
     free(in);
 }
 
@@ -76,14 +65,11 @@ ss_reader_resample(ss_reader **reader, double rate, ss_error *err)
     size_t columns = head->n_columns;
     ss_reader *r = ss_reader_like(*reader);
     struct inner *in = calloc(1, sizeof *in);
-    size_t room = ss_reader_piece(*reader) * columns * sizeof(double);
-    if (r == NULL || in == NULL || (in->rows = malloc(room)) == NULL
-        || ss_resampler_new(&in->resampler, r->in.name, columns, rate, INFINITY, next_row, in, NULL) != SS_OK) {
+    if (r == NULL || in == NULL
+        || ss_resampler_new(&in->resampler, r->in.name, columns, rate, INFINITY, next_rows, in, NULL) != SS_OK) {
         ss_reader_free(r);
-        if (in != NULL) {
+        if (in != NULL)
             ss_resampler_free(in->resampler);
-            free(in->rows);
-        }
         free(in);
         return ss_fail_memory(err, (*reader)->in.name);
     }

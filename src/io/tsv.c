@@ -65,7 +65,7 @@ check_time(const ss_reader *reader, double t, ss_error *err)
 }
 
 static ss_status
-read_row(ss_reader *reader, char *line, size_t length, double *row, ss_error *err)
+read_row(ss_reader *reader, char *line, size_t length, double *const column[], size_t at, ss_error *err)
 {
     size_t n = n_cells(reader->head);
     const int time = reader->head->has_time != 0;
@@ -77,8 +77,8 @@ read_row(ss_reader *reader, char *line, size_t length, double *row, ss_error *er
             return refuse_row(reader, line, err);
         if (time && i == 0)
             t = x;
-        else
-            row[i - (size_t)time] = x;
+        else if (column[i - (size_t)time] != NULL)
+            column[i - (size_t)time][at] = x;
     }
     if (p + strspn(p, " \t") != line + length)
         return refuse_row(reader, line, err);
@@ -86,7 +86,7 @@ read_row(ss_reader *reader, char *line, size_t length, double *row, ss_error *er
 }
 
 static ss_status
-text_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+text_rows(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     char *line;
     size_t length;
@@ -100,7 +100,7 @@ text_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
             return st;
         if (line[0] == '#' || line[strspn(line, " \t")] == '\0')
             continue;
-        st = read_row(reader, line, length, rows + *n * reader->head->n_columns, err);
+        st = read_row(reader, line, length, column, *n, err);
         if (st != SS_OK)
             return st;
         ++*n;

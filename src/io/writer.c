@@ -43,33 +43,34 @@ write_value(ss_writer *writer, double x, int last)
 }
 
 ss_status
-ss_writer_rows(ss_writer *writer, const double *rows, size_t n)
+ss_writer_rows(ss_writer *writer, double *const column[], size_t n, ss_error *err)
 {
-    if (writer == NULL || (rows == NULL && n > 0))
-        return SS_EINVAL;
+    if (writer == NULL || (column == NULL && n > 0))
+        return SS_FAIL_NULL(err);
     const ss_header *head = writer->head;
     size_t columns = head->n_columns;
-    for (size_t i = 0; i < n; i++, writer->row++) {
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i < n; i++, writer->row++) {
         if (head->has_time && writer->format->has_time)
             write_value(writer, head->start + (double)writer->row / head->rate, columns == 0);
-        for (size_t c = 0; c < columns; c++) {
-            if (writer->out.used > OUTPUT_ROOM - 2 * SS_NUMBER_MAX) {
-                ss_status st = ss_output_drain(&writer->out);
-                if (st != SS_OK)
-                    return st;
-            }
-            write_value(writer, *rows++, c + 1 == columns);
+        for (size_t c = 0; st == SS_OK && c < columns; c++) {
+            if (writer->out.used > OUTPUT_ROOM - 2 * SS_NUMBER_MAX)
+                st = ss_output_drain(&writer->out);
+            write_value(writer, column[c][i], c + 1 == columns);
         }
     }
-    return ss_output_drain(&writer->out);
+    if (st == SS_OK)
+        st = ss_output_drain(&writer->out);
+    return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
 }
 
 ss_status
-ss_writer_flush(ss_writer *writer)
+ss_writer_flush(ss_writer *writer, ss_error *err)
 {
     if (writer == NULL)
-        return SS_EINVAL;
-    return ss_output_flush(writer->out.file);
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_output_flush(writer->out.file);
+    return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
 }
 
 void
@@ -84,25 +85,21 @@ ss_writer_free(ss_writer *writer)
 ss_status
 ss_signal_write(const ss_signal *signal, FILE *out, ss_format format, ss_error *err)
 {
-    enum { PIECE = 1024 };
     ss_writer *writer = NULL;
     if (signal == NULL || out == NULL)
         return SS_FAIL_NULL(err);
     size_t columns = signal->head->n_columns;
-    double *rows = malloc((columns + 1) * PIECE * sizeof *rows);
-    if (rows == NULL)
-        return SS_ENOMEM;
+    double **column = malloc((columns + 1) * sizeof *column);
+    if (column == NULL)
+        return ss_fail_memory(err, NULL);
+    for (size_t c = 0; c < columns; c++)
+        column[c] = signal->values + c * signal->n;
     ss_status st = ss_writer_new(&writer, out, format, signal->head, err);
-    for (size_t first = 0; st == SS_OK && first < signal->n; first += PIECE) {
-        size_t n = signal->n - first < PIECE ? signal->n - first : PIECE;
-        for (size_t i = 0; i < n; i++)
-            for (size_t c = 0; c < columns; c++)
-                rows[i * columns + c] = signal->values[c * signal->n + first + i];
-        st = ss_writer_rows(writer, rows, n);
-    }
     if (st == SS_OK)
-        st = ss_writer_flush(writer);
+        st = ss_writer_rows(writer, column, signal->n, err);
+    if (st == SS_OK)
+        st = ss_writer_flush(writer, err);
     ss_writer_free(writer);
-    free(rows);
+    free(column);
     return st;
 }

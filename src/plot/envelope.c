@@ -19,8 +19,8 @@ typedef struct envelope {
     const size_t *column;
     size_t n_columns;           /* of these */
     size_t room;                /* rows, and blocks */
-    double *rows;               /* of the source, a piece */
     double *kept;               /* of each column that is drawn room values: the first, then a piece */
+    double **to;                /* where those of each column of the source go, or NULL */
     size_t n;                   /* rows so far */
     size_t first, end;          /* those that are drawn */
     extremes *part;             /* of each column */
@@ -31,11 +31,9 @@ static ss_status
 read_piece(envelope *e, size_t at, size_t max, size_t *got, ss_error *err)
 {
     size_t piece = ss_reader_piece(e->reader);
-    ss_status st = ss_reader_rows(e->reader, e->rows, max < piece ? max : piece, got, err);
     for (size_t c = 0; c < e->n_columns; c++)
-        for (size_t i = 0; i < *got; i++)
-            e->kept[c * e->room + at + i] = e->rows[i * e->head.n_columns + e->column[c]];
-    return st;
+        e->to[e->column[c]] = e->kept + c * e->room + at;
+    return ss_reader_rows(e->reader, e->to, max < piece ? max : piece, got, err);
 }
 
 static ss_status
@@ -118,9 +116,9 @@ ss_plot_envelope(ss_signal **out, size_t *rows, ss_reader *reader, const size_t 
     *out = NULL;
     e.head.start = start;
     ss_script_find_rows(&e.first, &e.end, &e.head, opts);
-    e.rows = malloc(ss_reader_piece(reader) * columns * sizeof *e.rows);
+    e.to = calloc(columns, sizeof *e.to);
     e.kept = malloc(e.room * n * sizeof *e.kept);
-    ss_status st = e.rows != NULL && e.kept != NULL
+    ss_status st = e.to != NULL && e.kept != NULL
         ? ss_header_select(&head, ss_reader_header(reader), column, n, 0) : SS_ENOMEM;
     st = st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st == SS_OK ? read_start(&e, err) : st;
     int whole = e.n < e.room;
@@ -131,7 +129,7 @@ ss_plot_envelope(ss_signal **out, size_t *rows, ss_reader *reader, const size_t 
     for (size_t c = 0; e.part != NULL && c < n; c++)
         ss_extremes_free(&e.part[c]);
     free(e.part);
-    free(e.rows);
+    free(e.to);
     free(e.kept);
     ss_header_free(head);
     *rows = e.n;

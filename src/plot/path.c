@@ -41,18 +41,21 @@ struct reduction {
 static ss_status
 read_rows_of(reduction *r, use_row *use, ss_error *err)
 {
-    size_t columns = r->head.n_columns, piece = ss_reader_piece(r->reader), n = 1;
-    double *rows = malloc(piece * columns * sizeof *rows);
-    ss_status st = rows != NULL ? ss_reader_rewind(r->reader, err) : ss_fail_memory(err, NULL);
+    size_t piece = ss_reader_piece(r->reader), n = 1;
+    double **wanted = calloc(r->head.n_columns, sizeof *wanted), *value = malloc(2 * piece * sizeof *value);
+    ss_status st = wanted != NULL && value != NULL ? ss_reader_rewind(r->reader, err) : ss_fail_memory(err, NULL);
+    for (int k = 0; st == SS_OK && k < 2; k++)
+        wanted[r->column[k]] = value + (size_t)k * piece;
     for (r->rows = 0; st == SS_OK && n > 0; r->rows += n) {
-        st = ss_reader_rows(r->reader, rows, piece, &n, err);
+        st = ss_reader_rows(r->reader, wanted, piece, &n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++) {
-            const double *row = rows + i * columns, at[2] = { row[r->column[0]], row[r->column[1]] };
+            const double at[2] = { wanted[r->column[0]][i], wanted[r->column[1]][i] };
             if (r->rows + i >= r->first && r->rows + i < r->end)
                 st = use(r, r->rows + i, at, err);
         }
     }
-    free(rows);
+    free(wanted);
+    free(value);
     return st;
 }
 

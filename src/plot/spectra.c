@@ -96,9 +96,9 @@ plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i,
 /* The rows of a signal that are drawn. */
 typedef struct selection {
     ss_reader *reader;
-    size_t columns, first, end; /* the row end is not drawn */
+    size_t first, end;          /* the row end is not drawn */
     size_t rows;                /* that were read */
-    double *row;                /* some of them */
+    double **wanted, *piece;    /* of each column; some values of the one that is wanted */
 } selection;
 
 /* Read all rows, and add those of a column that are drawn to welch, unless it is NULL. */
@@ -107,12 +107,15 @@ read_column(selection *s, size_t column, ss_welch *welch, ss_error *err)
 {
     ss_status st = ss_reader_rewind(s->reader, err);
     size_t n = 1;
+    s->wanted[column] = s->piece;
     for (s->rows = 0; st == SS_OK && n > 0; s->rows += n) {
-        st = ss_reader_rows(s->reader, s->row, ss_reader_piece(s->reader), &n, err);
-        for (size_t i = 0; st == SS_OK && i < n && welch != NULL; i++)
-            if (s->rows + i >= s->first && s->rows + i < s->end)
-                st = ss_welch_add(welch, &s->row[i * s->columns + column], 1, err);
+        st = ss_reader_rows(s->reader, s->wanted, ss_reader_piece(s->reader), &n, err);
+        size_t from = s->first > s->rows ? s->first - s->rows : 0, to = s->end > s->rows ? s->end - s->rows : 0;
+        to = to < n ? to : n;
+        if (st == SS_OK && welch != NULL && from < to)
+            st = ss_welch_add(welch, s->piece + from, to - from, err);
     }
+    s->wanted[column] = NULL;
     return st;
 }
 
@@ -136,14 +139,15 @@ ss_plot_spectra(ss_spectrum *spectrum[], size_t *rows, ss_reader *reader, const 
     if (spectrum == NULL || rows == NULL || reader == NULL || column == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
     const ss_header *head = ss_reader_header(reader);
-    selection s = { .reader = reader, .columns = head->n_columns };
+    selection s = { .reader = reader };
     script_span span;
     memset(spectrum, 0, n * sizeof *spectrum);
     for (size_t i = 0; i < n; i++)
-        if (column[i] >= s.columns)
-            return ss_fail_column(err, column[i], s.columns);
-    s.row = malloc(ss_reader_piece(reader) * s.columns * sizeof *s.row);
-    ss_status st = s.row != NULL ? read_column(&s, 0, NULL, err) : ss_fail_memory(err, NULL);
+        if (column[i] >= head->n_columns)
+            return ss_fail_column(err, column[i], head->n_columns);
+    s.wanted = calloc(head->n_columns, sizeof *s.wanted);
+    s.piece = malloc(ss_reader_piece(reader) * sizeof *s.piece);
+    ss_status st = s.wanted != NULL && s.piece != NULL ? read_column(&s, 0, NULL, err) : ss_fail_memory(err, NULL);
     if (st == SS_OK)
         st = ss_script_find_span(&span, head, s.rows, opts, err);
     if (st == SS_OK) {
@@ -153,7 +157,8 @@ ss_plot_spectra(ss_spectrum *spectrum[], size_t *rows, ss_reader *reader, const 
     *rows = s.rows;
     for (size_t i = 0; st == SS_OK && i < n; i++)
         st = estimate(&spectrum[i], &s, column[i], span.n, resolution, err);
-    free(s.row);
+    free(s.wanted);
+    free(s.piece);
     return st;
 }
 

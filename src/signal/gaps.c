@@ -87,12 +87,12 @@ add_value(struct runs *r, size_t row, double value)
 }
 
 int
-ss_gaps_add(gap_filler *g, const double *rows, size_t n)
+ss_gaps_add(gap_filler *g, double *const column[], size_t n)
 {
     for (size_t i = 0; i < n; i++, g->row++) {
         double zero = 0;                        /* NaN if any column lacks its value */
         for (size_t c = 0; c < g->n_columns; c++) {
-            double x = rows[i * g->n_columns + c];
+            double x = column[c][i];
             if (g->how == SS_GAPS_SPLIT)
                 g->column[c].there += !isnan(x);
             else if (!add_value(&g->column[c], g->row, x))
@@ -152,11 +152,13 @@ ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err)
 }
 
 int
-ss_gaps_fill(gap_filler *g, double *rows, size_t n)
+ss_gaps_fill(gap_filler *g, double *const column[], size_t n)
 {
     for (size_t i = 0; i < n; i++, g->row++)
         for (size_t c = 0; c < g->n_columns; c++) {
-            double *x = &rows[i * g->n_columns + c];
+            if (column[c] == NULL)
+                continue;
+            double *x = &column[c][i];
             struct runs *r = &g->column[c];
             if (isnan(*x) && g->how == SS_GAPS_SPLIT)
                 *x = 0;

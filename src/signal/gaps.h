@@ -5,15 +5,14 @@
 #include <stddef.h>
 #include <stickslip/signal.h>
 
-/* Replaces NaN by numbers in rows of so many columns, one after the other, that are read twice: all rows are
- * added; begin notes the times in head, or refuses a column without numbers; then all are filled.  Memory
+/* Replaces NaN by numbers in columns of rows that are read twice: all rows are added; begin notes the times in head, or refuses a column without numbers; then all are filled.  Memory
  * grows with the gaps.  NULL, 0: no memory. */
 typedef struct gap_filler gap_filler;
 gap_filler *ss_gaps_new(size_t n_columns, ss_gaps how);
-int ss_gaps_add(gap_filler *g, const double *rows, size_t n);
+int ss_gaps_add(gap_filler *g, double *const column[], size_t n);
 ss_status ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err);
 /* 0: a value is missing that was there when the rows were added. */
-int ss_gaps_fill(gap_filler *g, double *rows, size_t n);
+int ss_gaps_fill(gap_filler *g, double *const column[], size_t n);
 /* Fill from the first row on again. */
 void ss_gaps_rewind(gap_filler *g);
 void ss_gaps_free(gap_filler *g);               /* NULL is allowed */

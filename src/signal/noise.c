@@ -19,39 +19,44 @@ struct ss_noise {
 };
 
 ss_status
-ss_noise_new(ss_noise **out, unsigned long seed)
+ss_noise_new(ss_noise **out, unsigned long seed, ss_error *err)
 {
     if (out == NULL)
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     ss_noise *noise = malloc(sizeof *noise);
     *out = NULL;
     if (noise == NULL)
-        return SS_ENOMEM;
+        return ss_fail_memory(err, NULL);
     noise->rng = gsl_rng_alloc(gsl_rng_mt19937);
     if (noise->rng == NULL) {
         free(noise);
-        return SS_ENOMEM;
+        return ss_fail_memory(err, NULL);
     }
     gsl_rng_set(noise->rng, seed);
     *out = noise;
     return SS_OK;
 }
 
-ss_status
-ss_noise_add(ss_noise *noise, double *x, size_t n, size_t row, size_t n_columns, size_t column,
-             const double *rms)
+static ss_status
+refuse_sum(ss_error *err)
 {
-    if (noise == NULL || x == NULL || rms == NULL)
-        return SS_EINVAL;
+    return ss_fail(err, SS_ERANGE, "signal and noise exceed what a double holds");
+}
+
+ss_status
+ss_noise_add(ss_noise *noise, double *const column[], size_t n_columns, size_t n, const double *rms,
+             ss_error *err)
+{
+    if (noise == NULL || column == NULL || rms == NULL)
+        return SS_FAIL_NULL(err);
     double zero = 0;                    /* NaN once a sum is not finite */
     for (size_t i = 0; i < n; i++)
         for (size_t c = 0; c < n_columns; c++)
             if (rms[c] > 0) {
-                double *sum = &x[i * row + c * column];
-                *sum += gsl_ran_gaussian_ziggurat(noise->rng, rms[c]);
-                zero += 0 * *sum;
+                column[c][i] += gsl_ran_gaussian_ziggurat(noise->rng, rms[c]);
+                zero += 0 * column[c][i];
             }
-    return zero == 0 ? SS_OK : SS_ERANGE;
+    return zero == 0 ? SS_OK : refuse_sum(err);
 }
 
 /* Fill in Gaussian numbers at those frequencies of the spectrum of m samples that lie in [lo, hi]. */
@@ -102,7 +107,7 @@ ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range ba
         zero += 0 * x[i];
     }
     ss_real_fft_free(&f);
-    return zero == 0 ? SS_OK : ss_fail(err, SS_ERANGE, "signal and noise exceed what a double holds");
+    return zero == 0 ? SS_OK : refuse_sum(err);
 }
 
 void
@@ -115,16 +120,16 @@ ss_noise_free(ss_noise *noise)
 }
 
 ss_status
-ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed)
+ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed, ss_error *err)
 {
-    ss_noise *noise;
-    if ((x == NULL && n > 0) || !(rms >= 0 && isfinite(rms)))
-        return SS_EINVAL;
-    ss_status st = ss_noise_new(&noise, seed);
-    if (st != SS_OK)
-        return st;
-    if (n > 0)
-        st = ss_noise_add(noise, x, n, 1, 1, 1, &rms);
+    ss_noise *noise = NULL;
+    if (x == NULL && n > 0)
+        return SS_FAIL_NULL(err);
+    if (!(rms >= 0 && isfinite(rms)))
+        return ss_fail(err, SS_EINVAL, "the rms of noise must be 0 or more");
+    ss_status st = ss_noise_new(&noise, seed, err);
+    if (st == SS_OK && n > 0)
+        st = ss_noise_add(noise, &x, 1, n, &rms, err);
     ss_noise_free(noise);
     return st;
 }
@@ -144,28 +149,28 @@ order_of(double largest)
 }
 
 void
-ss_variance_mean(ss_variance *v, const double *x, size_t n, size_t step)
+ss_variance_mean(ss_variance *v, const double *x, size_t n)
 {
     if (v == NULL || x == NULL)
         return;
     int before = order_of(v->largest);
     for (size_t i = 0; i < n; i++)
-        v->largest = fmax(v->largest, fabs(x[i * step]));
+        v->largest = fmax(v->largest, fabs(x[i]));
     int order = order_of(v->largest);
     double unit = ldexp(1, order);
     v->mean = ldexp(v->mean, order - before);
     for (size_t i = 0; i < n; i++)
-        v->mean += (x[i * step] * unit - v->mean) / (double)++v->n;
+        v->mean += (x[i] * unit - v->mean) / (double)++v->n;
 }
 
 void
-ss_variance_square(ss_variance *v, const double *x, size_t n, size_t step)
+ss_variance_square(ss_variance *v, const double *x, size_t n)
 {
     if (v == NULL || x == NULL)
         return;
     double unit = ldexp(1, order_of(v->largest));
     for (size_t i = 0; i < n; i++)
-        v->square += (x[i * step] * unit - v->mean) * (x[i * step] * unit - v->mean);
+        v->square += (x[i] * unit - v->mean) * (x[i] * unit - v->mean);
 }
 
 double
@@ -183,8 +188,8 @@ ss_noise_rms(const double *x, size_t n, double snr_db)
     ss_variance v = { .n = 0 };
     if (x == NULL && n > 0)
         return NAN;
-    ss_variance_mean(&v, x, n, 1);
-    ss_variance_square(&v, x, n, 1);
+    ss_variance_mean(&v, x, n);
+    ss_variance_square(&v, x, n);
     return ss_variance_noise(&v, snr_db);
 }
 

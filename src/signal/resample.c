@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/columns.h"
 #include "base/error.h"
 #include "signal/header.h"
 #include "signal/resample.h"
@@ -23,22 +24,23 @@ struct resampler {
     const char *name;           /* of the file */
     size_t columns;
     double rate, longest, first;        /* first: the first stamp */
-    stamped_row *next;
+    stamped_rows *next;
     void *source;
     int ended;                  /* 1: all rows have been read */
     size_t n, room;             /* rows in memory, and their most, which is also the most samples */
-    double *stamp, *value;      /* value c of row i is value[i * columns + c] */
+    double *stamp, **value;     /* those of row i are stamp[i] and value[c][i] of each column */
+    double **to;                /* where the values of the next row go */
     double *kept_stamp, *kept;  /* one piece, without a gap, of one column */
     double at;                  /* the number of the next sample */
-    double *sample;             /* samples that are there, from the given-th on */
+    double **sample;            /* of each column, those that are there, from the given-th on */
     size_t samples, given;
 };
 
-/* Samples of one column: sample first + i, at from + (first + i) / rate, goes to x[i * row]. */
+/* Samples of one column: sample first + i, at from + (first + i) / rate, goes to x[i]. */
 struct target {
     double from, rate, first;
     double *x;
-    size_t n, row;
+    size_t n;
 };
 
 /* Fill in the samples between the first and the last of n values.  SS_ERANGE: one of them is not finite,
@@ -57,7 +59,7 @@ fill_piece(const struct target *to, const double *t, const double *value, size_t
     for (double i = fmax(first, to->first); good && i <= last && i < to->first + (double)to->n; i++) {
         double s = fmin(fmax(to->from + i / to->rate, t[0]), t[n - 1]);
         double x = n > 1 ? gsl_interp_eval(spline, t, value, s, &at) : value[0];
-        to->x[(size_t)(i - to->first) * to->row] = x;
+        to->x[(size_t)(i - to->first)] = x;
         good = isfinite(x);
     }
     gsl_interp_free(spline);
@@ -71,15 +73,15 @@ fill_column(const resampler *r, const struct target *to, const double *value)
     size_t k = 0;
     ss_status st = SS_OK;
     for (size_t i = 0; i < to->n; i++)
-        to->x[i * to->row] = NAN;
+        to->x[i] = NAN;
     for (size_t i = 0; st == SS_OK && i < r->n; i++) {
-        int there = !isnan(value[i * r->columns]);
+        int there = !isnan(value[i]);
         if (k > 0 && (!there || r->stamp[i] - r->kept_stamp[k - 1] > r->longest)) {
             st = fill_piece(to, r->kept_stamp, r->kept, k);
             k = 0;
         }
         r->kept_stamp[k] = r->stamp[i];
-        r->kept[k] = value[i * r->columns];
+        r->kept[k] = value[i];
         k += (size_t)there;
     }
     return st == SS_OK && k > 0 ? fill_piece(to, r->kept_stamp, r->kept, k) : st;
@@ -90,18 +92,21 @@ static ss_status
 read_on(resampler *r, ss_error *err)
 {
     size_t drop = 0;
-    int there = 1;
     while (drop + 2 * MARGIN < r->n && (r->stamp[drop + MARGIN] - r->first) * r->rate < r->at)
         drop++;
     r->n -= drop;
     memmove(r->stamp, r->stamp + drop, r->n * sizeof *r->stamp);
-    memmove(r->value, r->value + drop * r->columns, r->n * r->columns * sizeof *r->value);
+    for (size_t c = 0; c < r->columns; c++)
+        memmove(r->value[c], r->value[c] + drop, r->n * sizeof *r->value[c]);
     while (r->n < r->room && !r->ended) {
-        ss_status st = r->next(r->source, &there, &r->stamp[r->n], r->value + r->n * r->columns, err);
+        size_t n = 0;
+        for (size_t c = 0; c < r->columns; c++)
+            r->to[c] = r->value[c] + r->n;
+        ss_status st = r->next(r->source, &r->stamp[r->n], r->to, r->room - r->n, &n, err);
         if (st != SS_OK)
             return st;
-        r->ended = !there;
-        r->n += (size_t)there;
+        r->ended = n == 0;
+        r->n += n;
         if (r->at == 0)
             r->first = r->stamp[0];
     }
@@ -130,8 +135,8 @@ make_samples(resampler *r, ss_error *err)
         r->samples = st == SS_OK ? count_ready(r) : 0;
     } while (st == SS_OK && r->samples == 0 && !r->ended);
     for (size_t c = 0; st == SS_OK && r->samples > 0 && c < r->columns; c++) {
-        const struct target to = { r->first, r->rate, r->at, r->sample + c, r->samples, r->columns };
-        st = fill_column(r, &to, r->value + c);
+        const struct target to = { r->first, r->rate, r->at, r->sample[c], r->samples };
+        st = fill_column(r, &to, r->value[c]);
         if (st == SS_ENOMEM)
             ss_fail_memory(err, r->name);
         else if (st == SS_ERANGE)
@@ -143,7 +148,7 @@ make_samples(resampler *r, ss_error *err)
 
 ss_status
 ss_resampler_new(resampler **out, const char *name, size_t columns, double rate, double longest,
-                 stamped_row *next, void *source, ss_error *err)
+                 stamped_rows *next, void *source, ss_error *err)
 {
     resampler *r = *out = calloc(1, sizeof *r);
     if (r == NULL)
@@ -157,9 +162,10 @@ ss_resampler_new(resampler **out, const char *name, size_t columns, double rate,
     r->room = VALUES / columns < ROWS ? VALUES / columns : ROWS;
     r->room = r->room < 4 * MARGIN ? 4 * MARGIN : r->room;
     r->stamp = malloc(3 * r->room * sizeof *r->stamp);
-    r->value = malloc(r->room * columns * sizeof *r->value);
-    r->sample = malloc(r->room * columns * sizeof *r->sample);
-    if (r->stamp == NULL || r->value == NULL || r->sample == NULL)
+    r->value = ss_columns_new(columns, r->room);
+    r->sample = ss_columns_new(columns, r->room);
+    r->to = malloc(columns * sizeof *r->to);
+    if (r->stamp == NULL || r->value == NULL || r->sample == NULL || r->to == NULL)
         return ss_fail_memory(err, name);
     r->kept_stamp = r->stamp + r->room;
     r->kept = r->kept_stamp + r->room;
@@ -167,12 +173,14 @@ ss_resampler_new(resampler **out, const char *name, size_t columns, double rate,
 }
 
 ss_status
-ss_resampler_rows(resampler *r, double *rows, size_t max, size_t *n, ss_error *err)
+ss_resampler_rows(resampler *r, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     ss_status st = r->given == r->samples ? make_samples(r, err) : SS_OK;
     size_t left = st == SS_OK ? r->samples - r->given : 0;
     *n = left < max ? left : max;
-    memcpy(rows, r->sample + r->given * r->columns, *n * r->columns * sizeof *rows);
+    for (size_t c = 0; c < r->columns; c++)
+        if (column[c] != NULL)
+            memcpy(column[c], r->sample[c] + r->given, *n * sizeof *column[c]);
     r->given += *n;
     return st;
 }
@@ -185,6 +193,7 @@ ss_resampler_free(resampler *r)
     free(r->stamp);
     free(r->value);
     free(r->sample);
+    free(r->to);
     free(r);
 }
 
@@ -209,18 +218,17 @@ struct held {
 };
 
 static ss_status
-next_row(void *source, int *there, double *stamp, double *row, ss_error *err)
+next_rows(void *source, double *stamp, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct held *h = source;
     const ss_signal *s = h->signal;
     (void)err;
-    *there = h->next < s->n;
-    if (!*there)
-        return SS_OK;
-    *stamp = s->head->start + (double)h->next / s->head->rate;
+    *n = s->n - h->next < max ? s->n - h->next : max;
+    for (size_t i = 0; i < *n; i++)
+        stamp[i] = s->head->start + (double)(h->next + i) / s->head->rate;
     for (size_t c = 0; c < s->head->n_columns; c++)
-        row[c] = s->values[c * s->n + h->next];
-    h->next++;
+        memcpy(column[c], s->values + c * s->n + h->next, *n * sizeof *stamp);
+    h->next += *n;
     return SS_OK;
 }
 
@@ -233,9 +241,9 @@ fill_signal(ss_signal *out, resampler *r, ss_error *err)
         st = make_samples(r, err);
         if (st == SS_OK && r->samples == 0)
             return SS_ERANGE;
-        for (size_t i = 0; st == SS_OK && i < r->samples && done + i < out->n; i++)
-            for (size_t c = 0; c < r->columns; c++)
-                out->values[c * out->n + done + i] = r->sample[i * r->columns + c];
+        size_t n = r->samples < out->n - done ? r->samples : out->n - done;
+        for (size_t c = 0; st == SS_OK && c < r->columns; c++)
+            memcpy(out->values + c * out->n + done, r->sample[c], n * sizeof *out->values);
     }
     return st;
 }
@@ -266,7 +274,7 @@ ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_err
         st = st == SS_OK ? st : ss_fail_memory(err, NULL);
     }
     if (st == SS_OK)
-        st = ss_resampler_new(&r, "signal", head->n_columns, rate, INFINITY, next_row, &held, err);
+        st = ss_resampler_new(&r, "signal", head->n_columns, rate, INFINITY, next_rows, &held, err);
     if (st == SS_OK)
         st = fill_signal(*out, r, err);
     ss_resampler_free(r);

@@ -5,17 +5,18 @@
 #include <stddef.h>
 #include <stickslip/signal.h>
 
-/* The next row: its stamp, later than those before it, and its values, of which NaN are skipped; *there = 0: there
- * is none. */
-typedef ss_status stamped_row(void *source, int *there, double *stamp, double *row, ss_error *err);
+/* At most max rows: their stamps, each later than the one before, and values, of which NaN are skipped; *n = 0:
+ * there are no more. */
+typedef ss_status stamped_rows(void *source, double *stamp, double *const column[], size_t max, size_t *n,
+                               ss_error *err);
 
 /* Rows at stamps of any spacing, as they come, to rows from the first stamp on at this rate [Hz].  Samples
  * between stamps more than longest [s] apart, or beyond a column's own first and last, are NaN. */
 typedef struct resampler resampler;
 ss_status ss_resampler_new(resampler **out, const char *name, size_t columns, double rate, double longest,
-                           stamped_row *next, void *source, ss_error *err);
+                           stamped_rows *next, void *source, ss_error *err);
 /* As ss_reader_rows.  SS_EDATA: there is but one row; SS_ERANGE: a value is not finite. */
-ss_status ss_resampler_rows(resampler *r, double *rows, size_t max, size_t *n, ss_error *err);
+ss_status ss_resampler_rows(resampler *r, double *const column[], size_t max, size_t *n, ss_error *err);
 void ss_resampler_free(resampler *r);           /* NULL is allowed */
 
 /* The first sample in which there is no value, if stamps end at one and go on at another, or a negative

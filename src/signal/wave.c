@@ -126,7 +126,7 @@ ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *e
         return ss_fail(err, st, "%s for %.3g samples, which is duration x rate = %g s x %g Hz",
                        ss_strerror(st), opts->duration * opts->rate, opts->duration, opts->rate);
     if (st == SS_OK && wave == SS_NOISE)
-        st = ss_noise_add_once((*out)->values, (*out)->n, fabs(opts->amplitude), opts->seed);
+        st = ss_noise_add_once((*out)->values, (*out)->n, fabs(opts->amplitude), opts->seed, NULL);
     double zero = 0;                    /* NaN once a value is not finite */
     for (size_t i = 0; st == SS_OK && wave != SS_NOISE && i < (*out)->n; i++) {
         (*out)->values[i] = sample(wave, opts, i);

@@ -70,7 +70,7 @@ static inline ss_signal *
 bench_noisy_column(const ss_scene *scene, size_t column, double snr, unsigned long seed)
 {
     ss_signal *one = bench_column(scene, column);
-    ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), seed);
+    ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), seed, NULL);
     return one;
 }
 

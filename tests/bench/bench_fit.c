@@ -69,7 +69,7 @@ sensed_column(const ss_scene *scene, double cut_off, double snr, unsigned long s
             g->values[i / FINE] = y;
         y += part * (f->values[i] - y);
     }
-    ss_noise_add_once(g->values, g->n, ss_noise_rms(g->values, g->n, snr), seed);
+    ss_noise_add_once(g->values, g->n, ss_noise_rms(g->values, g->n, snr), seed, NULL);
     ss_signal_free(f);
     return g;
 }

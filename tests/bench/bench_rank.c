@@ -53,7 +53,7 @@ answer(tally *t, ss_signal *g, const ss_scene shipped[MODELS], double snr, unsig
     ss_ranking *r = NULL;
     ss_error err;
     double clean = pow(ss_noise_rms(g->values, g->n, 0), 2), noise = clean * pow(10, -snr / 10);
-    ss_noise_add_once(g->values, g->n, sqrt(noise), seed);
+    ss_noise_add_once(g->values, g->n, sqrt(noise), seed, NULL);
     double began = bench_seconds();
     if (ss_ranking_new(&r, g, 0, shipped, MODELS, NULL, &err) != SS_OK) {
         printf("# %s\n", err.text);

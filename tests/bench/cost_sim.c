@@ -188,10 +188,12 @@ static int
 write_rows(const ss_sample *s, size_t n, void *user)
 {
     rows *r = user;
-    double row[SS_SIM_COLUMNS];
+    double row[SS_SIM_COLUMNS], *column[SS_SIM_COLUMNS];
+    for (size_t c = 0; c < SS_SIM_COLUMNS; c++)
+        column[c] = &row[c];
     for (size_t i = 0; i < n; i++) {
         ss_sim_row(&r->columns, &s[i], row);
-        if (ss_writer_rows(r->writer, row, 1) != SS_OK)
+        if (ss_writer_rows(r->writer, column, 1, NULL) != SS_OK)
             return 1;
     }
     return 0;

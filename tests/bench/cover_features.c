@@ -47,7 +47,7 @@ typedef struct condition {
 static void
 add_noise(double *x, size_t n, const draw *d, double snr)
 {
-    ss_noise_add_once(x, n, ss_noise_rms(x, n, snr), d->number);
+    ss_noise_add_once(x, n, ss_noise_rms(x, n, snr), d->number, NULL);
 }
 
 static double
@@ -75,7 +75,7 @@ add_pink(double *x, size_t n, const draw *d, double snr)
     static const double pole[] = { 0.99886, 0.99332, 0.96900, 0.86650, 0.55000 };
     static const double gain[] = { 0.0555179, 0.0750759, 0.1538520, 0.3104856, 0.5329522 };
     double *w = bench_alloc(n), b[5] = { 0 };
-    ss_noise_add_once(w, n, 1, d->number);
+    ss_noise_add_once(w, n, 1, d->number, NULL);
     for (size_t i = 0; i < n; i++) {
         double sum = 0.1848 * w[i];
         for (int k = 0; k < 5; k++)

@@ -17,9 +17,8 @@ typedef struct signal_writer {
 /* Begin /signal with the columns of a header.  Pieces stay the caller's. */
 ss_status ss_signal_writer_open(signal_writer *w, h5_pieces *pieces, const ss_header *head,
                                 size_t length);
-/* n samples more of each column: sample i of column c is x[i * row + c * column]. */
-ss_status ss_signal_writer_append(signal_writer *w, const double *x, size_t n, size_t row,
-                                  size_t column);
+/* n samples more of each column. */
+ss_status ss_signal_writer_append(signal_writer *w, double *const column[], size_t n);
 
 /* The rows of /signal (signal_reader.c), or of an array of another program (foreign.c), which are read
  * in pieces (signal_rows.c). */
@@ -34,7 +33,7 @@ typedef struct signal_rows {
     int by_columns;             /* what is read at a time from a dataset is column after column */
     int gaps;                   /* values that are not finite are missing, not wrong */
     size_t piece;               /* rows that are read at a time */
-    double *raw;                /* a piece of a dataset, if by columns, or of the times */
+    double *raw;                /* a piece of a dataset of several columns, or of the times */
 } signal_rows;
 
 /* Begin to read a signal of an open file, as ss_store_signal_reader does, but for ss_reader_adjust.  The

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/columns.h"
 #include "io/hdf5/groups.h"
 #include "io/table/clock.h"
 
@@ -68,21 +69,28 @@ check_times(signal_rows *s, const ss_reader *reader, size_t n)
     return SS_OK;
 }
 
-/* Read the next n rows into the values of the reader. */
+/* Read n rows of dataset d into columns of the piece. */
+static ss_status
+read_dataset(signal_rows *s, size_t d, size_t n, size_t columns, double *const piece[])
+{
+    double *x = columns == 1 ? piece[d] : s->raw;
+    if (!ss_h5_read_rows(s->dataset[d], s->by_columns, s->row, n, x))
+        return ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
+    ss_status status = check_finite(s, d, x, n, columns);
+    for (size_t c = 0; columns > 1 && c < columns; c++)
+        for (size_t i = 0; i < n; i++)
+            piece[c][i] = x[s->by_columns ? c * n + i : i * columns + c];
+    return status;
+}
+
+/* Read the next n rows into the piece of the reader. */
 static ss_status
 read_piece(ss_reader *reader, signal_rows *s, size_t n)
 {
-    size_t all = reader->head->n_columns, columns = s->n_datasets > 1 ? 1 : all;
+    size_t columns = s->n_datasets > 1 ? 1 : reader->head->n_columns;
     ss_status status = s->times > 0 && n > 0 ? check_times(s, reader, n) : SS_OK;
-    for (size_t d = 0; status == SS_OK && d < s->n_datasets; d++) {
-        double *x = s->by_columns ? s->raw : reader->values;
-        if (n > 0 && !ss_h5_read_rows(s->dataset[d], s->by_columns, s->row, n, x))
-            return ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
-        status = check_finite(s, d, x, n, columns);
-        for (size_t c = 0; status == SS_OK && s->by_columns && c < columns; c++)
-            for (size_t i = 0; i < n; i++)
-                reader->values[i * all + d + c] = x[c * n + i];
-    }
+    for (size_t d = 0; status == SS_OK && n > 0 && d < s->n_datasets; d++)
+        status = read_dataset(s, d, n, columns, reader->values);
     if (status != SS_OK)
         return status;
     s->row += n;
@@ -92,7 +100,7 @@ read_piece(ss_reader *reader, signal_rows *s, size_t n)
 }
 
 static ss_status
-give_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+give_rows(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     signal_rows *s = reader->source;
     size_t left = s->n - s->row;
@@ -102,9 +110,16 @@ give_rows(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
         QUIETLY(
             status = read_piece(reader, s, left < s->piece ? left : s->piece);
         );
-    if (status == SS_OK)
-        ss_reader_give(reader, rows, max, n);
-    return status;
+    if (status != SS_OK)
+        return status;
+    left = reader->n_rows - reader->next;
+    *n = left < max ? left : max;
+    for (size_t c = 0; c < reader->head->n_columns; c++)
+        if (column[c] != NULL)
+            memcpy(column[c], reader->values[c] + reader->next, *n * sizeof *column[c]);
+    reader->next += *n;
+    reader->row += *n;
+    return SS_OK;
 }
 
 static void
@@ -138,10 +153,9 @@ begin_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts)
     reader->rewind = rewind_rows;
     reader->length = s->n;
     s->piece = piece_rows(s, all);
-    reader->values = malloc((s->piece * all + 1) * sizeof *reader->values);
-    if (s->by_columns || s->times > 0)
-        s->raw = malloc((s->piece * (columns > 0 ? columns : 1) + 1) * sizeof *s->raw);
-    if (reader->values == NULL || ((s->by_columns || s->times > 0) && s->raw == NULL))
+    reader->values = ss_columns_new(all, s->piece);
+    s->raw = malloc((s->piece * columns + 1) * sizeof *s->raw);
+    if (reader->values == NULL || s->raw == NULL)
         return SS_ENOMEM;
     return s->gaps && opts->time == NULL ? ss_reader_fill_gaps(reader, opts->gaps, s->file.err) : SS_OK;
 }

@@ -88,19 +88,16 @@ ss_signal_writer_open(signal_writer *w, h5_pieces *pieces, const ss_header *head
 }
 
 ss_status
-ss_signal_writer_append(signal_writer *w, const double *x, size_t n, size_t row, size_t column)
+ss_signal_writer_append(signal_writer *w, double *const column[], size_t n)
 {
     h5_file *file = w->pieces->file;
-    double *value = w->pieces->value[0];
     if (!ss_h5_write_times(w->pieces, w->times, NULL, w->samples, n))
         return ss_h5_fail_write(file, 0, "/signal/t");
     for (size_t c = 0; c < w->n_columns; c++)
         for (size_t i = 0, m; i < n; i += m) {
             hsize_t at = w->samples + i;
             m = n - i < H5_PIECE ? n - i : H5_PIECE;
-            for (size_t k = 0; k < m; k++)
-                value[k] = x[(i + k) * row + c * column];
-            if (!ss_h5_write_piece(w->column[c], 1, &at, m, H5T_NATIVE_DOUBLE, value))
+            if (!ss_h5_write_piece(w->column[c], 1, &at, m, H5T_NATIVE_DOUBLE, column[c] + i))
                 return ss_h5_fail_write(file, 0, "/signal");
         }
     w->samples += n;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/columns.h"
 #include "signal/header.h"
 #include "io/table/delimited.h"
 
@@ -39,7 +40,7 @@ name_columns(struct table *t, const ss_header *head, signal_rows *s, const char 
 
 /* Add n rows of the array, of which `done` were added before. */
 static ss_status
-add_rows(struct table *t, const double *times, const double *x, size_t done, size_t n, ss_error *err)
+add_rows(struct table *t, const double *times, double *const column[], size_t done, size_t n, ss_error *err)
 {
     double *row;
     size_t own = times != NULL, columns = t->n_columns - own;
@@ -50,7 +51,8 @@ add_rows(struct table *t, const double *times, const double *x, size_t done, siz
             break;
         if (own)
             row[0] = times[i];
-        memcpy(row + own, x + i * columns, columns * sizeof *x);
+        for (size_t c = 0; c < columns; c++)
+            row[own + c] = column[c][i];
         status = ss_delimited_add_numbers(t, done + i, row, err);
     }
     return status;
@@ -60,14 +62,14 @@ static ss_status
 fill_table(ss_reader *reader, signal_rows *s)
 {
     size_t columns = reader->head->n_columns, n;
-    double *stamp = malloc(s->piece * (columns + 1) * sizeof *stamp), *x = stamp + s->piece;
+    double **stamp = ss_columns_new(columns + 1, s->piece), **column = stamp + 1;
     ss_status status = stamp != NULL ? SS_OK : SS_ENOMEM;
     for (size_t done = 0; status == SS_OK && done < s->n; done += n) {
-        status = reader->rows(reader, x, s->piece, &n, s->file.err);
-        if (status == SS_OK && s->stamps > 0 && !ss_h5_read_rows(s->stamps, s->stamps_by_columns, done, n, stamp))
+        status = reader->rows(reader, column, s->piece, &n, s->file.err);
+        if (status == SS_OK && s->stamps > 0 && !ss_h5_read_rows(s->stamps, s->stamps_by_columns, done, n, *stamp))
             status = ss_h5_fail(&s->file, SS_EIO, s->stamps, "", "cannot be read");
         if (status == SS_OK)
-            status = add_rows(reader->table, s->stamps > 0 ? stamp : NULL, x, done, n, s->file.err);
+            status = add_rows(reader->table, s->stamps > 0 ? *stamp : NULL, column, done, n, s->file.err);
     }
     free(stamp);
     return status;

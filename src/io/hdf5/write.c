@@ -118,10 +118,9 @@ ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *si
 }
 
 ss_status
-ss_store_writer_signal(ss_store_writer *w, const double *x, size_t n, size_t row, size_t column,
-                       ss_error *err)
+ss_store_writer_signal(ss_store_writer *w, double *const column[], size_t n, ss_error *err)
 {
-    if (w == NULL || (x == NULL && n > 0))
+    if (w == NULL || (column == NULL && n > 0))
         return SS_FAIL_NULL(err);
     ss_status st = w->status;
     signal_writer *signal = &w->signal;
@@ -130,7 +129,7 @@ ss_store_writer_signal(ss_store_writer *w, const double *x, size_t n, size_t row
                             || (!w->pieces.growing && n > signal->length - signal->samples)))
             st = ss_fail(&w->output.error, SS_EINVAL, "more samples than the file was begun with");
         if (st == SS_OK)
-            st = ss_signal_writer_append(signal, x, n, row, column);
+            st = ss_signal_writer_append(signal, column, n);
         st = keep(w, st);
     } H5E_END_TRY
     return report(w, st, err);
@@ -220,17 +219,27 @@ ss_store_writer_free(ss_store_writer *w)
 }
 
 static ss_status
+write_signal(ss_store_writer *w, const ss_signal *signal)
+{
+    ss_status st = ss_signal_writer_open(&w->signal, &w->pieces, signal->head, signal->n);
+    double **column = malloc((signal->head->n_columns + 1) * sizeof *column);
+    for (size_t c = 0; column != NULL && c < signal->head->n_columns; c++)
+        column[c] = signal->values + c * signal->n;
+    if (st == SS_OK)
+        st = column != NULL ? ss_signal_writer_append(&w->signal, column, signal->n) : SS_ENOMEM;
+    free(column);
+    return st;
+}
+
+static ss_status
 write_all(ss_store_writer **out, const char *path, const ss_record *r)
 {
     const ss_signal *signal = r->signal;
     const ss_coefficients *c = r->coefficients;
     ss_status st = begin(out, path, c != NULL ? c->head : signal != NULL ? signal->head : NULL);
     ss_store_writer *w = *out;
-    if (st == SS_OK && signal != NULL) {
-        st = ss_signal_writer_open(&w->signal, &w->pieces, signal->head, signal->n);
-        if (st == SS_OK)
-            st = ss_signal_writer_append(&w->signal, signal->values, signal->n, 1, signal->n);
-    }
+    if (st == SS_OK && signal != NULL)
+        st = write_signal(w, signal);
     if (st == SS_OK && (r->has_events || r->n_events > 0))
         st = ss_h5_write_events(&w->output.file, r->events, r->n_events);
     if (st != SS_OK || c == NULL)

@@ -360,9 +360,9 @@ rewind_samples(ss_reader *reader, ss_error *err)
 }
 
 static ss_status
-give_samples(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+give_samples(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
 {
-    return ss_delimited_samples(reader->table, rows, max, n, err);
+    return ss_delimited_samples(reader->table, column, max, n, err);
 }
 
 ss_status

@@ -184,6 +184,6 @@ double ss_delimited_stamp(const struct time_column *c, const double *row);
 /* Go back to the first sample; and up to max more of them as rows of the columns kept, NaN where there is
  * none. */
 ss_status ss_delimited_begin_samples(struct table *t, ss_error *err);
-ss_status ss_delimited_samples(struct table *t, double *rows, size_t max, size_t *n, ss_error *err);
+ss_status ss_delimited_samples(struct table *t, double *const column[], size_t max, size_t *n, ss_error *err);
 
 #endif

@@ -13,22 +13,22 @@ ss_delimited_stamp(const struct time_column *c, const double *row)
 }
 
 static void
-keep_values(const struct table *t, const double *row, double *to)
+keep_values(const struct table *t, const double *row, double *const column[], size_t at)
 {
     for (size_t c = 0; c < t->n_kept; c++)
-        to[c] = row[t->kept[c]];
+        if (column[c] != NULL)
+            column[c][at] = row != NULL ? row[t->kept[c]] : NAN;
 }
 
 static ss_status
-next_row(void *source, int *there, double *stamp, double *to, ss_error *err)
+next_rows(void *source, double *stamp, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct table *t = source;
     const double *row;
-    ss_status st = ss_delimited_next(t, &row, err);
-    *there = row != NULL;
-    if (*there) {
-        *stamp = ss_delimited_stamp(&t->time, row);
-        keep_values(t, row, to);
+    ss_status st = SS_OK;
+    for (*n = 0; *n < max && (st = ss_delimited_next(t, &row, err)) == SS_OK && row != NULL; ++*n) {
+        stamp[*n] = ss_delimited_stamp(&t->time, row);
+        keep_values(t, row, column, *n);
     }
     return st;
 }
@@ -43,30 +43,25 @@ ss_delimited_begin_samples(struct table *t, ss_error *err)
     t->given = 0;
     ss_status st = ss_delimited_rewind(t, err);
     if (st == SS_OK && t->longest > 0)
-        st = ss_resampler_new(&t->resampler, t->in->name, t->n_kept, t->names->rate, t->longest, next_row, t, err);
+        st = ss_resampler_new(&t->resampler, t->in->name, t->n_kept, t->names->rate, t->longest, next_rows, t, err);
     return st;
 }
 
 ss_status
-ss_delimited_samples(struct table *t, double *rows, size_t max, size_t *n, ss_error *err)
+ss_delimited_samples(struct table *t, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     if (t->resampler != NULL)
-        return ss_resampler_rows(t->resampler, rows, max, n, err);
+        return ss_resampler_rows(t->resampler, column, max, n, err);
     for (*n = 0; *n < max; ++*n, t->given++) {
-        double *to = rows + *n * t->n_kept;
         if (t->row == NULL) {
             ss_status st = ss_delimited_next(t, &t->row, err);
             if (st != SS_OK || t->row == NULL)
                 return st;
             t->sample = t->time.column == NONE ? t->given : ss_clock_sample(&t->count, ss_delimited_stamp(&t->time, t->row));
         }
-        if (t->sample == t->given) {
-            keep_values(t, t->row, to);
-            t->row = NULL;
-        } else {
-            for (size_t c = 0; c < t->n_kept; c++)
-                to[c] = NAN;
-        }
+        int there = t->sample == t->given;
+        keep_values(t, there ? t->row : NULL, column, *n);
+        t->row = there ? NULL : t->row;
     }
     return SS_OK;
 }
