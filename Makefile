@@ -87,7 +87,7 @@ TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/test_*.c)))
 BENCHES := $(patsubst tests/%.c,%,$(sort $(wildcard tests/bench/bench_*.c)))
 FUZZERS := $(patsubst tests/%.c,%,$(sort $(wildcard tests/fuzz/fuzz_*.c)))
 REPLAYS := $(FUZZERS:fuzz/fuzz_%=fuzz/replay_%)
-TOOL_PARTS := common files input options output reading
+TOOL_PARTS := common files input jobs options output reading
 TOOL_OBJ := $(TOOL_PARTS:%=$(BUILD)/tools/%.o)
 
 STATIC  := $(BUILD)/libstickslip.a

@@ -235,7 +235,7 @@ simulations_refuse_null(void **state)
     assert_null(ss_trade_cheapest(NULL, 1));
     ss_models *models = NULL;
     ss_scene simpler;
-    ss_need need[SS_COMPARED] = { { 0, 0 } };
+    ss_need need[SS_COMPARED_MOST] = { { 0, 0 } };
     size_t n;
     assert_null(ss_scene_simpler(NULL, &scene, 0));
     assert_null(ss_scene_simpler(&simpler, NULL, 0));
@@ -246,8 +246,8 @@ simulations_refuse_null(void **state)
     assert_refused(ss_needs_parse(need, &n, NULL, &e), &e);
     assert_int_equal(ss_models_keeps(NULL, need, 1), 0);
     assert_null(ss_models_cheapest(NULL, need, 1));
-    assert_null(ss_compared_name(SS_COMPARED));
-    assert_null(ss_compared_unit(SIZE_MAX));
+    assert_null(ss_compared_name(SS_COMPARED_MOST));
+    assert_null(ss_compared_name(SIZE_MAX));
 }
 
 static void
@@ -457,22 +457,34 @@ rankings_refuse_null(FILE *out)
 static void
 summaries_refuse_null(FILE *out)
 {
-    static const char *const names[] = { "mine" };
-    ss_summary summary;
-    ss_summary_fill(NULL, NULL, NULL, 0, "why");
-    ss_summary_fill(&summary, NULL, NULL, 0, NULL);
-    assert_string_equal(summary.reason, "");
-    ss_summary_fill(&summary, NULL, NULL, 0, "why");
-    assert_string_equal(summary.reason, "why");
-    for (size_t i = 0; i < SS_SUMMARY_NUMBERS; i++) {
-        assert_non_null(ss_summary_name(i));
-        assert_true(isnan(summary.number[i].value) && isnan(summary.number[i].error));
-    }
-    assert_null(ss_summary_name(SS_SUMMARY_NUMBERS));
-    assert_int_equal(ss_summaries_write(NULL, &summary, 1, out, SS_TSV), SS_EINVAL);
-    assert_int_equal(ss_summaries_write(names, NULL, 1, out, SS_TSV), SS_EINVAL);
-    assert_int_equal(ss_summaries_write(names, &summary, 1, NULL, SS_TSV), SS_EINVAL);
-    assert_int_equal(ss_summaries_write(names, &summary, 1, out, SS_AU), SS_EINVAL);
+    const ss_features features = { .n = 0 };
+    const ss_signal signal = { .head = ss_header_new(1, 0) };
+    ss_table *table = NULL;
+    FILE *in = tmpfile();
+    for (int k = 0; k < SS_FEATURE_NUMBERS; k++)
+        assert_non_null(ss_feature_label((ss_feature)k)->name);
+    assert_null(ss_feature_label(SS_FEATURE_NUMBERS));
+    assert_int_equal(ss_summary_write(NULL, &features, &signal, 0, NULL, out, NULL), SS_EINVAL);
+    assert_int_equal(ss_summary_write("mine", &features, NULL, 0, NULL, out, NULL), SS_EINVAL);
+    assert_int_equal(ss_summary_write("mine", &features, &signal, 0, NULL, out, NULL), SS_EINVAL);
+    assert_int_equal(ss_summary_write("mine", NULL, NULL, 0, NULL, out, NULL), SS_EINVAL);
+    assert_int_equal(ss_summary_write("mine", NULL, NULL, 0, "why", NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_summary_write("mine", NULL, NULL, 0, "why", in, NULL), SS_OK);
+    rewind(in);
+    assert_int_equal(ss_table_read(&table, in, "in", SS_KIND_SUMMARIES, NULL), SS_OK);
+    assert_int_equal(table->n, 1);
+    assert_string_equal(table->cell[table->n_columns - 1], "why");
+    for (size_t c = 1; c + 1 < table->n_columns; c++)
+        assert_string_equal(table->cell[c], "-");
+    assert_int_equal(ss_summaries_write(NULL, out, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_summaries_write(table, NULL, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_summaries_write(table, out, SS_AU, NULL), SS_EINVAL);
+    table->n_columns--;
+    assert_int_equal(ss_summaries_write(table, out, SS_TSV, NULL), SS_EDATA);
+    table->n_columns++;
+    ss_table_free(table);
+    ss_header_free(signal.head);
+    fclose(in);
 }
 
 /* Of what tools write as text: NULL, a column that is not there, a format that has no words. */
@@ -503,14 +515,14 @@ writers_of_rows_refuse_null(void **state)
     assert_int_equal(ss_event_writer_flush(NULL), SS_EINVAL);
     ss_event_writer_free(writer);
     ss_event_writer_free(NULL);
-    assert_int_equal(ss_features_write(NULL, &signal, 0, opts, out, SS_TSV), SS_EINVAL);
-    assert_int_equal(ss_features_write(&features, NULL, 0, opts, out, SS_TSV), SS_EINVAL);
-    assert_int_equal(ss_features_write(&features, &signal, 0, opts, out, SS_TSV), SS_EINVAL);
+    assert_int_equal(ss_features_write(NULL, &signal, 0, opts, out, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_features_write(&features, NULL, 0, opts, out, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_features_write(&features, &signal, 0, opts, out, SS_TSV, NULL), SS_EINVAL);
     summaries_refuse_null(out);
-    assert_int_equal(ss_trade_write(NULL, "x", out, SS_TSV), SS_EINVAL);
-    assert_int_equal(ss_trade_write(&trade, NULL, out, SS_TSV), SS_EINVAL);
-    assert_int_equal(ss_trade_write(&trade, "x", NULL, SS_TSV), SS_EINVAL);
-    assert_int_equal(ss_trade_write(&trade, "x", out, SS_AU), SS_EINVAL);
+    assert_int_equal(ss_trade_write(NULL, "x", out, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_trade_write(&trade, NULL, out, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_trade_write(&trade, "x", NULL, SS_TSV, NULL), SS_EINVAL);
+    assert_int_equal(ss_trade_write(&trade, "x", out, SS_AU, NULL), SS_EINVAL);
     assert_int_equal(ss_models_write(NULL, "x", NULL, 0, out, SS_TSV, NULL), SS_EINVAL);
     assert_int_equal(ss_models_write(&models, NULL, NULL, 0, out, SS_TSV, NULL), SS_EINVAL);
     assert_int_equal(ss_models_write(&models, "x", NULL, 1, out, SS_TSV, NULL), SS_EINVAL);
@@ -542,17 +554,14 @@ overlays_refuse_null(void **state)
 {
     FILE *in = tmpfile();
     ss_overlay *overlay = NULL;
-    double *time = NULL;
-    size_t n;
     ss_error e;
     (void)state;
-    assert_refused(ss_overlay_read(NULL, in, "in", &e), &e);
-    assert_refused(ss_overlay_read(&overlay, NULL, "in", &e), &e);
-    assert_refused(ss_overlay_read(&overlay, in, NULL, &e), &e);
-    assert_refused(ss_event_times_read(NULL, &n, in, "in", &e), &e);
-    assert_refused(ss_event_times_read(&time, NULL, in, "in", &e), &e);
-    assert_refused(ss_event_times_read(&time, &n, NULL, "in", &e), &e);
-    assert_refused(ss_event_times_read(&time, &n, in, NULL, &e), &e);
+    for (ss_kind kind = SS_KIND_FEATURES; kind <= SS_KIND_EVENTS; kind++) {
+        assert_refused(ss_overlay_read(NULL, in, "in", kind, &e), &e);
+        assert_refused(ss_overlay_read(&overlay, NULL, "in", kind, &e), &e);
+        assert_refused(ss_overlay_read(&overlay, in, NULL, kind, &e), &e);
+    }
+    assert_int_equal(ss_overlay_read(&overlay, in, "in", SS_KIND_SWEEP, &e), SS_EINVAL);
     ss_overlay_free(NULL);
     fclose(in);
 }
@@ -710,8 +719,7 @@ refuses_what_is_no_known_choice(void **state)
         assert_int_equal(ss_model_is_linear((ss_model)k), 0);
         assert_string_equal(ss_event_kind_name((ss_event_kind)k), "?");
         assert_string_equal(ss_spike_kind_name((ss_spike_kind)k), "?");
-        assert_null(ss_measure_name((ss_measure)k));
-        assert_null(ss_measure_unit((ss_measure)k));
+        assert_null(ss_measure_label((ss_measure)k));
         assert_string_equal(ss_strerror((ss_status)k), "unknown status");
     }
     static const double no_rate[] = { -1, NAN, INFINITY };

@@ -390,7 +390,7 @@ marks_beyond_the_map_are_arrows(void **state)
     ss_coefficients *c = transform(signal, &ss_morlet_defaults);
     double event[] = { 0.5, 0.6, 5 }, spike[] = { 1.5, -1 }, span[][2] = { { 1.4, 1.6 }, { 4, 5 } };
     double maximum[][2] = { { 1.5, 40 }, { 1.5, 5 }, { 1.25, 400 }, { 9, 40 } };
-    ss_overlay overlay = { 2, 4, 2, span, maximum, spike };
+    ss_overlay overlay = { .n_spans = 2, .n_maxima = 4, .n_spikes = 2, .span = span, .maximum = maximum, .spike = spike };
     ss_contour_opts opts = ss_contour_defaults;
     ss_plot_opts plot = ss_plot_defaults;
     char *script = NULL;

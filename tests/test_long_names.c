@@ -199,9 +199,7 @@ readers_stand_long_words_in_files_of_long_names(void **state)
         ss_signal *signal = NULL;
         ss_coefficients *c = NULL;
         ss_table *table = NULL;
-        ss_overlay *overlay = NULL;
-        double *time = NULL;
-        size_t n;
+        ss_overlay *overlay = NULL, *events = NULL;
         ss_error err = new_error();
         fprintf(in, "%s%s\n%s\n", before[i / 2], word, word);
         rewind(in);
@@ -213,15 +211,15 @@ readers_stand_long_words_in_files_of_long_names(void **state)
         rewind(in);
         assert_told(ss_table_read(&table, in, word, SS_KIND_SWEEP, &err), &err);
         rewind(in);
-        assert_told(ss_overlay_read(&overlay, in, word, &err), &err);
+        assert_told(ss_overlay_read(&overlay, in, word, SS_KIND_FEATURES, &err), &err);
         rewind(in);
-        assert_told(ss_event_times_read(&time, &n, in, word, &err), &err);
+        assert_told(ss_overlay_read(&events, in, word, SS_KIND_EVENTS, &err), &err);
         rewind(in);
         assert_fails(ss_wisdom_read(in, &err), &err);
         ss_signal_free(signal);
         ss_table_free(table);
         ss_overlay_free(overlay);
-        free(time);
+        ss_overlay_free(events);
         fclose(in);
     }
 }

@@ -589,15 +589,11 @@ read_overlays(int variant)
     static char features[] = "# stickslip features 1\n# spike: 1 jump 0 0\n0\t1\t2\t0.5\t40\n",
         events[] = "# stickslip events 1\n0.5\tslip\n";
     ss_overlay *overlay = NULL;
-    double *time = NULL;
-    size_t n;
     FILE *in = variant == 0 ? fmemopen(features, sizeof features - 1, "r")
                             : fmemopen(events, sizeof events - 1, "r");
-    ss_status st = variant == 0 ? ss_overlay_read(&overlay, in, "in", &err)
-                                : ss_event_times_read(&time, &n, in, "in", &err);
+    ss_status st = ss_overlay_read(&overlay, in, "in", variant == 0 ? SS_KIND_FEATURES : SS_KIND_EVENTS, &err);
     fclose(in);
     ss_overlay_free(overlay);
-    free(time);
     return st;
 }
 

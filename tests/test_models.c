@@ -55,7 +55,7 @@ settled_light(double stiffer)
 static void
 assert_answer(const ss_models *models, const char *list, const char *expected)
 {
-    ss_need need[SS_COMPARED];
+    ss_need need[SS_COMPARED_MOST];
     size_t n;
     char *sentence = NULL;
     assert_int_equal(ss_needs_parse(need, &n, list, NULL), SS_OK);
@@ -135,7 +135,7 @@ refuses_what_the_scene_has_not(void **state)
 {
     static const char *const wrong[] = { "", "x", "x=", "y=1", "x=-1", "x=1,x=2", "map=3db", "x=1dB", "x=nan" };
     ss_scene scene = read_shipped_named("state-variable");
-    ss_need need[SS_COMPARED];
+    ss_need need[SS_COMPARED_MOST];
     size_t n;
     char *sentence = NULL;
     ss_error err = { 0 };

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <stickslip/signal.h>
 #include "base/number.h"
-#include "io/rows.h"
+#include "io/record.h"
 #include "unit.h"
 
 static uint64_t

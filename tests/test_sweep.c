@@ -712,7 +712,7 @@ methods_agree(void **state)
         assert_int_equal(ss_steady_find(&by_steps, &s, &opts, NULL), SS_OK);
         for (int m = 0; m <= SS_PERIOD; m++)
             is_near(by_steps.value[m], exact.value[m], 1e-8 * fabs(exact.value[m]),
-                    ss_measure_name((ss_measure)m));
+                    ss_measure_label((ss_measure)m)->name);
     }
 }
 
@@ -770,7 +770,7 @@ every_value_is_there_or_the_status_says_why(void **state)
                     for (int m = 0; m <= SS_PERIOD && st == SS_OK; m++)
                         if (!isfinite(at.value[m]))
                             fail_msg("%s, %s x %g: %s is %g", name[i], key[k], scale[j],
-                                     ss_measure_name((ss_measure)m), at.value[m]);
+                                     ss_measure_label((ss_measure)m)->name, at.value[m]);
                     assert_true(st == SS_OK || err.text[0] != '\0');
                     good += st == SS_OK;
                     bad += st != SS_OK;

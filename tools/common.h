@@ -73,8 +73,8 @@ void tool_resample(ss_reader **reader, const char *path, const ss_read_opts *opt
 ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
 /* Read coefficients from "-", a file or HDF5, or die. */
 ss_coefficients *tool_read_coefficients(const char *path);
-/* Read features of ss-features from "-" or a file, or die; NULL if path is NULL. */
-ss_overlay *tool_read_features(const char *path);
+/* Read features or events, as kind says, from "-" or a file, or die; NULL if path is NULL. */
+ss_overlay *tool_read_overlay(const char *path, ss_kind kind);
 /* Read a scene from a path, the name of a shipped scene, or "-"; then settings "key=value" replace
  * its values.  Dies if that fails; a wrong setting is wrong usage. */
 ss_scene tool_read_scene(const char *path, const tool_texts *settings);

@@ -125,17 +125,17 @@ tool_read_signal(const char *path, const ss_read_opts *opts)
 }
 
 ss_overlay *
-tool_read_features(const char *path)
+tool_read_overlay(const char *path, ss_kind kind)
 {
-    ss_overlay *features;
+    ss_overlay *overlay;
     ss_error err = { 0 };
     if (path == NULL)
         return NULL;
     FILE *in = tool_open(path);
-    tool_check(ss_overlay_read(&features, in, tool_input_name(path), &err), &err);
+    tool_check(ss_overlay_read(&overlay, in, tool_input_name(path), kind, &err), &err);
     if (in != stdin)
         fclose(in);
-    return features;
+    return overlay;
 }
 
 ss_coefficients *

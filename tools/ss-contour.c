@@ -38,8 +38,7 @@ typedef struct drawing {
     ss_overview *overview;      /* of a recording */
     const ss_coefficients *coefficients;
     ss_contour_opts opts;
-    double *event;
-    ss_overlay *overlay;
+    ss_overlay *times, *overlay;       /* of events and features */
     ss_detrend detrend;
     tool_reading reading;
 } drawing;
@@ -232,20 +231,6 @@ find_signal(drawing *d)
     return signal;
 }
 
-/* --- times in files ------------------------------------------------------------------------ */
-
-static void
-read_events(drawing *d)
-{
-    ss_error err = { 0 };
-    FILE *in = tool_open(d->events);
-    tool_check(ss_event_times_read(&d->event, &d->opts.n_events, in, tool_input_name(d->events), &err),
-               &err);
-    if (in != stdin)
-        fclose(in);
-    d->opts.event = d->event;
-}
-
 /* --- the whole ----------------------------------------------------------------------------- */
 
 static int
@@ -312,13 +297,15 @@ main(int argc, char *argv[])
     ss_signal *signal = d.overview == NULL ? find_signal(&d) : NULL;
     if (d.column != NULL && d.opts.signal == NULL)
         tool_usage("--column needs a signal; give one with --signal");
-    if (d.events != NULL)
-        read_events(&d);
-    d.opts.overlay = d.overlay = tool_read_features(d.features);
+    if ((d.times = tool_read_overlay(d.events, SS_KIND_EVENTS)) != NULL) {
+        d.opts.event = d.times->event;
+        d.opts.n_events = d.times->n_events;
+    }
+    d.opts.overlay = d.overlay = tool_read_overlay(d.features, SS_KIND_FEATURES);
     note_contents(&d);
     tool_draw(d.output, &opts, write_script, &d);
-    free(d.event);
     tool_reading_free(&d.reading);
+    ss_overlay_free(d.times);
     ss_overlay_free(d.overlay);
     ss_signal_free(signal);
     ss_coefficients_free(d.own);

@@ -1,13 +1,10 @@
 /* ss-features.c -- the transitions of a signal, one a row, and what they have in common, which is a
  * row of several signals. */
+#include "jobs.h"
 #include "options.h"
 
 #include <errno.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 static const char usage[] =
 "usage: ss-features [options] [FILE ...]\n"
@@ -30,9 +27,6 @@ static const char usage[] =
 TOOL_READING_USAGE
 "  -o, --output=FILE       .tsv or .csv; --format=tsv|csv of standard output\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
-
-/* Each job has two files open, and so have the finished ones that wait for one before them. */
-enum { JOBS_MAX = 100 };
 
 /* The columns of displacement and force, if none are named. */
 static const char usual_displacement[] = "x", usual_force[] = "f";
@@ -91,115 +85,63 @@ static void
 write_one(const request *req, const char *path, tool_kind kind)
 {
     found f = find_features(req, path);
+    ss_error err = { 0 };
     tool_check(ss_features_write(f.features, f.signal, f.column, &f.opts, tool_output(req->output),
-                                 tool_stream(kind)), NULL);
+                                 tool_stream(kind), &err), &err);
     free_features(&f);
 }
 
 /* --- several files ------------------------------------------------------------------------- */
 
-/* A process of its own for each file, so that a file that cannot be read ends no other.  Its summary and
- * its messages come back through files without a name. */
-typedef struct job {
-    pid_t pid;
-    FILE *summary, *words;
-    int done, status;
-} job;
+typedef struct table {
+    const request *req;
+    char *const *path;
+    FILE *rows;                 /* a summary of each file, without a name */
+    size_t good;                /* files that have features */
+} table;
 
 static void
-start_job(job *j, const request *req, const char *path)
+find_one(size_t i, FILE *result, void *user)
 {
-    j->summary = tmpfile();
-    j->words = tmpfile();
-    if (j->summary == NULL || j->words == NULL || (j->pid = fork()) < 0)
-        tool_die("%s: no process could be started for it: %s%s", path, strerror(errno),
-                 req->jobs > 1 ? "; a smaller --jobs may do" : "");
-    if (j->pid > 0)
-        return;
-    dup2(fileno(j->words), STDERR_FILENO);
-    found f = find_features(req, path);
-    ss_summary summary;
-    ss_summary_fill(&summary, f.features, f.signal, f.column, NULL);
-    fwrite(&summary, sizeof summary, 1, j->summary);
-    _exit(fflush(j->summary) != 0);
+    const table *t = user;
+    ss_error err = { 0 };
+    found f = find_features(t->req, t->path[i]);
+    tool_check(ss_summary_write(t->path[i], f.features, f.signal, f.column, NULL, result, &err), &err);
 }
 
-/* Wait until any of the jobs that have begun ends. */
 static void
-wait_for_job(job *jobs, size_t begun)
+add_row(size_t i, FILE *result, const char *why, void *user)
 {
-    int status;
-    pid_t pid = wait(&status);
-    if (pid < 0)
-        tool_die("%s", strerror(errno));
-    for (size_t i = 0; i < begun; i++)
-        if (jobs[i].pid == pid && !jobs[i].done) {
-            jobs[i].done = 1;
-            jobs[i].status = status;
-        }
+    table *t = user;
+    ss_error err = { 0 };
+    t->good += result != NULL;
+    if (result == NULL)
+        tool_check(ss_summary_write(t->path[i], NULL, NULL, 0, why, t->rows, &err), &err);
+    for (int c; result != NULL && (c = getc(result)) != EOF;)
+        putc(c, t->rows);
 }
 
-/* Pass on the messages of a job.  line becomes the last of them, without the tool's name. */
-static void
-pass_words(job *j, char *line, int size)
-{
-    static const char name[] = "ss-features: ";
-    rewind(j->words);
-    for (int c = 0, first = 1; fgets(line, size, j->words) != NULL; first = c == '\n') {
-        size_t n = strlen(line);
-        c = n > 0 ? line[n - 1] : 0;
-        fputs(line, stderr);
-        line[strcspn(line, "\n")] = '\0';
-        if (first && strncmp(line, name, strlen(name)) == 0)
-            memmove(line, line + strlen(name), strlen(line + strlen(name)) + 1);
-    }
-    fclose(j->words);
-}
-
-/* Read the summary of a job that is done.  Returns 0 if there is none; its reason then is the error. */
-static int
-collect_job(job *j, ss_summary *summary)
-{
-    char line[sizeof summary->reason] = "";
-    pass_words(j, line, sizeof line);
-    rewind(j->summary);
-    int whole = j->status == 0 && fread(summary, sizeof *summary, 1, j->summary) == 1;
-    fclose(j->summary);
-    if (!whole && WIFSIGNALED(j->status))
-        snprintf(line, sizeof line, "its process was killed by signal %d", WTERMSIG(j->status));
-    if (!whole)
-        ss_summary_fill(summary, NULL, NULL, 0, line);
-    return whole;
-}
-
-/* Write a row for each of n files, in their order, whichever is done first.  Returns the number of files
- * that have features. */
+/* Write a row for each of n files, in their order.  Returns the number of files that have features. */
 static size_t
 write_table(const request *req, char *const path[], size_t n, tool_kind kind)
 {
-    job *jobs = calloc(n, sizeof *jobs);
-    ss_summary *summary = calloc(n, sizeof *summary);
-    size_t begun = 0, ended = 0, good = 0, at_once = (size_t)req->jobs;
-    if (jobs == NULL || summary == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    table t = { req, path, tmpfile(), 0 };
+    ss_table *all = NULL;
+    ss_error err = { 0 };
+    if (t.rows == NULL)
+        tool_die("%s", strerror(errno));
     for (size_t i = 0, standard = 0; i < n; i++) {
         standard += strcmp(tool_reads(path[i]), "-") == 0;
         if (standard > 1)
             tool_usage("standard input can be read only once");
     }
-    for (size_t first = 0; first < n;) {
-        while (begun < n && begun - ended < at_once && begun - first < 2 * at_once)
-            start_job(&jobs[begun], req, path[begun]), begun++;
-        wait_for_job(jobs, begun);
-        for (ended++; first < begun && jobs[first].done; first++)
-            good += (size_t)collect_job(&jobs[first], &summary[first]);
-        tool_progress((double)ended / (double)n, NULL);
-    }
-    tool_check(ss_summaries_write((const char *const *)path, summary, n, tool_output(req->output),
-                                  tool_stream(kind)), NULL);
-    free(summary);
-    free(jobs);
-    return good;
+    tool_jobs(path, n, req->jobs, find_one, add_row, &t);
+    rewind(t.rows);
+    tool_check(ss_table_read(&all, t.rows, "summaries", SS_KIND_SUMMARIES, &err), &err);
+    tool_check(ss_summaries_write(all, tool_output(req->output), tool_stream(kind), &err), &err);
+    ss_table_free(all);
+    fclose(t.rows);
+    return t.good;
 }
 
 int
@@ -207,7 +149,7 @@ main(int argc, char *argv[])
 {
     static const char *const norms[] = { "l2", "l1", NULL };    /* in the order of ss_norm */
     const ss_range prominences = { 1e-3, 1000 }, positive = { 1e-100, 1e100 }, springs = { 0, 1e100 };
-    const ss_range heights = { 1e-300, 1e300 }, jobs = { 1, JOBS_MAX };
+    const ss_range heights = { 1e-300, 1e300 }, jobs = { 1, TOOL_JOBS_MAX };
     request req = { .opts = ss_features_defaults, .kind = TOOL_TSV, .jobs = 1 };
     const tool_option options[] = {
         TOOL_TEXT('c', "column", &req.column), TOOL_NUMBER(0, "threshold", &req.opts.threshold, prominences),

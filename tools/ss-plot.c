@@ -300,7 +300,7 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
     if (d.xy)
         opts->from = opts->to = NAN;
     tool_note("%s: %zu sample%s, columns: %zu", tool_input_name(path), rows, tool_s(rows), d.head->n_columns);
-    ss_overlay *overlay = tool_read_features(features);
+    ss_overlay *overlay = tool_read_overlay(features, SS_KIND_FEATURES);
     opts->features = overlay;
     if (d.kind >= TOOL_STREAM)
         tool_check(ss_spectra_write(d.density, d.head, d.column, d.n, d.decibels, tool_output(output),

@@ -51,7 +51,7 @@ static void
 pick_measure(request *req, const char *name, size_t length)
 {
     for (ss_measure m = 0; m < SS_MEASURES; m++) {
-        const char *known = ss_measure_name(m);
+        const char *known = ss_measure_label(m)->name;
         if (strlen(known) != length || strncmp(known, name, length) != 0)
             continue;
         if (req->opts.steady.measures & 1u << m)
@@ -62,7 +62,7 @@ pick_measure(request *req, const char *name, size_t length)
     }
     char list[512] = "";
     for (ss_measure m = 0; m < SS_MEASURES; m++)
-        tool_list(list, sizeof list, ss_measure_name(m));
+        tool_list(list, sizeof list, ss_measure_label(m)->name);
     tool_usage("--measure: '%.*s' is none of %s", (int)length, name, list);
 }
 
@@ -91,7 +91,7 @@ pick_usual(request *req, const ss_scene *scene)
         ss_steady_opts has = ss_steady_defaults;
         has.measures = 1u << usual[i];
         if (ss_steady_check(&has, scene, NULL) == SS_OK)
-            pick_measure(req, ss_measure_name(usual[i]), strlen(ss_measure_name(usual[i])));
+            pick_measure(req, ss_measure_label(usual[i])->name, strlen(ss_measure_label(usual[i])->name));
     }
 }
 

@@ -60,7 +60,7 @@ typedef struct request {
     tool_reading reading;
     tool_kind kind;
     int dense, models;
-    ss_need need[SS_COMPARED];
+    ss_need need[SS_COMPARED_MOST];
     size_t n_needs;
     ss_trade_opts opts;
     char *name;
@@ -214,13 +214,14 @@ static void
 trade_accuracy(request *req, tool_kind kind, ss_plot_opts *plot)
 {
     ss_trade *trade = is_scene(req->path) ? measure_scene(req) : measure_signal(req);
+    ss_error err = { 0 };
     plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
     if (kind < TOOL_STREAM)
         tool_draw(req->output, plot, write_script, trade);
     else if (req->opts.target > 0)
         write_options(tool_output(req->output), trade, req->opts.target);
     else
-        tool_check(ss_trade_write(trade, req->name, tool_output(req->output), tool_stream(kind)), NULL);
+        tool_check(ss_trade_write(trade, req->name, tool_output(req->output), tool_stream(kind), &err), &err);
     ss_trade_free(trade);
 }
 

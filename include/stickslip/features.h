@@ -7,6 +7,7 @@
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
 #include <stickslip/spikes.h>
+#include <stickslip/table.h>
 
 SS_BEGIN_DECLARATIONS
 
@@ -37,11 +38,6 @@ ss_status ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *co
                     double range, double min_prominence);
 
 /* --- transitions --------------------------------------------------------------------------- */
-
-/* A number and its standard error; each is NaN if it is not known. */
-typedef struct ss_value {
-    double value, error;
-} ss_value;
 
 /* The motion between one macroscopic slip and the next; times [s] from the first sample. */
 typedef struct ss_transition {
@@ -81,6 +77,42 @@ typedef struct ss_median {
     double value, error, scatter;
 } ss_median;
 
+/* --- the numbers that a recording has as a whole ---------------------------------------------------- */
+
+/* Their list: number(NAME, name, unit, about, needs).
+ * name: of its note.  unit: "" if it has none; NULL if it contains the unit of the column.
+ * about: the note about_ABOUT says why numbers of this kind are not known, or how they were found.
+ * needs: the recordings and options for which it is written (internal). */
+#define SS_FEATURE_NUMBER_LIST(number) \
+    number(SS_TRANSITIONS,              "transitions",              "",      "slips",      0) \
+    number(SS_SLIPS,                    "slips",                    "",      "slips",      0) \
+    number(SS_SLIP_RATE,                "slip_rate",                "1/s",   "slips",      0) \
+    number(SS_LOADING_SLOPE,            "loading_slope",            NULL,    "slips",      OF_FALLS) \
+    number(SS_LOADING_STIFFNESS,        "loading_stiffness",        NULL,    "slips",      OF_EVENTS | DISPLACEMENT) \
+    number(SS_DROP,                     "drop",                     NULL,    "slips",      OF_FALLS) \
+    number(SS_DROP_DURATION,            "drop_duration",            "s",     "slips",      OF_FALLS) \
+    number(SS_RECURRENCE_TIME,          "recurrence_time",          "s",     "slips",      OF_FALLS) \
+    number(SS_STICK_TIME,               "stick_time",               "s",     "slips",      OF_FALLS) \
+    number(SS_STATIC_FRICTION,          "static_friction",          NULL,    "slips",      OF_FALLS) \
+    number(SS_FRICTION,                 "friction",                 NULL,    "slips",      OF_EVENTS) \
+    number(SS_K_OVER_M,                 "k_over_m",                 "1/s^2", "slips",      OF_FALLS) \
+    number(SS_REPETITION_FREQUENCY,     "repetition_frequency",     "Hz",    "repetition", 0) \
+    number(SS_TRANSITION_FREQUENCY_RAW, "transition_frequency_raw", "Hz",    "ringing",    0) \
+    number(SS_TRANSITION_FREQUENCY,     "transition_frequency",     "Hz",    "ringing",    0) \
+    number(SS_DAMPING_RATIO,            "damping_ratio",            "",      "ringing",    0) \
+    number(SS_TOTAL_STIFFNESS_RAW,      "total_stiffness_raw",      "N/m",   "ringing",    MASS) \
+    number(SS_TOTAL_STIFFNESS,          "total_stiffness",          "N/m",   "ringing",    MASS) \
+    number(SS_CONTACT_STIFFNESS,        "contact_stiffness",        "N/m",   "ringing",    MASS) \
+    number(SS_CONTACT_DAMPING,          "contact_damping",          "N s/m", "ringing",    MASS) \
+    number(SS_CONTACT_STIFFNESS_SLOPE,  "contact_stiffness_slope",  "N/m",   "ringing",    DISPLACEMENT | FORCE)
+
+#define SS_FEATURE_ENUMERATOR(NAME, name, unit, about, needs) NAME,
+typedef enum ss_feature { SS_FEATURE_NUMBER_LIST(SS_FEATURE_ENUMERATOR) SS_FEATURE_NUMBERS } ss_feature;
+#undef SS_FEATURE_ENUMERATOR
+
+/* The name and the unit of a number; NULL from SS_FEATURE_NUMBERS on. */
+const ss_label *ss_feature_label(ss_feature which);
+
 typedef struct ss_features {
     size_t n;
     ss_transition *transition;  /* in time order */
@@ -109,6 +141,7 @@ typedef struct ss_features {
     ss_value contact_stiffness, contact_damping;        /* [N/m, N s/m] with mass and stiffness; the
                                                            damping needs the mass only */
     ss_value contact_slope;     /* [N/m] |df/dx| in the stick, with columns of force and displacement */
+    ss_number number[SS_FEATURE_NUMBERS];
 } ss_features;
 
 typedef struct ss_features_opts {
@@ -149,31 +182,20 @@ void ss_features_free(ss_features *features);           /* NULL is allowed */
  * column and opts are those of ss_features_find.  SS_EINVAL: the format holds numbers only;
  * SS_EIO. */
 ss_status ss_features_write(const ss_features *features, const ss_signal *signal, size_t column,
-                            const ss_features_opts *opts, FILE *out, ss_format format);
+                            const ss_features_opts *opts, FILE *out, ss_format format, ss_error *err);
 
 /* --- many recordings ----------------------------------------------------------------------- */
 
-/* The numbers that all transitions of one recording have in common.  The structure has no
- * pointers, so that one process can send it to another. */
-enum { SS_SUMMARY_NUMBERS = 21 };
-typedef struct ss_summary {
-    ss_value number[SS_SUMMARY_NUMBERS];    /* ss_summary_name names them; NaN if not known */
-    char unit[64];              /* of the column, at most 63 bytes of it; "" if it has none */
-    char reason[1024];          /* why numbers are not known, or how they were found; or "" */
-} ss_summary;
-
-/* The name of the i-th number, as in the notes of ss_features_write; NULL after the last. */
-const char *ss_summary_name(size_t i);
-/* Fill in the summary of the features of this column.  If features is NULL, no number is known; the
- * reason is then reason, or "" if that is NULL. */
-void ss_summary_fill(ss_summary *out, const ss_features *features, const ss_signal *signal,
-                     size_t column, const char *reason);
-/* Write a table with a row for each of n files; control characters in their names are replaced.
- * Notes behind it give, for each number, the mean, the scatter between files, the scatter within a
- * file, and the number of files, as ss-features(1) describes.  SS_EINVAL: the format holds numbers
- * only; SS_EIO; SS_ENOMEM. */
-ss_status ss_summaries_write(const char *const file[], const ss_summary summary[], size_t n, FILE *out,
-                             ss_format format);
+/* Write the numbers of one recording as text, a table with one row, in which control characters of
+ * the file's name are replaced.  If features is NULL, no number is known for this reason, and
+ * signal and column are not used.  Texts of several recordings, one behind the other, are one table
+ * for ss_table_read.  SS_EIO; SS_ENOMEM. */
+ss_status ss_summary_write(const char *file, const ss_features *features, const ss_signal *signal,
+                           size_t column, const char *reason, FILE *out, ss_error *err);
+/* Write such a table in any format.  Notes behind it give, for each number, the mean, the scatter
+ * between files, the scatter within a file, and the number of files, as ss-features(1) describes.
+ * SS_EINVAL: the format holds numbers only; SS_EDATA: the table has other columns; SS_EIO. */
+ss_status ss_summaries_write(const ss_table *summaries, FILE *out, ss_format format, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -7,6 +7,7 @@
 #include <stickslip/scene.h>
 #include <stickslip/signal.h>
 #include <stickslip/sim.h>
+#include <stickslip/table.h>
 
 SS_BEGIN_DECLARATIONS
 
@@ -48,8 +49,7 @@ typedef enum ss_measure {
     SS_MEASURES
 } ss_measure;
 
-const char *ss_measure_name(ss_measure measure);    /* "stops"; NULL from SS_MEASURES on */
-const char *ss_measure_unit(ss_measure measure);    /* "m/s"; "" if it is a number */
+const ss_label *ss_measure_label(ss_measure measure);      /* "v_max", "m/s"; NULL from SS_MEASURES on */
 
 /* The way in which the periodic state is found. */
 typedef enum ss_search {

@@ -1,4 +1,4 @@
-/* stickslip/table.h -- read tables of words and numbers: events, features, rankings, trades, sweeps. */
+/* stickslip/table.h -- numbers with names, units and errors, and tables of them: events, features, rankings. */
 #ifndef STICKSLIP_TABLE_H
 #define STICKSLIP_TABLE_H
 
@@ -8,6 +8,23 @@
 #include <stickslip/status.h>
 
 SS_BEGIN_DECLARATIONS
+
+/* A number and its standard error; each is NaN if it is not known. */
+typedef struct ss_value {
+    double value, error;
+} ss_value;
+
+/* A number that many events have in common. */
+typedef struct ss_number {
+    double value, error;        /* and its standard error; each is NaN if it is not known */
+    double scatter;             /* the standard deviation of the events about it; NaN: it is no median */
+    const char *why;            /* constant text: why it is not known, or how it was found; NULL: nothing to say */
+} ss_number;
+
+/* What a number is called. */
+typedef struct ss_label {
+    const char *name, *unit;    /* "m/s"; "" if it has none; NULL if the recording decides */
+} ss_label;
 
 typedef struct ss_table {
     size_t n_notes;

@@ -4,6 +4,7 @@
 #define STICKSLIP_TRADE_H
 
 #include <stddef.h>
+#include <stickslip/features.h>
 #include <stickslip/morlet.h>
 #include <stickslip/scene.h>
 #include <stickslip/sim.h>
@@ -68,7 +69,7 @@ void ss_trade_free(ss_trade *trade);                /* NULL is allowed */
 /* Write a text that has a row for each method and tolerance, as ss-trade(1) describes; times are
  * multiples of the fastest row's.  The notes call the scene or signal by name.  SS_EINVAL: the
  * format holds numbers only; SS_EIO. */
-ss_status ss_trade_write(const ss_trade *trade, const char *name, FILE *out, ss_format format);
+ss_status ss_trade_write(const ss_trade *trade, const char *name, FILE *out, ss_format format, ss_error *err);
 
 /* The fastest row that has no wrong events and whose error of x is at most half of accuracy,
  * relative to max|x|; NULL if there is none. */
@@ -96,11 +97,11 @@ ss_status ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accur
  * - the largest and the rms difference of the contour maps of a [dB], the rms over the drawn area;
  * - the difference of the numbers of events and of micro-slips in the record (a micro-slip follows
  *   a slip in the same direction);
- * - the relative error of each number of ss_features, found in a with the scene's mass and
- *   stiffness and its columns x and f. */
-enum { SS_COMPARED_EVENTS = 10, SS_COMPARED_MICROSLIPS, SS_COMPARED = 23 };
-const char *ss_compared_name(size_t i);             /* "x", "x_rms", ...; NULL from SS_COMPARED on */
-const char *ss_compared_unit(size_t i);             /* "dB"; "" if it is a number */
+ * - the relative error of each number of ss_features that is no count of rows and no median over falls,
+ *   found in a with the scene's mass and stiffness and its columns x and f. */
+enum { SS_COMPARED_EVENTS = 10, SS_COMPARED_MICROSLIPS, SS_COMPARED_FEATURES,
+       SS_COMPARED_MOST = SS_COMPARED_FEATURES + SS_FEATURE_NUMBERS };
+const char *ss_compared_name(size_t i);     /* "x", "x_rms", ...; NULL behind the last */
 
 /* Indices of rows; from SS_MODELS_SIMPLER on, the rows are the simpler scenes. */
 enum { SS_MODELS_SCENE, SS_MODELS_SETTLED, SS_MODELS_SIMPLER };
@@ -109,7 +110,7 @@ typedef struct ss_models_row {
     ss_scene scene;
     ss_status status;           /* SS_OK; else this scene could not be run */
     ss_error reason;            /* why it could not */
-    double error[SS_COMPARED];  /* NaN where a scene has no such number, or the ratio is not finite */
+    double error[SS_COMPARED_MOST];  /* NaN where a scene has no such number, or the ratio is not finite */
     size_t events, microslips;  /* in the record */
     double seconds;             /* CPU time of one run */
 } ss_models_row;
@@ -140,11 +141,11 @@ void ss_models_free(ss_models *models);             /* NULL is allowed */
 /* An error that a user allows. */
 typedef struct ss_need {
     size_t what;                /* index of ss_compared_name */
-    double within;              /* >= 0, in the unit of ss_compared_unit */
+    double within;              /* >= 0, in dB for the maps */
 } ss_need;
 /* Read a list such as "x=1e-2,a=0.1,map=3dB,microslips": name=error, or the name alone of a count
  * that must not change.  *n becomes their number. */
-ss_status ss_needs_parse(ss_need need[SS_COMPARED], size_t *n, const char *list, ss_error *err);
+ss_status ss_needs_parse(ss_need need[SS_COMPARED_MOST], size_t *n, const char *list, ss_error *err);
 
 /* 1 if a row keeps all n needs. */
 int ss_models_keeps(const ss_models_row *row, const ss_need *need, size_t n);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "find/maxima.h"
+#include "find/numbers.h"
 #include "find/scale_rows.h"
 #include "find/search.h"
 #include "signal/gaps.h"
@@ -341,8 +342,10 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
         st = find(&found, signal, column, cleaned, opts, NULL, err);
         free(cleaned);
     }
-    if (st == SS_OK)
+    if (st == SS_OK) {
+        ss_numbers_fill(found);
         *out = found;
+    }
     return st;
 }
 

@@ -1,23 +1,29 @@
-/* numbers.h -- the numbers that the transitions of one recording have in common, by key. */
+/* numbers.h -- the numbers that a recording has as a whole: what each needs, and what a recording has.
+ *
+ * A new number is a row in the list of features.h and the function that finds it. */
 #ifndef NUMBERS_H
 #define NUMBERS_H
 
-#include <stddef.h>
 #include <stickslip/features.h>
 
-/* The recordings that have a number. */
-typedef enum number_group {
-    ALL, WITH_LOADING, WITH_FRICTION, WITH_FRICTION_OVER_X, WITH_MASS, WITH_X_AND_F
-} number_group;
+enum {
+    DISPLACEMENT = 1, FORCE = 2, MASS = 4,      /* in the options */
+    LOADING = 8,                                /* the transitions are falls of a force */
+    OF_EVENTS = 16,                             /* falls or reversals of a force: it is their median */
+    OF_FALLS = LOADING | OF_EVENTS
+};
 
 typedef struct feature_number {
-    const char *key, *unit;     /* unit NULL: it contains the unit of the column */
-    size_t at;                  /* in ss_features: an ss_value, or an ss_median, which begins like one */
-    int is_median;              /* over the slips of a loading */
-    number_group of;
+    ss_label label;
+    const char *about;
+    unsigned needs;
 } feature_number;
+extern const feature_number ss_feature_numbers[SS_FEATURE_NUMBERS];
 
-/* The first is the number of transitions, a count: `at` means nothing. */
-extern const feature_number ss_feature_numbers[SS_SUMMARY_NUMBERS];
+/* What these features and options have of what numbers need. */
+unsigned ss_features_have(const ss_features *f, const ss_features_opts *opts);
+
+/* Fill in the numbers from the fields. */
+void ss_numbers_fill(ss_features *f);
 
 #endif

@@ -92,8 +92,8 @@ static void
 mark_rest(const drawn *d, size_t c)
 {
     const ss_table *t = d->table;
-    size_t stick = (size_t)ss_table_column(t, ss_measure_name(SS_STICK_FRACTION));
-    size_t amplitude = (size_t)ss_table_column(t, ss_measure_name(SS_AMPLITUDE));
+    size_t stick = (size_t)ss_table_column(t, ss_measure_label(SS_STICK_FRACTION)->name);
+    size_t amplitude = (size_t)ss_table_column(t, ss_measure_label(SS_AMPLITUDE)->name);
     for (size_t i = 0; i < t->n; i++)
         if (d->column[c].value[i] == 0
             && (ss_table_number(t, i, stick) == 1 || ss_table_number(t, i, amplitude) == 0))
@@ -296,7 +296,7 @@ choose_forms(regions *r, size_t *line, const drawn *d, const map_grid *g, ss_err
 {
     for (size_t c = 2; c < d->n; c++) {
         regions found;
-        int is_stops = strcmp(d->column[c].label->name, ss_measure_name(SS_STOPS)) == 0;
+        int is_stops = strcmp(d->column[c].label->name, ss_measure_label(SS_STOPS)->name) == 0;
         if (is_stops)
             mark_rest(d, c);
         int few = find_regions(&found, g, d->column[c].value);
@@ -312,7 +312,7 @@ choose_forms(regions *r, size_t *line, const drawn *d, const map_grid *g, ss_err
         *place = c;
     }
     if (r->n == 0 && *line > 0
-        && strcmp(d->column[*line].label->name, ss_measure_name(SS_STICK_FRACTION)) == 0)
+        && strcmp(d->column[*line].label->name, ss_measure_label(SS_STICK_FRACTION)->name) == 0)
         find_ends(r, g, &d->column[*line], *line);
     return SS_OK;
 }

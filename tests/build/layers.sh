@@ -20,7 +20,7 @@ grep -rlE --include='*.[ch]' 'hdf5(_hl)?\.h' src tools | grep -v '^src/io/hdf5' 
 
 # Arrows between folders go down this list only, by includes and by what each object file defines and
 # uses; within a folder no files need each other in a circle.  What is printed breaks this.
-list='base signal scene motion map find fit study io plot'
+list='base signal scene motion map io find fit study plot'
 grep -rnE --include='*.[ch]' '^#include ("|<stickslip/)' src | sed -E 's/^src\/([^:]*)\.[ch]:[0-9]*:#include ["<](.*)\.h[">].*/includes \1 \2/' > "$scratch/arrows"
 cd "$scratch"
 find "$BUILD/src" -name '*.o' | while read -r object; do

@@ -2,21 +2,21 @@
 #include "fuzz.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    double *time = NULL;
-    size_t n = 0;
+    ss_overlay *overlay = NULL;
     ss_error err = { 0 };
     FILE *in = fuzz_open(bytes, size);
-    ss_status status = ss_event_times_read(&time, &n, in, "in", &err);
+    ss_status status = ss_overlay_read(&overlay, in, "in", SS_KIND_EVENTS, &err);
     fclose(in);
-    if (status != SS_OK)
+    if (status != SS_OK) {
         fuzz_check_refusal(status, &err);
-    for (size_t i = 0; i < n; i++)
-        fuzz_check(isfinite(time[i]), "finite times");
-    free(time);
+        return 0;
+    }
+    for (size_t i = 0; i < overlay->n_events; i++)
+        fuzz_check(isfinite(overlay->event[i]), "finite times");
+    ss_overlay_free(overlay);
     return 0;
 }

@@ -16,7 +16,7 @@ LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     ss_overlay *overlay = NULL;
     ss_error err = { 0 };
     FILE *in = fuzz_open(bytes, size);
-    ss_status status = ss_overlay_read(&overlay, in, "in", &err);
+    ss_status status = ss_overlay_read(&overlay, in, "in", SS_KIND_FEATURES, &err);
     fclose(in);
     if (status != SS_OK) {
         fuzz_check_refusal(status, &err);

@@ -39,48 +39,42 @@ has_limit(const struct model *model)
 }
 
 static const struct {
-    const char *name, *unit;
+    ss_label label;
     int (*has)(const struct model *model);      /* NULL: every model has it */
 } measure[SS_MEASURES] = {
-    [SS_STOPS] = { "stops", "", sticks },
-    [SS_STICK_FRACTION] = { "stick", "", sticks },
-    [SS_AMPLITUDE] = { "amplitude", "m", NULL },
-    [SS_X_MAX] = { "x_max", "m", NULL },
-    [SS_V_MAX] = { "v_max", "m/s", NULL },
-    [SS_A_MAX] = { "a_max", "m/s^2", NULL },
-    [SS_ENERGY] = { "energy", "J", NULL },
-    [SS_PERIOD] = { "period", "", NULL },
-    [SS_CYCLES] = { "cycles", "", NULL },
-    [SS_MICROSLIPS] = { "microslips", "", sticks },
-    [SS_TRANSITION] = { "transition", "Hz", rings },
-    [SS_X_PHASE] = { "x_phase", "m", NULL },
-    [SS_V_PHASE] = { "v_phase", "m/s", NULL },
-    [SS_FLOQUET] = { "floquet", "", differs },
-    [SS_FLOQUET_2] = { "floquet2", "", differs },
-    [SS_FLOQUET_ANGLE] = { "floquet_angle", "rad", differs },
-    [SS_CYCLE_TIME] = { "cycle_time", "s", NULL },
-    [SS_MODEL_ERROR_X] = { "model_error_x", "", has_limit },
-    [SS_MODEL_ERROR_X_RMS] = { "model_error_x_rms", "", has_limit },
-    [SS_MODEL_ERROR_V] = { "model_error_v", "", has_limit },
-    [SS_MODEL_ERROR_V_RMS] = { "model_error_v_rms", "", has_limit },
-    [SS_MODEL_ERROR_A] = { "model_error_a", "", has_limit },
-    [SS_MODEL_ERROR_A_RMS] = { "model_error_a_rms", "", has_limit },
-    [SS_MODEL_ERROR_F] = { "model_error_f", "", has_limit },
-    [SS_MODEL_ERROR_F_RMS] = { "model_error_f_rms", "", has_limit },
-    [SS_LYAPUNOV] = { "lyapunov", "1/s", differs },
-    [SS_LYAPUNOV_ERROR] = { "lyapunov_error", "1/s", differs },
+    [SS_STOPS] = { { "stops", "" }, sticks },
+    [SS_STICK_FRACTION] = { { "stick", "" }, sticks },
+    [SS_AMPLITUDE] = { { "amplitude", "m" }, NULL },
+    [SS_X_MAX] = { { "x_max", "m" }, NULL },
+    [SS_V_MAX] = { { "v_max", "m/s" }, NULL },
+    [SS_A_MAX] = { { "a_max", "m/s^2" }, NULL },
+    [SS_ENERGY] = { { "energy", "J" }, NULL },
+    [SS_PERIOD] = { { "period", "" }, NULL },
+    [SS_CYCLES] = { { "cycles", "" }, NULL },
+    [SS_MICROSLIPS] = { { "microslips", "" }, sticks },
+    [SS_TRANSITION] = { { "transition", "Hz" }, rings },
+    [SS_X_PHASE] = { { "x_phase", "m" }, NULL },
+    [SS_V_PHASE] = { { "v_phase", "m/s" }, NULL },
+    [SS_FLOQUET] = { { "floquet", "" }, differs },
+    [SS_FLOQUET_2] = { { "floquet2", "" }, differs },
+    [SS_FLOQUET_ANGLE] = { { "floquet_angle", "rad" }, differs },
+    [SS_CYCLE_TIME] = { { "cycle_time", "s" }, NULL },
+    [SS_MODEL_ERROR_X] = { { "model_error_x", "" }, has_limit },
+    [SS_MODEL_ERROR_X_RMS] = { { "model_error_x_rms", "" }, has_limit },
+    [SS_MODEL_ERROR_V] = { { "model_error_v", "" }, has_limit },
+    [SS_MODEL_ERROR_V_RMS] = { { "model_error_v_rms", "" }, has_limit },
+    [SS_MODEL_ERROR_A] = { { "model_error_a", "" }, has_limit },
+    [SS_MODEL_ERROR_A_RMS] = { { "model_error_a_rms", "" }, has_limit },
+    [SS_MODEL_ERROR_F] = { { "model_error_f", "" }, has_limit },
+    [SS_MODEL_ERROR_F_RMS] = { { "model_error_f_rms", "" }, has_limit },
+    [SS_LYAPUNOV] = { { "lyapunov", "1/s" }, differs },
+    [SS_LYAPUNOV_ERROR] = { { "lyapunov_error", "1/s" }, differs },
 };
 
-const char *
-ss_measure_name(ss_measure m)
+const ss_label *
+ss_measure_label(ss_measure m)
 {
-    return (unsigned)m < SS_MEASURES ? measure[m].name : NULL;
-}
-
-const char *
-ss_measure_unit(ss_measure m)
-{
-    return (unsigned)m < SS_MEASURES ? measure[m].unit : NULL;
+    return (unsigned)m < SS_MEASURES ? &measure[m].label : NULL;
 }
 
 /* The method of a scene that has passed ss_steady_check. */
@@ -105,7 +99,7 @@ ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err
     for (int i = 0; i < SS_MEASURES; i++)
         if ((opts->measures & 1u << i) && measure[i].has != NULL && !measure[i].has(m))
             return ss_fail(err, SS_EINVAL, "model %s has no measure '%s'", m->name,
-                           measure[i].name);
+                           measure[i].label.name);
     ss_status st = ss_range_check(opts->tol, ss_steady_tolerances, "tolerance", err);
     if (st != SS_OK)
         return st;
@@ -236,7 +230,7 @@ complete(const finder *f, const ss_steady *out)
                            ? "%s: no oscillation, a has no three extrema in one"
                            : i == SS_LYAPUNOV ? "%s: neighbouring motions become one, within rounding"
                            : "%s: not a number",
-                           measure[i].name);
+                           measure[i].label.name);
     return SS_OK;
 }
 

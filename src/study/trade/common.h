@@ -4,6 +4,9 @@
 
 #include <stickslip/trade.h>
 
+/* The unit of what is compared: "dB"; "" if it is a number or a ratio. */
+const char *ss_compared_unit(size_t i);
+
 /* The CPU time of this thread [s]. */
 double ss_trade_cpu_time(void);
 /* Measure the times of short rows again, in turns.  again runs a row and gives its seconds; done

@@ -19,36 +19,39 @@ const ss_models_opts ss_models_defaults = { .span = 80, .threads = 1 };
 
 /* --- what is compared ---------------------------------------------------------------------- */
 
-enum { COLUMNS = 4, A = 2, F = 3, MAP = 2 * COLUMNS, FEATURES = SS_COMPARED_MICROSLIPS + 1 };
+enum { COLUMNS = 4, A = 2, F = 3, MAP = 2 * COLUMNS };
 
-static const struct { const char *name, *unit; } compared[FEATURES] = {
+static const struct { const char *name, *unit; } compared[SS_COMPARED_FEATURES] = {
     { "x", "" }, { "x_rms", "" }, { "v", "" }, { "v_rms", "" },
     { "a", "" }, { "a_rms", "" }, { "f", "" }, { "f_rms", "" },
     [MAP] = { "map", "dB" }, { "map_rms", "dB" },
     [SS_COMPARED_EVENTS] = { "events", "" }, { "microslips", "" },
 };
 
-/* The feature at place i, behind the numbers in `compared`: features are compared as ratios, without the
- * count and the medians. */
-static const feature_number *
+/* The number of ss_features that is compared at place i, or SS_FEATURE_NUMBERS. */
+static ss_feature
 feature_at(size_t i)
 {
-    const feature_number *n = ss_feature_numbers + 1;
-    for (size_t before = i - FEATURES; n->is_median || before-- > 0; n++)
-        continue;
-    return n;
+    size_t k = SS_TRANSITIONS + 1;
+    for (size_t at = SS_COMPARED_FEATURES; k < SS_FEATURE_NUMBERS; k++)
+        if ((ss_feature_numbers[k].needs & OF_EVENTS) == 0 && at++ == i)
+            break;
+    return (ss_feature)k;
 }
 
 const char *
 ss_compared_name(size_t i)
 {
-    return i < FEATURES ? compared[i].name : i < SS_COMPARED ? feature_at(i)->key : NULL;
+    if (i < SS_COMPARED_FEATURES)
+        return compared[i].name;
+    const ss_label *feature = ss_feature_label(feature_at(i));
+    return feature != NULL ? feature->name : NULL;
 }
 
 const char *
 ss_compared_unit(size_t i)
 {
-    return i < FEATURES ? compared[i].unit : i < SS_COMPARED ? "" : NULL;
+    return i < SS_COMPARED_FEATURES ? compared[i].unit : "";
 }
 
 /* --- one run ------------------------------------------------------------------------------- */
@@ -205,12 +208,6 @@ difference(size_t a, size_t b)
     return a > b ? (double)(a - b) : (double)(b - a);
 }
 
-static double
-feature(const portrait *p, size_t i)
-{
-    return ((const ss_value *)(const void *)((const char *)p->features + feature_at(i)->at))->value;
-}
-
 static void
 compare(ss_models_row *row, const portrait *p, const portrait *ref, const ss_scene *scene,
         const ss_models_opts *how)
@@ -228,11 +225,11 @@ compare(ss_models_row *row, const portrait *p, const portrait *ref, const ss_sce
     int both = ss_model_has_events(scene->model) && ss_model_has_events(row->scene.model);
     error[SS_COMPARED_EVENTS] = both ? difference(p->events, ref->events) : NAN;
     error[SS_COMPARED_MICROSLIPS] = both ? difference(p->microslips, ref->microslips) : NAN;
-    for (size_t i = FEATURES; i < SS_COMPARED; i++) {
-        double was = feature(ref, i), is = feature(p, i);
+    for (size_t i = SS_COMPARED_FEATURES; ss_compared_name(i) != NULL; i++) {
+        double was = ref->features->number[feature_at(i)].value, is = p->features->number[feature_at(i)].value;
         error[i] = is == was ? 0 : fabs(is - was) / fabs(was);
     }
-    for (size_t i = 0; i < SS_COMPARED; i++)
+    for (size_t i = 0; ss_compared_name(i) != NULL; i++)
         error[i] = isfinite(error[i]) ? error[i] : NAN;     /* relative to 0, or too large */
     row->events = p->events;
     row->microslips = p->microslips;

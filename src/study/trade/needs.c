@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "study/trade/common.h"
 
 #define ALIKE 1.2                   /* times within this factor differ by chance */
 
@@ -55,7 +56,7 @@ parse_need(ss_need *need, const char *text, size_t length, ss_error *err)
 }
 
 ss_status
-ss_needs_parse(ss_need need[SS_COMPARED], size_t *n, const char *list, ss_error *err)
+ss_needs_parse(ss_need need[SS_COMPARED_MOST], size_t *n, const char *list, ss_error *err)
 {
     if (need == NULL || n == NULL || list == NULL)
         return SS_FAIL_NULL(err);

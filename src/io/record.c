@@ -1,22 +1,29 @@
-/* rows.c -- write a header of notes, and rows of words and numbers. */
+/* record.c -- see record.h. */
 #include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
 #include "base/error.h"
 #include "signal/header.h"
-#include "io/rows.h"
+#include "io/record.h"
 
 ss_status
-ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind kind)
+ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind kind, ss_error *err)
 {
     const struct format *table = ss_format_table(format);
     if (table == NULL || table->separator == '\0')
-        return SS_EINVAL;
-    *rows = (struct rows){ .out = out, .format = table };
+        return ss_fail(err, SS_EINVAL, "this format holds numbers only");
+    *rows = (struct rows){ .out = out, .format = table, .names = 1 };
     if (table->has_notes)
         fprintf(out, "%s\n", ss_kind_magic(kind));
     return SS_OK;
+}
+
+ss_status
+ss_rows_finish(struct rows *rows, ss_error *err)
+{
+    return fflush(rows->out) == 0 && !ferror(rows->out) ? SS_OK
+        : ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO));
 }
 
 void
@@ -40,32 +47,10 @@ ss_rows_notes(struct rows *rows, const ss_header *head, const char *const own[])
             ss_rows_note(rows, "%s", head->note[i]);
 }
 
-/* --- columns ------------------------------------------------------------------------------- */
-
-void
-ss_rows_column(struct rows *rows, const char *name, const char *unit)
-{
-    if (!rows->format->has_notes) {
-        ss_rows_word(rows, name);
-        return;
-    }
-    if (rows->cells++ == 0)
-        fputs("# columns:", rows->out);
-    ss_write_label(rows->out, name, unit);
-}
-
-void
-ss_rows_columns(struct rows *rows, const char *const label[][2], size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        ss_rows_column(rows, label[i][0], label[i][1]);
-    ss_rows_end(rows);
-}
-
 /* --- cells --------------------------------------------------------------------------------- */
 
-void
-ss_rows_word(struct rows *rows, const char *word)
+static void
+write_cell(struct rows *rows, const char *word)
 {
     if (rows->cells++ > 0)
         fputc(rows->format->separator, rows->out);
@@ -75,26 +60,60 @@ ss_rows_word(struct rows *rows, const char *word)
         fputs(word, rows->out);
 }
 
+/* Write the name of a cell if this is the line of names.  Returns 1 if so. */
+static int
+write_name(struct rows *rows, const char *name, const char *unit)
+{
+    if (!rows->names)
+        return 0;
+    if (!rows->format->has_notes) {
+        write_cell(rows, name);
+        return 1;
+    }
+    if (rows->cells++ == 0)
+        fputs("# columns:", rows->out);
+    ss_write_label(rows->out, name, unit);
+    return 1;
+}
+
 void
-ss_rows_count(struct rows *rows, size_t n)
+ss_rows_word(struct rows *rows, const char *name, const char *word)
+{
+    if (!write_name(rows, name, ""))
+        write_cell(rows, word);
+}
+
+void
+ss_rows_count(struct rows *rows, const char *name, size_t n)
 {
     char text[SS_NUMBER_MAX];
     snprintf(text, sizeof text, "%zu", n);
-    ss_rows_word(rows, text);
+    ss_rows_word(rows, name, text);
 }
 
 void
-ss_rows_number(struct rows *rows, double x)
+ss_rows_number(struct rows *rows, const char *name, const char *unit, double x)
 {
     char text[SS_NUMBER_MAX];
-    ss_rows_word(rows, ss_number_text(text, x));
+    if (!write_name(rows, name, unit))
+        write_cell(rows, ss_number_text(text, x));
 }
 
 void
-ss_rows_rounded(struct rows *rows, double x, int digits)
+ss_rows_rounded(struct rows *rows, const char *name, const char *unit, double x, int digits)
 {
     char text[SS_NUMBER_MAX];
-    ss_rows_word(rows, ss_number_rounded(text, x, digits));
+    if (!write_name(rows, name, unit))
+        write_cell(rows, ss_number_rounded(text, x, digits));
+}
+
+void
+ss_rows_value(struct rows *rows, const char *name, const char *unit, ss_value v)
+{
+    char error[64];
+    snprintf(error, sizeof error, "%s_error", name);
+    ss_rows_number(rows, name, unit, v.value);
+    ss_rows_number(rows, error, unit, v.error);
 }
 
 void
@@ -102,6 +121,7 @@ ss_rows_end(struct rows *rows)
 {
     fputc('\n', rows->out);
     rows->cells = 0;
+    rows->names = 0;
 }
 
 const char *

@@ -1,4 +1,4 @@
-/* sweep.c -- write the rows of a sweep as text, and find where an interrupted sweep continues. */
+/* write.c -- write the rows of a sweep as text, and find where an interrupted sweep continues. */
 #include <stickslip/sweep.h>
 
 #include <errno.h>
@@ -8,7 +8,7 @@
 #include <stickslip/signal.h>
 #include "base/error.h"
 #include "io/input.h"
-#include "io/rows.h"
+#include "io/record.h"
 #include "motion/method.h"
 
 /* 1 if this key is varied, or is not about the motion but about its record. */
@@ -68,22 +68,29 @@ write_options(struct rows *rows, const ss_steady_opts *s, const ss_scene *scene)
     ss_rows_note(rows, "method: %s", s->method != NULL ? s->method : ss_method_best_names(scene));
 }
 
-static ss_status
-write_columns(struct rows *rows, const ss_sweep_text *sweep)
+/* Write a row.  strobe is the start of its cycle; NULL: that of the first cycle. */
+static void
+write_row(struct rows *rows, const ss_sweep_text *sweep, const ss_sweep_row *row, const ss_strobe *strobe)
 {
     ss_scene scene = *sweep->scene;
-    ss_rows_column(rows, "index", "");
+    ss_rows_count(rows, "index", row->index);
     for (size_t i = 0; i < sweep->opts->n_axes; i++) {
-        const char *key = sweep->opts->axis[i].key, *unit;
-        if (ss_scene_number(&scene, key, &unit, NULL) == NULL)
-            return SS_EINVAL;
-        ss_rows_column(rows, key, unit);
+        const char *key = sweep->opts->axis[i].key, *unit = "";
+        ss_scene_number(&scene, key, &unit, NULL);
+        ss_rows_number(rows, key, unit, row->vary != NULL ? row->vary[i] : NAN);
     }
-    for (size_t i = 0; i < sweep->n_measures; i++)
-        ss_rows_column(rows, ss_measure_name(sweep->measure[i]), ss_measure_unit(sweep->measure[i]));
-    ss_rows_column(rows, "status", "");
+    for (size_t i = 0; i < sweep->n_measures; i++) {
+        ss_measure m = sweep->measure[i];
+        double value = row->steady.value[m];
+        if (strobe != NULL && (m == SS_X_PHASE || m == SS_V_PHASE))
+            value = m == SS_X_PHASE ? strobe->x : strobe->v;
+        if (m == SS_PERIOD && value == 0)
+            ss_rows_word(rows, ss_measure_label(m)->name, "aperiodic");
+        else
+            ss_rows_number(rows, ss_measure_label(m)->name, ss_measure_label(m)->unit, value);
+    }
+    ss_rows_word(rows, "status", row->reason);
     ss_rows_end(rows);
-    return SS_OK;
 }
 
 static int
@@ -95,6 +102,10 @@ is_complete(const ss_sweep_text *sweep)
         return 0;
     for (size_t i = 0; i < sweep->n_measures; i++)
         if ((unsigned)sweep->measure[i] >= SS_MEASURES)
+            return 0;
+    ss_scene scene = *sweep->scene;
+    for (size_t i = 0; i < sweep->opts->n_axes; i++)
+        if (ss_scene_number(&scene, sweep->opts->axis[i].key, NULL, NULL) == NULL)
             return 0;
     return 1;
 }
@@ -110,7 +121,7 @@ ss_sweep_header(char **out, const ss_sweep_text *sweep)
     FILE *text = open_memstream(out, &size);
     if (text == NULL)
         return SS_ENOMEM;
-    ss_status st = ss_rows_begin(&rows, text, sweep->format, SS_KIND_SWEEP);
+    ss_status st = ss_rows_begin(&rows, text, sweep->format, SS_KIND_SWEEP, NULL);
     if (st == SS_OK) {
         ss_rows_note(&rows, "scene: %s", sweep->name);
         st = write_scene(&rows, sweep);
@@ -119,7 +130,7 @@ ss_sweep_header(char **out, const ss_sweep_text *sweep)
         for (size_t i = 0; i < sweep->opts->n_axes; i++)
             write_axis(&rows, &sweep->opts->axis[i]);
         write_options(&rows, &sweep->opts->steady, sweep->scene);
-        st = write_columns(&rows, sweep);
+        write_row(&rows, sweep, &(ss_sweep_row){ .index = 0 }, NULL);           /* the names */
     }
     int whole = !ferror(text);
     if (fclose(text) != 0 || !whole)
@@ -129,27 +140,6 @@ ss_sweep_header(char **out, const ss_sweep_text *sweep)
         *out = NULL;
     }
     return st;
-}
-
-/* Write a row.  strobe is the start of its cycle; NULL: that of the first cycle. */
-static void
-write_row(struct rows *rows, const ss_sweep_text *sweep, const ss_sweep_row *row, const ss_strobe *strobe)
-{
-    ss_rows_count(rows, row->index);
-    for (size_t i = 0; i < sweep->opts->n_axes; i++)
-        ss_rows_number(rows, row->vary[i]);
-    for (size_t i = 0; i < sweep->n_measures; i++) {
-        ss_measure m = sweep->measure[i];
-        double value = row->steady.value[m];
-        if (strobe != NULL && (m == SS_X_PHASE || m == SS_V_PHASE))
-            value = m == SS_X_PHASE ? strobe->x : strobe->v;
-        if (m == SS_PERIOD && value == 0)
-            ss_rows_word(rows, "aperiodic");
-        else
-            ss_rows_number(rows, value);
-    }
-    ss_rows_word(rows, row->reason);
-    ss_rows_end(rows);
 }
 
 ss_status
@@ -241,7 +231,7 @@ wrong_cell(const ss_sweep_text *sweep, char *line, size_t index, const char **na
             return "is not the grid's";
     }
     for (size_t i = 0; i < sweep->n_measures; i++) {
-        *name = ss_measure_name(sweep->measure[i]);
+        *name = ss_measure_label(sweep->measure[i])->name;
         if ((cell = next_cell(&line, format->separator)) == NULL)
             return "is missing";
         unknowns += strcmp(cell, unknown) == 0;

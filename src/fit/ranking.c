@@ -3,8 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include "io/output.h"
-#include "io/rows.h"
+#include "io/record.h"
 
 enum { DIGITS = 4 };            /* more than a criterion deserves */
 
@@ -115,27 +114,6 @@ write_orders(FILE *out, const ss_ranking *r, const char *const *scene, size_t *o
 
 /* --- rows ---------------------------------------------------------------------------------- */
 
-static void
-write_columns(struct rows *rows, int brief)
-{
-    static const char *const label[][2] = { { "rank", "" }, { "scene", "" }, { "total", "" },
-                                            { "residual", "dB" }, { "worst", "" } };
-    char score[64];
-    if (brief) {
-        ss_rows_columns(rows, label, 5);
-        return;
-    }
-    for (int i = 0; i < 3; i++)
-        ss_rows_column(rows, label[i][0], "");
-    for (int i = 0; i < SS_CRITERIA; i++) {
-        const ss_criterion_rule *rule = &ss_criterion_rules[i];
-        ss_rows_column(rows, rule->name, rule->unit);
-        snprintf(score, sizeof score, "%s_score", rule->name);
-        ss_rows_column(rows, score, "");
-    }
-    ss_rows_end(rows);
-}
-
 /* The criterion of the largest score above 0, or a hyphen. */
 static const char *
 worst_of(const ss_rank_row *row)
@@ -157,19 +135,19 @@ write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *s
 {
     const ss_rank_row *row = &r->row[i];
     int compared = !isnan(row->total);
-    if (r->verdict == SS_NAMED && compared)
-        ss_rows_count(rows, i + 1);
-    else
-        ss_rows_number(rows, NAN);
-    ss_rows_word(rows, scene[row->scene]);
-    ss_rows_rounded(rows, compared ? row->total : NAN, DIGITS);
+    ss_rows_number(rows, "rank", "", r->verdict == SS_NAMED && compared ? (double)(i + 1) : NAN);
+    ss_rows_word(rows, "scene", scene[row->scene]);
+    ss_rows_rounded(rows, "total", "", compared ? row->total : NAN, DIGITS);
     if (brief) {
-        ss_rows_rounded(rows, compared ? row->value[SS_BY_RESIDUAL] : NAN, DIGITS);
-        ss_rows_word(rows, compared ? worst_of(row) : "-");
+        ss_rows_rounded(rows, "residual", "dB", compared ? row->value[SS_BY_RESIDUAL] : NAN, DIGITS);
+        ss_rows_word(rows, "worst", compared ? worst_of(row) : "-");
     }
     for (int k = 0; k < SS_CRITERIA && !brief; k++) {
-        ss_rows_rounded(rows, compared ? row->value[k] : NAN, DIGITS);
-        ss_rows_rounded(rows, compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN, DIGITS);
+        const ss_criterion_rule *rule = &ss_criterion_rules[k];
+        char score[64];
+        snprintf(score, sizeof score, "%s_score", rule->name);
+        ss_rows_rounded(rows, rule->name, rule->unit, compared ? row->value[k] : NAN, DIGITS);
+        ss_rows_rounded(rows, score, "", compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN, DIGITS);
     }
     ss_rows_end(rows);
 }
@@ -188,7 +166,7 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
     size_t *order = calloc(ranking->n, sizeof *order);
     if (order == NULL)
         return SS_ENOMEM;
-    ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING);
+    ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, NULL);
     if (st == SS_OK) {
         int notes = rows.format->has_notes, all = notes && !about->brief;
         if (notes)
@@ -199,10 +177,10 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
             write_unfit(out, ranking, about);
         if (all && is_compared(ranking))
             write_orders(out, ranking, about->scene, order);
-        write_columns(&rows, about->brief);
+        write_row(&rows, ranking, 0, about->scene, about->brief);       /* the names */
         for (size_t i = 0; i < ranking->n; i++)
             write_row(&rows, ranking, i, about->scene, about->brief);
-        st = ss_output_flush(out);
+        st = ss_rows_finish(&rows, NULL);
     }
     free(order);
     return st;

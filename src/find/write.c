@@ -1,0 +1,264 @@
+/* write.c -- features as text, and the table of the numbers of many recordings. */
+#include <stickslip/features.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "find/numbers.h"
+#include "find/search.h"
+#include "io/record.h"
+
+/* --- one recording --------------------------------------------------------------------------- */
+
+static void
+write_transition(struct rows *rows, const ss_transition *tr, double start, int conclusive)
+{
+    ss_rows_number(rows, "onset", "s", start + tr->onset);
+    ss_rows_number(rows, "end", "s", start + tr->end);
+    ss_rows_number(rows, "spikes", "", conclusive && !tr->gap ? (double)tr->spikes : NAN);
+    ss_rows_number(rows, "time", "s", start + tr->maximum.t);
+    ss_rows_number(rows, "frequency", "Hz", tr->maximum.f);
+    ss_rows_number(rows, "prominence", "dB", tr->maximum.prominence);
+    ss_rows_value(rows, "transition_frequency", "Hz", tr->frequency);
+    ss_rows_value(rows, "damping_ratio", "", tr->damping_ratio);
+}
+
+static void
+write_loading(struct rows *rows, const ss_loading *l)
+{
+    ss_rows_value(rows, "slope", "", l->slope);
+    ss_rows_value(rows, "stiffness", "", l->stiffness);
+    ss_rows_value(rows, "drop", "", l->drop);
+    ss_rows_value(rows, "duration", "s", l->duration);
+    ss_rows_value(rows, "recurrence", "s", l->recurrence);
+    ss_rows_value(rows, "stick", "s", l->stick);
+    ss_rows_value(rows, "static_friction", "", l->static_friction);
+    ss_rows_value(rows, "friction", "", l->friction);
+    ss_rows_value(rows, "k_over_m", "1/s^2", l->k_over_m);
+}
+
+/* In a format without notes each row ends with the numbers of the whole recording, and a recording without
+ * transitions has one row, for these. */
+static void
+write_row(struct rows *rows, const ss_features *f, size_t i, double start, unsigned has)
+{
+    const ss_transition no_transition = { NAN, NAN, 1, 0, no_maximum, unknown, unknown, NAN, NAN };
+    const ss_loading no_loading = { NAN, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
+                                    unknown, unknown, NAN, NAN, NAN };
+    write_transition(rows, i < f->n ? &f->transition[i] : &no_transition, start, f->spikes->conclusive);
+    if (f->loading != NULL)
+        write_loading(rows, i < f->n ? &f->loading[i] : &no_loading);
+    for (size_t k = SS_TRANSITIONS + 1; k < SS_FEATURE_NUMBERS && !rows->format->has_notes; k++) {
+        char name[64];
+        snprintf(name, sizeof name, "all_%s", ss_feature_numbers[k].label.name);
+        if ((ss_feature_numbers[k].needs & ~has) == 0)
+            ss_rows_value(rows, name, "", (ss_value){ f->number[k].value, f->number[k].error });
+    }
+    ss_rows_end(rows);
+}
+
+/* Write the reasons, and then each number with its error; a median also has the scatter of the events. */
+static void
+write_numbers(struct rows *rows, const ss_features *f, unsigned has)
+{
+    char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX], scatter[SS_NUMBER_MAX];
+    for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
+        if (f->number[k].why != NULL)
+            ss_rows_note(rows, "about_%s: %s", ss_feature_numbers[k].about, f->number[k].why);
+    for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++) {
+        const feature_number *of = &ss_feature_numbers[k];
+        int median = (of->needs & OF_EVENTS) != 0;
+        if ((of->needs & ~has) == 0)
+            ss_rows_note(rows, "%s: %s %s%s%s", of->label.name, ss_number_text(value, f->number[k].value),
+                         ss_number_text(error, f->number[k].error), median ? " " : "",
+                         median ? ss_number_text(scatter, f->number[k].scatter) : "");
+    }
+}
+
+/* Write the notes of a signal, except those that features write themselves, or may write: a scene's friction is
+ * not the one that was measured, and no file says of itself what was found in it. */
+static void
+write_notes(struct rows *rows, const ss_header *head)
+{
+    enum { OTHERS = 7 };
+    const char *own[OTHERS + SS_FEATURE_NUMBERS + 1]
+        = { "column", "threshold", "norm", "near_gaps", "spike", "spikes", "about_*" };
+    for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
+        own[OTHERS + k] = ss_feature_numbers[k].label.name;
+    ss_rows_notes(rows, head, own);
+}
+
+static void
+write_spikes(struct rows *rows, const ss_spikes *found, double start)
+{
+    char t[SS_NUMBER_MAX], level[SS_NUMBER_MAX], slope[SS_NUMBER_MAX];
+    for (size_t i = 0; i < found->n; i++) {
+        const ss_spike *spike = &found->spike[i];
+        ss_rows_note(rows, "spike: %s %s %s %s", ss_number_text(t, start + spike->t),
+                     ss_spike_kind_name(spike->kind), ss_number_rounded(level, spike->level, 3),
+                     ss_number_rounded(slope, spike->slope, 3));
+    }
+}
+
+ss_status
+ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
+                  const ss_features_opts *opts, FILE *out, ss_format format, ss_error *err)
+{
+    struct rows rows;
+    char threshold[SS_NUMBER_MAX];
+    if (f == NULL || signal == NULL || opts == NULL || out == NULL)
+        return SS_FAIL_NULL(err);
+    const ss_header *head = signal->head;
+    ss_status st = column < head->n_columns ? ss_rows_begin(&rows, out, format, SS_KIND_FEATURES, err)
+        : ss_fail_column(err, column, head->n_columns);
+    if (st != SS_OK)
+        return st;
+    unsigned has = ss_features_have(f, opts);
+    ss_rows_note(&rows, "spikes: %s", ss_spikes_verdict(f->spikes));
+    write_numbers(&rows, f, has);
+    write_notes(&rows, head);
+    ss_rows_note(&rows, "column: %s", head->column[column].name);
+    ss_rows_note(&rows, "threshold: %s", ss_number_text(threshold, opts->threshold));
+    ss_rows_note(&rows, "norm: %s", opts->norm == SS_NORM_L1 ? "l1" : "l2");
+    if (ss_header_find_note(head, "gaps") != NULL)
+        ss_rows_note(&rows, "near_gaps: nothing is claimed: no spike within 12 scales, no event "
+                     "within 6, no local maximum within sqrt(2), no fit over one");
+    write_row(&rows, f, f->n, head->start, has);        /* the names */
+    for (size_t i = 0; i < f->n + (f->n == 0 && !rows.format->has_notes); i++)
+        write_row(&rows, f, i, head->start, has);
+    write_spikes(&rows, f->spikes, head->start);
+    return ss_rows_finish(&rows, err);
+}
+
+/* --- many recordings ------------------------------------------------------------------------- */
+
+enum { FILE_COLUMN, UNIT_COLUMN, FIRST_NUMBER, REASON_COLUMN = FIRST_NUMBER + 2 * SS_FEATURE_NUMBERS };
+
+/* Write a word as one cell; an empty one becomes a hyphen.  A row must not begin as a note does. */
+static ss_status
+write_word(struct rows *rows, const char *name, const char *word)
+{
+    const char *before = word[0] == '#' && rows->cells == 0 ? "./" : "";
+    char *text = malloc(strlen(before) + strlen(word) + 2);
+    if (text == NULL)
+        return SS_ENOMEM;
+    sprintf(text, "%s%s", before, word[0] != '\0' ? word : "-");
+    ss_rows_word(rows, name, ss_printable(text));
+    free(text);
+    return SS_OK;
+}
+
+static ss_status
+write_summary(struct rows *rows, const char *file, const char *unit, const ss_value number[],
+              const char *reason)
+{
+    ss_status st = write_word(rows, "file", file);
+    if (st == SS_OK)
+        st = write_word(rows, "unit", unit);
+    for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++) {
+        const ss_label *of = &ss_feature_numbers[k].label;
+        ss_rows_value(rows, of->name, of->unit != NULL ? of->unit : "", number[k]);
+    }
+    if (st == SS_OK)
+        st = write_word(rows, "reason", reason);
+    ss_rows_end(rows);
+    return st;
+}
+
+/* All that is said about the numbers, as one text. */
+static char *
+all_reasons(const ss_features *f)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    const char *then = "";
+    for (size_t k = 0; out != NULL && k < SS_FEATURE_NUMBERS; k++)
+        if (f->number[k].why != NULL) {
+            fprintf(out, "%s%s: %s", then, ss_feature_numbers[k].about, f->number[k].why);
+            then = "; ";
+        }
+    if (out == NULL || fclose(out) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+ss_status
+ss_summary_write(const char *file, const ss_features *f, const ss_signal *signal, size_t column,
+                 const char *reason, FILE *out, ss_error *err)
+{
+    struct rows rows;
+    ss_value number[SS_FEATURE_NUMBERS];
+    if (file == NULL || out == NULL || (f != NULL ? signal == NULL : reason == NULL))
+        return SS_FAIL_NULL(err);
+    if (f != NULL && column >= signal->head->n_columns)
+        return ss_fail_column(err, column, signal->head->n_columns);
+    for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
+        number[k] = f != NULL ? (ss_value){ f->number[k].value, f->number[k].error } : unknown;
+    char *said = f != NULL ? all_reasons(f) : strdup(reason);
+    ss_status st = said != NULL ? ss_rows_begin(&rows, out, SS_TSV, SS_KIND_SUMMARIES, err) : SS_ENOMEM;
+    for (int i = 0; st == SS_OK && i < 2; i++)          /* the names and the row */
+        st = write_summary(&rows, file, f != NULL ? signal->head->column[column].unit : "", number, said);
+    free(said);
+    return st == SS_OK ? ss_rows_finish(&rows, err) : st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+}
+
+/* Write the mean of a number over all files that have it, and its scatter.  Forces in N and in lbf have no
+ * mean. */
+static void
+write_scatter(struct rows *rows, const ss_table *t, size_t k)
+{
+    const ss_label *of = &ss_feature_numbers[k].label;
+    size_t n = 0, n_errors = 0, column = FIRST_NUMBER + 2 * k;
+    double mean = 0, squares = 0, errors = 0;   /* sums of squares: of differences (Welford 1962), of errors */
+    const char *unit = NULL;
+    int comparable = 1;
+    char text[3][SS_NUMBER_MAX];
+    for (size_t i = 0; i < t->n; i++) {
+        double value = ss_table_number(t, i, column), error = ss_table_number(t, i, column + 1);
+        const char *own = t->cell[i * t->n_columns + UNIT_COLUMN];
+        if (isnan(value))
+            continue;
+        double off = value - mean;
+        mean += off / (double)++n;
+        squares += off * (value - mean);
+        comparable &= of->unit != NULL || unit == NULL || strcmp(unit, own) == 0;
+        unit = own;
+        if (!isnan(error)) {
+            n_errors++;
+            errors += error * error;
+        }
+    }
+    double between = comparable && n > 1 ? sqrt(squares / (double)(n - 1)) : NAN;
+    double within = comparable && n_errors > 0 ? sqrt(errors / (double)n_errors) : NAN;
+    ss_rows_note(rows, "%s: %s %s %s %zu", of->name, ss_number_text(text[0], comparable && n > 0 ? mean : NAN),
+                 ss_number_text(text[1], between), ss_number_text(text[2], within), n);
+}
+
+ss_status
+ss_summaries_write(const ss_table *t, FILE *out, ss_format format, ss_error *err)
+{
+    struct rows rows;
+    ss_value number[SS_FEATURE_NUMBERS];
+    if (t == NULL || out == NULL)
+        return SS_FAIL_NULL(err);
+    if (t->n_columns != REASON_COLUMN + 1)
+        return ss_fail(err, SS_EDATA, "%zu columns, where a summary has %d", t->n_columns, REASON_COLUMN + 1);
+    ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_SUMMARIES, err);
+    for (size_t i = 0; st == SS_OK && i <= t->n; i++) {         /* the names, and the rows */
+        char **cell = t->n > 0 ? t->cell + (i > 0 ? i - 1 : 0) * t->n_columns : NULL;
+        for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
+            number[k] = (ss_value){ ss_table_number(t, i - 1, FIRST_NUMBER + 2 * k),
+                                    ss_table_number(t, i - 1, FIRST_NUMBER + 2 * k + 1) };
+        st = write_summary(&rows, cell != NULL ? cell[FILE_COLUMN] : "", cell != NULL ? cell[UNIT_COLUMN] : "",
+                           number, cell != NULL ? cell[REASON_COLUMN] : "");
+    }
+    if (st != SS_OK)
+        return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+    ss_rows_note(&rows, "scatter: mean, standard deviation between files, rms standard error within "
+                 "a file, files");
+    for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
+        write_scatter(&rows, t, k);
+    return ss_rows_finish(&rows, err);
+}
