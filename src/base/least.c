@@ -186,7 +186,7 @@ slopes(const gsl_vector *w, void *user, gsl_matrix *out)
     const least *fit = d->fit;
     int is_first = isnan(d->squares) || d->refresh;
     d->is_old = fit->costly && !is_first && correct_slopes(d);
-    if (!d->is_old && find_slopes(d) != SS_OK)
+    if (!d->is_old && (d->status = find_slopes(d)) != SS_OK)
         return GSL_EFAILED;
     d->refresh = 0;
     d->refused = 0;
@@ -246,17 +246,18 @@ iterate(descent *d, gsl_multifit_nlinear_workspace *space, gsl_multifit_nlinear_
         end->why = NULL;
 }
 
-static void
+static ss_status
 find_covariance(const descent *d, double *covariance)
 {
     const size_t m = d->fit->unknowns;
     gsl_matrix *j = gsl_matrix_alloc(d->fit->rows, d->n), *c = gsl_matrix_alloc(d->n, d->n);
+    int is_room = j != NULL && c != NULL;
     memset(covariance, 0, m * m * sizeof *covariance);
-    if (j != NULL && c != NULL) {
+    if (is_room) {
         for (size_t i = 0; i < d->fit->rows; i++)
             for (size_t k = 0; k < d->n; k++)
                 gsl_matrix_set(j, i, k, d->slopes[i * m + d->free[k]]);
-        gsl_multifit_nlinear_covar(j, UNSEEN, c);
+        is_room = gsl_multifit_nlinear_covar(j, UNSEEN, c) == GSL_SUCCESS;
         for (size_t i = 0; i < d->n; i++)
             for (size_t k = 0; k < d->n; k++)
                 covariance[d->free[i] * m + d->free[k]] = gsl_matrix_get(c, i, k);
@@ -266,6 +267,7 @@ find_covariance(const descent *d, double *covariance)
             covariance[d->free[i] * (m + 1)] = INFINITY;
     gsl_matrix_free(j);
     gsl_matrix_free(c);
+    return is_room ? SS_OK : SS_ENOMEM;
 }
 
 ss_status
@@ -306,8 +308,8 @@ ss_least_fit(least_end *end, const least *fit, double u[], double *residual, dou
         memcpy(u, d.at, m * sizeof *u);
         if (residual != NULL)
             memcpy(residual, d.left, rows * sizeof *residual);
-        if (covariance != NULL)
-            find_covariance(&d, covariance);
+        if (covariance != NULL && find_covariance(&d, covariance) != SS_OK)
+            d.status = SS_ENOMEM;
     }
     gsl_vector_free(w);
     gsl_multifit_nlinear_free(space);

@@ -8,68 +8,32 @@
 #include "find/extent.h"
 
 #include <math.h>
+#include "find/line.h"
 
-#define AWAY 4.0                /* periods: a wavelet's reach */
-#define QUIET 4.0               /* the fewest periods of quiet for a line */
+#define AWAY 4.0                /* periods: a wavelet's reach, and the fewest periods of quiet for a line */
 #define FAINT 0.01              /* of the event's height: so little counts as noise */
 
-/* The side of an event: the sample k steps off its middle is x[k * step]. */
-typedef struct side {
-    const double *x;
-    ptrdiff_t step;
-    size_t n;
-} side;
-
-static double
-value(const side *s, size_t k)
-{
-    return s->x[(ptrdiff_t)k * s->step];
-}
-
-/* The line offset + slope k through the samples from first on; returns its standard deviation. */
-static double
-fit_line(const side *s, size_t first, double *offset, double *slope)
-{
-    double m = (double)(s->n - first), middle = (double)first + (m - 1) / 2, mean = 0, kk = 0;
-    double ky = 0, rss = 0;
-    for (size_t k = first; k < s->n; k++)
-        mean += value(s, k) / m;
-    for (size_t k = first; k < s->n; k++) {
-        double off = (double)k - middle;
-        kk += off * off;
-        ky += off * (value(s, k) - mean);
-    }
-    *slope = ky / kk;
-    *offset = mean - *slope * middle;
-    for (size_t k = first; k < s->n; k++) {
-        double left = value(s, k) - *offset - *slope * (double)k;
-        rss += left * left;
-    }
-    return sqrt(rss / (m - 2));
-}
-
-/* The steps to the last sample of the event on its side. */
+/* The last sample of the event on the side of `at` that ends with sample `end`. */
 static size_t
-reach(const side *s, double period)
+last_of(const double *x, size_t at, size_t end, double period)
 {
-    double offset, slope, height = 0;
-    size_t last = 0, away = (size_t)ceil(AWAY * period) + 1;
-    size_t quiet = (size_t)ceil(QUIET * period) + 3;
-    if (s->n < away + quiet)
-        return 0;
-    double band = fit_line(s, away, &offset, &slope) * sqrt(2 * log((double)(s->n - away)));
-    for (size_t k = 0; k < away; k++)
-        height = fmax(height, fabs(value(s, k) - offset - slope * (double)k));
-    band = fmax(band, FAINT * height);
-    for (size_t k = 0; k < s->n && (double)(k - last) <= 0.5 * period; k++)
-        if (fabs(value(s, k) - offset - slope * (double)k) > band)
+    size_t n = (end > at ? end - at : at - end) + 1, away = (size_t)ceil(AWAY * period), last = 0;
+    double height = 0;
+    if (n < 2 * away + 4)
+        return at;
+    line quiet = ss_line_through(x, NULL, end > at ? (ss_window){ at + away + 1, end + 1 }
+                                                   : (ss_window){ end, at - away });
+    for (size_t k = 0; k <= away; k++)
+        height = fmax(height, fabs(ss_line_off(&quiet, x, end > at ? at + k : at - k)));
+    double band = fmax(quiet.rms * sqrt(2 * log((double)(n - away - 1))), FAINT * height);
+    for (size_t k = 0; k < n && (double)(k - last) <= 0.5 * period; k++)
+        if (fabs(ss_line_off(&quiet, x, end > at ? at + k : at - k)) > band)
             last = k;
-    return last;
+    return end > at ? at + last : at - last;
 }
 
 ss_window
 ss_extent(const double *x, ss_window win, size_t at, double period)
 {
-    const side before = { x + at, -1, at + 1 - win.first }, behind = { x + at, 1, win.end - at };
-    return (ss_window){ at - reach(&before, period), at + reach(&behind, period) };
+    return (ss_window){ last_of(x, at, win.first, period), last_of(x, at, win.end - 1, period) };
 }

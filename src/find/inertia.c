@@ -13,10 +13,8 @@
  * relaxation has one parameter more, so that it wins where the samples cannot tell. */
 #include "find/inertia.h"
 
-#include <gsl/gsl_blas.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
+#include "base/least.h"
 
 enum { ONSET, END, TOP, BOTTOM, BEFORE, BEHIND, BEND, PARAMETERS };
 enum { MOST = 256, STEPS = 60 };        /* most samples, more are averaged; most iterations */
@@ -28,92 +26,60 @@ typedef struct fall {
     int relaxes;
 } fall;
 
-static double
-fallen(const fall *f, double v, double bend)
-{
-    if (f->relaxes)
-        return v + bend * bend / (1 + bend * bend) * v * (1 - v);
-    return 0.5 * (1 - cos((M_PI + 2 * f->lead) * v - f->lead) / cos(f->lead));
-}
-
-static int
-residuals(const gsl_vector *at, void *user, gsl_vector *out)
+static ss_status
+model(const double *p, double *residual, double *slopes, void *user)
 {
     const fall *f = user;
-    double p[PARAMETERS] = { 0 };
-    for (size_t k = 0; k < at->size; k++)
-        p[k] = gsl_vector_get(at, k);
+    (void)slopes;
     for (size_t i = 0; i < f->n; i++) {
-        double u = f->u[i], y;
+        double u = f->u[i], v = (u - p[ONSET]) / (p[END] - p[ONSET]);
         if (u <= p[ONSET])
-            y = p[TOP] + p[BEFORE] * (u - p[ONSET]);
+            residual[i] = p[TOP] + p[BEFORE] * (u - p[ONSET]) - f->y[i];
         else if (u >= p[END])
-            y = p[BOTTOM] + p[BEHIND] * (u - p[END]);
-        else
-            y = p[TOP] - (p[TOP] - p[BOTTOM]) * fallen(f, (u - p[ONSET]) / (p[END] - p[ONSET]), p[BEND]);
-        gsl_vector_set(out, i, y - f->y[i]);
+            residual[i] = p[BOTTOM] + p[BEHIND] * (u - p[END]) - f->y[i];
+        else {
+            double fallen = f->relaxes ? v + p[BEND] * v * (1 - v)
+                : 0.5 * (1 - cos((M_PI + 2 * f->lead) * v - f->lead) / cos(f->lead));
+            residual[i] = p[TOP] - (p[TOP] - p[BOTTOM]) * fallen - f->y[i];
+        }
     }
-    return GSL_SUCCESS;
-}
-
-/* Fit either shape.  *left becomes the least sum of squares; NaN: there is no fit. */
-static ss_status
-fit(fall *f, double loading, double *left)
-{
-    double corner = f->relaxes ? 0.15 : 0;      /* the corners of a relaxation lie inside the slip's */
-    double first[PARAMETERS] = { corner, 1 - corner, 0, -1, loading, loading, 0.5 };
-    size_t parameters = f->relaxes ? PARAMETERS : BEND;
-    gsl_vector_view at = gsl_vector_view_array(first, parameters);
-    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    gsl_multifit_nlinear_fdf least = { .f = residuals, .n = f->n, .p = parameters, .params = f };
-    gsl_multifit_nlinear_workspace *space =
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, least.n, parameters);
-    *left = NAN;
-    if (space == NULL)
-        return SS_ENOMEM;
-    int info, ended = gsl_multifit_nlinear_init(&at.vector, &least, space);
-    if (ended == GSL_SUCCESS)
-        ended = gsl_multifit_nlinear_driver(STEPS, 1e-6, 0, 0, NULL, NULL, &info, space);
-    if (ended == GSL_SUCCESS || ended == GSL_ENOPROG || ended == GSL_EMAXITER) {
-        const gsl_vector *r = gsl_multifit_nlinear_residual(space);
-        gsl_blas_ddot(r, r, left);
-    }
-    gsl_multifit_nlinear_free(space);
-    return SS_OK;
-}
-
-/* Fill in the samples from half a slip before it to half a slip behind it. */
-static void
-fill(fall *f, const double *x, ss_window room, const ss_slip *slip)
-{
-    double onset = slip->onset.value, length = slip->end.value - onset;
-    size_t first = (size_t)fmax((double)room.first, onset - length / 2);
-    size_t end = (size_t)fmin((double)room.end, onset + 1.5 * length + 1), each = (end - first) / MOST + 1;
-    f->n = (end - first) / each;
-    for (size_t i = 0; i < f->n; i++) {
-        double mean = 0;
-        for (size_t k = first + i * each; k < first + (i + 1) * each; k++)
-            mean += x[k] / (double)each;
-        f->u[i] = ((double)(first + i * each) + 0.5 * (double)(each - 1) - onset) / length;
-        f->y[i] = (mean - slip->top.value) / slip->drop.value;
-    }
+    return p[END] > p[ONSET] ? SS_OK : SS_EDATA;
 }
 
 ss_status
 ss_inertia_sign(int *sign, const double *x, ss_window room, const ss_slip *slip, double loading)
 {
-    fall f;
-    double left[2], half = slip->top.value - slip->middle.value, w = sqrt(slip->k_over_m.value);
-    double slope = loading * (slip->end.value - slip->onset.value) / slip->drop.value;
+    const ss_range free = { -INFINITY, INFINITY };
+    const ss_range range[PARAMETERS] = { free, free, free, free, free, free, { 0, 1 } };
+    const double step[PARAMETERS] = { 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7 };
+    double onset = slip->onset.value, length = slip->end.value - onset, drop = slip->drop.value;
+    double slope = loading * length / drop, left[2];
+    fall f = { .lead = atan(loading / ((slip->top.value - slip->middle.value) * sqrt(slip->k_over_m.value))) };
+    /* from half a slip before it to half a slip behind it */
+    size_t first = (size_t)fmax((double)room.first, onset - length / 2);
+    size_t end = (size_t)fmin((double)room.end, onset + 1.5 * length + 1), each = (end - first) / MOST + 1;
+    f.n = (end - first) / each;
+    for (size_t i = 0; i < f.n; i++) {
+        double mean = 0;
+        for (size_t k = first + i * each; k < first + (i + 1) * each; k++)
+            mean += x[k] / (double)each;
+        f.u[i] = ((double)(first + i * each) + 0.5 * (double)(each - 1) - onset) / length;
+        f.y[i] = (mean - slip->top.value) / drop;
+    }
     *sign = 0;
-    fill(&f, x, room, slip);
-    f.lead = atan(loading / (half * w));
     if (f.n <= PARAMETERS)
         return SS_OK;
     for (f.relaxes = 0; f.relaxes < 2; f.relaxes++) {
-        ss_status st = fit(&f, slope, &left[f.relaxes]);
+        double corner = f.relaxes ? 0.15 : 0;   /* the corners of a relaxation lie inside the slip's */
+        double p[PARAMETERS] = { corner, 1 - corner, 0, -1, slope, slope, 0.2 };
+        least_end ended;
+        ss_status st = ss_least_fit(&ended, &(least){ .rows = f.n, .unknowns = f.relaxes ? PARAMETERS : BEND,
+                                                      .model = model, .user = &f, .range = range,
+                                                      .difference = step, .steps = STEPS, .tol = 1e-6 },
+                                    p, NULL, NULL);
         if (st != SS_OK)
             return st;
+        left[f.relaxes] = ended.squares;
     }
     *sign = (left[0] < left[1]) - (left[0] > left[1]);
     return SS_OK;

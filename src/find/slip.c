@@ -14,25 +14,25 @@
  * The residual of a measured slip is not white, so errors count fewer samples (colour.c). */
 #include "find/slip.h"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include "base/least.h"
 #include "find/colour.h"
 
-enum { ONSET, TOP, MIDDLE, SPEED, FITTED };     /* SPEED: of the phase, w */
+enum { ONSET, TOP, MIDDLE, SPEED, FITTED };     /* onset behind the first sample used; SPEED: of the phase, w */
 enum { FEWEST = 8, STEPS = 60 };                /* fewest samples in the fall; most iterations */
 #define EXPLAINED 0.98          /* part of the sum of squares about the mean: a fit that explains less is
                                    another shape */
 #define VAGUE (1 / 3.)          /* largest relative error of the drop and of k/m */
 #define DEEP 0.8                /* part of D: 10 and 90 % of the fall lie at f_k +- so much */
 
-typedef struct problem {
-    const double *x;
-    ss_window used;
-    double loading, unit[FITTED];       /* the unit of each parameter, for steps of like size */
-} problem;
+typedef struct fall {
+    const double *x;            /* n samples */
+    size_t n;
+    double loading;
+} fall;
 
 static double
 length_of(const double p[FITTED], double loading)
@@ -41,62 +41,38 @@ length_of(const double p[FITTED], double loading)
     return 2 * (M_PI - atan(q)) / w;
 }
 
-/* Find the force at sample i, and its derivatives by the parameters. */
-static double
-force_at(const double p[FITTED], double loading, double i, double d[FITTED])
+/* The force of the model less the samples, and its slopes by the parameters. */
+static ss_status
+model(const double *p, double *residual, double *slopes, void *user)
 {
-    double w = p[SPEED], D = p[TOP] - p[MIDDLE], q = D * w / loading, length = length_of(p, loading);
-    double u = i - p[ONSET];
-    if (u < 0) {
-        memcpy(d, (double[FITTED]){ -loading, 1, 0, 0 }, FITTED * sizeof *d);
-        return p[TOP] + loading * u;
+    const fall *f = user;
+    double w = p[SPEED], D = p[TOP] - p[MIDDLE], a = f->loading, r = a / w, q = D / r;
+    double length = length_of(p, a), by_D = -2 / (1 + q * q) / a, by_w = (by_D * D - length) / w;
+    if (!(w > 0))
+        return SS_EDATA;
+    for (size_t i = 0; i < f->n; i++) {
+        double u = (double)i - p[ONSET], c = cos(w * u), s = sin(w * u), force;
+        double d[FITTED] = { -a, 1, 0, 0 };
+        if (u < 0) {
+            force = p[TOP] + a * u;
+        } else if (u < length) {
+            force = p[MIDDLE] + D * c + r * s;
+            d[ONSET] = D * w * s - a * c;
+            d[TOP] = c;
+            d[MIDDLE] = 1 - c;
+            d[SPEED] = -D * u * s - r * s / w + r * u * c;
+        } else {
+            force = p[MIDDLE] - D + a * (u - length);
+            d[TOP] = -1 - a * by_D;
+            d[MIDDLE] = 2 + a * by_D;
+            d[SPEED] = -a * by_w;
+        }
+        if (residual != NULL)
+            residual[i] = force - f->x[i];
+        if (slopes != NULL)
+            memcpy(slopes + i * FITTED, d, sizeof d);
     }
-    if (u < length) {
-        double c = cos(w * u), s = sin(w * u), r = loading / w;
-        d[ONSET] = D * w * s - loading * c;
-        d[TOP] = c;
-        d[MIDDLE] = 1 - c;
-        d[SPEED] = -D * u * s - r * s / w + r * u * c;
-        return p[MIDDLE] + D * c + r * s;
-    }
-    double by_D = -2 / (1 + q * q) / loading, by_w = -length / w - 2 / (1 + q * q) * D / (loading * w);
-    d[ONSET] = -loading;
-    d[TOP] = -1 - loading * by_D;
-    d[MIDDLE] = 2 + loading * by_D;
-    d[SPEED] = -loading * by_w;
-    return p[MIDDLE] - D + loading * (u - length);
-}
-
-static void
-parameters_of(const problem *f, const gsl_vector *at, double p[FITTED])
-{
-    for (size_t k = 0; k < FITTED; k++)
-        p[k] = gsl_vector_get(at, k) * f->unit[k];
-}
-
-static int
-residuals(const gsl_vector *at, void *user, gsl_vector *out)
-{
-    const problem *f = user;
-    double p[FITTED], d[FITTED];
-    parameters_of(f, at, p);
-    for (size_t i = f->used.first; i < f->used.end; i++)
-        gsl_vector_set(out, i - f->used.first, force_at(p, f->loading, (double)i, d) - f->x[i]);
-    return GSL_SUCCESS;
-}
-
-static int
-jacobian(const gsl_vector *at, void *user, gsl_matrix *out)
-{
-    const problem *f = user;
-    double p[FITTED], d[FITTED];
-    parameters_of(f, at, p);
-    for (size_t i = f->used.first; i < f->used.end; i++) {
-        force_at(p, f->loading, (double)i, d);
-        for (size_t k = 0; k < FITTED; k++)
-            gsl_matrix_set(out, i - f->used.first, k, d[k] * f->unit[k]);
-    }
-    return GSL_SUCCESS;
+    return SS_OK;
 }
 
 /* The first sample, forwards or backwards from where x passes the middle of the fall, that is past a level
@@ -110,146 +86,112 @@ walk(const double *x, size_t i, size_t end, double level)
     return i;
 }
 
-/* Find the parameters to start from, by the times at which x passes 10, 50 and 90 % of the fall, and the
- * samples to use, up to about half a slip on either side. */
-static int
-start(problem *f, double p[FITTED], ss_window room, size_t high, size_t low)
+/* Find the parameters to start from, by the times at which x passes 10, 50 and 90 % of the fall.  Returns
+ * the samples to use, up to about half a slip on either side; empty: it is no fall. */
+static ss_window
+start(double p[FITTED], const double *x, ss_window room, size_t high, size_t low)
 {
-    const double *x = f->x;
     double middle = 0.5 * (x[high] + x[low]), half = 0.5 * (x[high] - x[low]);
     size_t at = walk(x, high, low, middle);
     double from = (double)walk(x, at, high, middle + DEEP * half);
-    double to = (double)walk(x, at, low, middle - DEEP * half);
+    double to = (double)walk(x, at, low, middle - DEEP * half), centre = 0.5 * (from + to);
     if (!(half > 0 && to > from))
-        return 0;
-    p[SPEED] = (acos(-DEEP) - acos(DEEP)) / (to - from);
-    p[ONSET] = 0.5 * (from + to) - M_PI / 2 / p[SPEED];
-    p[TOP] = middle + half;
-    p[MIDDLE] = middle;
-    memcpy(f->unit, (double[FITTED]){ 1 / p[SPEED], half, half, p[SPEED] }, sizeof f->unit);
-    double reach = 1.5 * M_PI / p[SPEED], first = 0.5 * (from + to) - reach;
-    f->used.first = first > (double)room.first ? (size_t)first : room.first;
-    f->used.end = (size_t)fmin((double)room.end, 0.5 * (from + to) + reach + 1);
-    return f->used.end >= f->used.first + FEWEST;
+        return (ss_window){ 0, 0 };
+    double w = (acos(-DEEP) - acos(DEEP)) / (to - from), reach = 1.5 * M_PI / w;
+    ss_window used = { (size_t)fmax((double)room.first, centre - reach),
+                       (size_t)fmin((double)room.end, centre + reach + 1) };
+    memcpy(p, (double[FITTED]){ centre - M_PI / 2 / w - (double)used.first, middle + half, middle, w },
+           FITTED * sizeof *p);
+    return used;
 }
 
-/* Is the residual small enough? */
-static int
-explains(const problem *f, const gsl_vector *left, ss_slip *out)
-{
-    size_t n = ss_window_length(f->used);
-    double squares = 0;
-    out->power = gsl_stats_tss(f->x + f->used.first, 1, n);
-    for (size_t i = 0; i < n; i++)
-        squares += gsl_vector_get(left, i) * gsl_vector_get(left, i);
-    out->variance = squares / (double)(n - FITTED) * ss_colour(left->data, NULL, n, 0);
-    out->left = squares;
-    out->n = (double)n;
-    return squares <= (1 - EXPLAINED) * out->power;
-}
+/* --- the numbers ----------------------------------------------------------------------------- */
 
-enum { OF_SLIP = 7 };
+enum { NUMBERS = 7 };
 
-/* Write the numbers of a slip, in their order. */
 static void
-describe(const double p[FITTED], double loading, double number[OF_SLIP])
+numbers_of(const double p[FITTED], double loading, double number[NUMBERS])
 {
     double D = p[TOP] - p[MIDDLE], w = p[SPEED], length = length_of(p, loading);
     double peak = hypot(D, loading / w);        /* amplitude of the oscillation, whose phase is 0 there */
     double duration = (acos(-DEEP * D / peak) - acos(DEEP * D / peak)) / w;
-    memcpy(number, (double[OF_SLIP]){ p[ONSET], p[ONSET] + length, 2 * D, duration, p[TOP], p[MIDDLE],
-                                      w * w }, OF_SLIP * sizeof *number);
+    memcpy(number, (double[NUMBERS]){ p[ONSET], p[ONSET] + length, 2 * D, duration, p[TOP], p[MIDDLE],
+                                      w * w }, NUMBERS * sizeof *number);
 }
 
-/* Find the errors of these numbers from the covariance of the parameters. */
+/* Fill in the numbers, and their errors by the covariance of the parameters for samples of variance 1. */
 static void
-fill(ss_slip *s, const problem *f, const double p[FITTED], const gsl_matrix *covariance)
+fill(ss_slip *s, const fall *f, const double p[FITTED], const double *covariance)
 {
-    const double step = 1e-4;                   /* of a unit */
-    double value[OF_SLIP], slope[FITTED][OF_SLIP], below[OF_SLIP], moved[FITTED];
-    ss_value v[OF_SLIP];
-    describe(p, f->loading, value);
-    memcpy(moved, p, sizeof moved);
+    const double D = p[TOP] - p[MIDDLE], step[FITTED] = { 1e-4 / p[SPEED], 1e-4 * D, 1e-4 * D, 1e-4 * p[SPEED] };
+    ss_value *const to[NUMBERS] = { &s->onset, &s->end, &s->drop, &s->duration, &s->top, &s->middle,
+                                    &s->k_over_m };
+    double value[NUMBERS], above[FITTED][NUMBERS], below[FITTED][NUMBERS], moved[FITTED];
+    numbers_of(p, f->loading, value);
     for (size_t k = 0; k < FITTED; k++) {
-        moved[k] = p[k] + step * f->unit[k];
-        describe(moved, f->loading, slope[k]);
-        moved[k] = p[k] - step * f->unit[k];
-        describe(moved, f->loading, below);
-        moved[k] = p[k];
-        for (size_t i = 0; i < OF_SLIP; i++)
-            slope[k][i] = (slope[k][i] - below[i]) / (2 * step);
+        memcpy(moved, p, sizeof moved);
+        moved[k] = p[k] + step[k];
+        numbers_of(moved, f->loading, above[k]);
+        moved[k] = p[k] - step[k];
+        numbers_of(moved, f->loading, below[k]);
     }
-    for (size_t i = 0; i < OF_SLIP; i++) {
+    for (size_t i = 0; i < NUMBERS; i++) {
         double variance = 0;
         for (size_t k = 0; k < FITTED; k++)
             for (size_t l = 0; l < FITTED; l++)
-                variance += slope[k][i] * slope[l][i] * gsl_matrix_get(covariance, k, l);
-        v[i] = (ss_value){ value[i], sqrt(s->variance * fmax(variance, 0)) };
+                variance += covariance[k * FITTED + l] * (above[k][i] - below[k][i]) / (2 * step[k])
+                    * (above[l][i] - below[l][i]) / (2 * step[l]);
+        *to[i] = (ss_value){ value[i], sqrt(s->variance * fmax(variance, 0)) };
     }
-    s->onset = v[0], s->end = v[1], s->drop = v[2], s->duration = v[3];
-    s->top = v[4], s->middle = v[5], s->k_over_m = v[6];
 }
 
 /* left: model less sample. */
 static void
-fill_residual(ss_slip *s, const problem *f, const gsl_vector *left)
+fill_residual(ss_slip *s, const double *left, size_t n)
 {
     double length = s->end.value - s->onset.value, samples[SLIP_PARTS] = { 0 };
-    for (size_t i = 0; i < left->size; i++) {
-        double at = (double)(f->used.first + i) - s->onset.value, part = SLIP_PARTS * (at / length + 1) / 3;
+    for (size_t i = 0; i < n; i++) {
+        double part = SLIP_PARTS * (((double)i - s->onset.value) / length + 1) / 3;
         if (!(part >= 0 && part < SLIP_PARTS))
             continue;
-        s->residual[(size_t)part] -= gsl_vector_get(left, i);
+        s->residual[(size_t)part] -= left[i];
         samples[(size_t)part]++;
     }
     for (size_t k = 0; k < SLIP_PARTS; k++)
         s->residual[k] /= samples[k] * s->drop.value;
 }
 
-static int
-is_sound(const ss_slip *s, ss_window used)
-{
-    return s->onset.value >= (double)used.first && s->end.value > s->onset.value
-        && s->end.value <= (double)used.end
-        && s->drop.error <= VAGUE * s->drop.value && s->k_over_m.error <= VAGUE * s->k_over_m.value;
-}
-
 ss_status
-ss_slip_fit(ss_slip *out, int *is_found, const double *x, ss_window room, size_t high, size_t low,
-            double loading)
+ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t low, double loading)
 {
-    problem f = { .x = x, .loading = loading };
-    double p[FITTED], first[FITTED];
     const ss_value none = { NAN, NAN };
+    double p[FITTED], covariance[FITTED * FITTED];
     *out = (ss_slip){ none, none, none, none, none, none, none, NAN, NAN, 0, NAN, { 0 } };
-    ss_slip found = *out;
-    *is_found = 0;
-    if (!(loading > 0) || low < high + FEWEST || !start(&f, p, room, high, low))
+    if (!(loading > 0) || low < high + FEWEST)
         return SS_OK;
-    for (size_t k = 0; k < FITTED; k++)
-        first[k] = p[k] / f.unit[k];
-    gsl_vector_view at = gsl_vector_view_array(first, FITTED);
-    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    gsl_multifit_nlinear_fdf least = { .f = residuals, .df = jacobian, .n = ss_window_length(f.used),
-                                       .p = FITTED, .params = &f };
-    gsl_multifit_nlinear_workspace *space =
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, least.n, FITTED);
-    gsl_matrix *covariance = gsl_matrix_alloc(FITTED, FITTED);
-    int info, ended = space != NULL && covariance != NULL ? GSL_SUCCESS : GSL_ENOMEM;
-    if (ended == GSL_SUCCESS)
-        ended = gsl_multifit_nlinear_init(&at.vector, &least, space);
-    if (ended == GSL_SUCCESS)
-        ended = gsl_multifit_nlinear_driver(STEPS, 1e-8, 0, 0, NULL, NULL, &info, space);
-    if ((ended == GSL_SUCCESS || ended == GSL_ENOPROG)
-        && explains(&f, gsl_multifit_nlinear_residual(space), &found)
-        && gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(space), 0, covariance) == GSL_SUCCESS) {
-        parameters_of(&f, gsl_multifit_nlinear_position(space), p);
-        fill(&found, &f, p, covariance);
-        fill_residual(&found, &f, gsl_multifit_nlinear_residual(space));
-        *is_found = is_sound(&found, f.used);
-        *out = *is_found ? found : *out;
+    ss_window used = start(p, x, room, high, low);
+    fall f = { x + used.first, ss_window_length(used), loading };
+    if (f.n < FEWEST)
+        return SS_OK;
+    double *left = malloc(f.n * sizeof *left);
+    if (left == NULL)
+        return SS_ENOMEM;
+    least_end end;
+    ss_slip s = { .power = gsl_stats_tss(f.x, 1, f.n), .n = (double)f.n };
+    ss_status st = ss_least_fit(&end, &(least){ .rows = f.n, .unknowns = FITTED, .model = model, .user = &f,
+                                                .steps = STEPS, .tol = 1e-8 }, p, left, covariance);
+    if (st == SS_OK && end.converged && end.squares <= (1 - EXPLAINED) * s.power) {
+        s.left = end.squares;
+        s.variance = end.squares / (double)(f.n - FITTED) * ss_colour(left, NULL, f.n, 0);
+        fill(&s, &f, p, covariance);
+        fill_residual(&s, left, f.n);
+        if (s.onset.value >= 0 && s.end.value > s.onset.value && s.end.value <= (double)f.n
+            && s.drop.error <= VAGUE * s.drop.value && s.k_over_m.error <= VAGUE * s.k_over_m.value) {
+            s.onset.value += (double)used.first;
+            s.end.value += (double)used.first;
+            *out = s;
+        }
     }
-    gsl_multifit_nlinear_free(space);
-    gsl_matrix_free(covariance);
-    return ended == GSL_ENOMEM ? SS_ENOMEM : SS_OK;
+    free(left);
+    return st;
 }

@@ -21,9 +21,7 @@ typedef struct ss_slip {
 } ss_slip;
 
 /* Fit a slip to the fall of x from sample high to sample low, between loadings by so much per sample > 0.
- * Only samples in room are used.  *is_found becomes 1 if the slip explains the fall; else all of *out is
- * NaN. */
-ss_status ss_slip_fit(ss_slip *out, int *is_found, const double *x, ss_window room, size_t high,
-                      size_t low, double loading);
+ * Only samples in room are used.  If the slip does not explain the fall, all of *out is NaN and n is 0. */
+ss_status ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t low, double loading);
 
 #endif
