@@ -11,8 +11,8 @@ typedef enum ss_hum {
 } ss_hum;
 
 /* Subtract from the n samples of x the steady lines between half and one and a half times the frequency f
- * [per sample] that do not repeat with the period [samples].  None is sought in fewer than six periods, or
- * if six periods contain more than 16384 oscillations.  None is subtracted from a part in which one is hidden. */
+ * [per sample] that do not repeat with the period [samples].  None is sought in fewer than six periods.
+ * None is subtracted from a part in which one is hidden. */
 ss_status ss_hum_subtract(double *x, size_t n, double f, double period, ss_hum *found);
 
 #endif
