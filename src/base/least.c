@@ -6,9 +6,8 @@
  * An unknown v with a range is a sine of one without: v = from + (to - from) (1 + sin w) / 2.  A model that
  * does not exist at a trial step is an infinite residual there, so that the step is refused.
  *
- * Slopes by differences cost one run of the model for each unknown, a step only one run.  So old slopes are
- * corrected by what a step has shown of them (Broyden 1965) and kept, as long as steps by them gain half of
- * what they predict.  A fit ends by fresh slopes only. */
+ * Slopes by differences cost one run of the model for each unknown, a step only one run.  So slopes are kept
+ * as long as steps by them gain half of what they predict.  A fit ends by fresh slopes only. */
 #include "base/least.h"
 
 #include <gsl/gsl_blas.h>
@@ -81,13 +80,6 @@ squares_of(const double *x, size_t n)
     return norm * norm;
 }
 
-static ss_status
-run_model(descent *d, const double *u, double *residual, double *slopes)
-{
-    d->status = d->fit->model(u, residual, slopes, d->fit->user);
-    return d->status;
-}
-
 /* Called by GSL for the residuals at a trial step. */
 static int
 residuals(const gsl_vector *w, void *user, gsl_vector *out)
@@ -99,10 +91,14 @@ residuals(const gsl_vector *w, void *user, gsl_vector *out)
     int is_known = !isnan(d->squares) && memcmp(d->u, d->at, d->fit->unknowns * sizeof *d->u) == 0;
     if (is_known)
         memcpy(d->residual, d->left, rows * sizeof *d->left);
-    else if (run_model(d, d->u, d->residual, NULL) == SS_EDATA && !isnan(d->squares)) {
+    else
+        d->status = d->fit->model(d->u, d->residual, NULL, d->fit->user);
+    if (d->status == SS_EDATA && !isnan(d->squares)) {
         memset(d->residual, 0, rows * sizeof *d->residual);
         d->residual[0] = INFINITY;
-    } else if (d->status != SS_OK)
+        d->status = SS_OK;
+    }
+    if (d->status != SS_OK)
         return GSL_EFAILED;
     memcpy(out->data, d->residual, rows * sizeof *d->residual);
     if (is_known || isnan(d->squares) || squares_of(d->residual, rows) < d->squares)
@@ -118,11 +114,11 @@ differentiate(descent *d, size_t k, double *changed)
     const double u = d->u[k];
     double h = fit->difference[k];
     d->u[k] = u + h;
-    ss_status st = run_model(d, d->u, changed, NULL);
+    ss_status st = fit->model(d->u, changed, NULL, fit->user);
     if (st == SS_EDATA) {
         h = -h;
         d->u[k] = u + h;
-        st = run_model(d, d->u, changed, NULL);
+        st = fit->model(d->u, changed, NULL, fit->user);
     }
     d->u[k] = u;
     for (size_t i = 0; st == SS_OK && i < fit->rows; i++)
@@ -134,8 +130,9 @@ static ss_status
 find_slopes(descent *d)
 {
     const least *fit = d->fit;
+    memset(d->slopes, 0, fit->rows * fit->unknowns * sizeof *d->slopes);
     if (fit->difference == NULL)
-        return run_model(d, d->u, NULL, d->slopes);
+        return fit->model(d->u, d->residual, d->slopes, fit->user);
     double *changed = malloc(fit->rows * sizeof *changed);
     ss_status st = changed != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && i < d->n; i++)
@@ -144,38 +141,19 @@ find_slopes(descent *d)
     return st;
 }
 
-/* Correct the slopes by what the last step has shown along itself; 0: it gained less than half of what they
- * predicted.  Unknowns are measured by the sizes of their slopes. */
+/* Has the last step gained more than half of what the slopes predicted? */
 static int
-correct_slopes(descent *d)
+are_slopes_good(const descent *d)
 {
     const size_t rows = d->fit->rows, m = d->fit->unknowns;
-    double predicted = 0, length = 0;
-    double *step = calloc(m, sizeof *step), *weight = calloc(m, sizeof *weight);
-    double *error = malloc(rows * sizeof *error);
-    int is_good = step != NULL && weight != NULL && error != NULL;
-    for (size_t i = 0; is_good && i < rows; i++) {
+    double predicted = 0;
+    for (size_t i = 0; i < rows; i++) {
         double by = d->left[i];
-        for (size_t j = 0; j < d->n; j++) {
-            size_t k = d->free[j];
-            double s = d->slopes[i * m + k];
-            step[k] = d->u[k] - d->at[k];
-            weight[k] += s * s;
-            by += s * step[k];
-        }
+        for (size_t j = 0; j < d->n; j++)
+            by += d->slopes[i * m + d->free[j]] * (d->u[d->free[j]] - d->at[d->free[j]]);
         predicted += by * by;
-        error[i] = d->residual[i] - by;
     }
-    is_good = is_good && d->squares - squares_of(d->residual, rows) > 0.5 * (d->squares - predicted);
-    for (size_t k = 0; is_good && k < m; k++)
-        length += weight[k] * step[k] * step[k];
-    for (size_t i = 0; is_good && i < rows && length > 0; i++)
-        for (size_t k = 0; k < m; k++)
-            d->slopes[i * m + k] += error[i] * weight[k] * step[k] / length;
-    free(error);
-    free(weight);
-    free(step);
-    return is_good;
+    return d->squares - squares_of(d->residual, rows) > 0.5 * (d->squares - predicted);
 }
 
 /* Called by GSL at the start, and after a step that is taken: its residuals are those evaluated last. */
@@ -185,8 +163,10 @@ slopes(const gsl_vector *w, void *user, gsl_matrix *out)
     descent *d = user;
     const least *fit = d->fit;
     int is_first = isnan(d->squares) || d->refresh;
-    d->is_old = fit->costly && !is_first && correct_slopes(d);
-    if (!d->is_old && (d->status = find_slopes(d)) != SS_OK)
+    d->is_old = fit->costly && !is_first && are_slopes_good(d);
+    if (!d->is_old)
+        d->status = find_slopes(d);
+    if (d->status != SS_OK)
         return GSL_EFAILED;
     d->refresh = 0;
     d->refused = 0;

@@ -5,9 +5,10 @@
 #include <stddef.h>
 #include <stickslip/status.h>
 
-/* What a model makes of its unknowns u.  Residuals are in one unit, or in their standard errors:
- * residual[row], and their slopes[row * unknowns + k] by unknown k.  Either may be NULL, which is then not
- * wanted.  SS_EDATA: u has no model, and a shorter step is tried; any other failure ends the fit. */
+/* What a model makes of its unknowns u.  If slopes is NULL, write the residuals, in one unit or in their
+ * standard errors.  Else these are there already, and slopes, which is 0 everywhere, takes their slopes:
+ * slopes[row * unknowns + k] by unknown k.  SS_EDATA: u has no model, and a shorter step is tried; any other
+ * failure ends the fit. */
 typedef ss_status least_model(const double *u, double *residual, double *slopes, void *user);
 
 typedef struct least {

@@ -1,32 +1,43 @@
 /* falls.c -- the falls of a spring's force in a record, as scenes are fitted to them. */
-#include "fit/falls.h"
+#include "fit/pulled.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include "find/drops.h"
-#include "fit/record.h"
+#include "scene/model.h"
 
 enum { WINDOW = 512 };          /* the most samples of a fall */
+enum { FEWEST_SAMPLES = 13 };   /* of a fall: four for each of its own unknowns */
 #define BEFORE 0.5              /* its samples begin so many of its lengths before it, and end behind it */
 #define BEHIND 1.0
+
+void
+ss_falls_doubt(char *why, size_t room, const ss_features *f, const ss_signal *signal, size_t column,
+               const ss_scene *scene)
+{
+    double sum = 0;
+    for (size_t i = 0; i < signal->n; i++)
+        sum += signal->values[column * signal->n + i];
+    if (f->loading == NULL || f->n == 0)
+        snprintf(why, room, "%s", f->why_slips != NULL ? f->why_slips
+                 : "no falls of a force are found: is it one by name or unit, and of one sign?");
+    else if (sum * pull_of(scene) < 0)
+        snprintf(why, room, "the force has the opposite sign of %s",
+                 scene->base_velocity != 0 ? "base_velocity" : "a belt's");
+}
+
+void
+ss_falls_count(char *why, size_t room, size_t slips, const ss_features *f)
+{
+    if (slips < FALLS_FEWEST || isnan(f->slope.error))
+        snprintf(why, room, "%zu slips are too few for a median and its scatter", slips);
+}
 
 static int
 is_slip(const ss_features *f, size_t i)
 {
     return isfinite(f->loading[i].friction.value);
-}
-
-/* Slips of a Coulomb slider are surely falls: if three quarters are such slips, the others are left out. */
-static size_t
-find_usable(const ss_features *f, size_t *usable)
-{
-    size_t slips = 0, n = 0;
-    for (size_t i = 0; i < f->n; i++)
-        slips += (size_t)is_slip(f, i);
-    for (size_t i = 0; i < f->n; i++)
-        if (!f->transition[i].gap && (4 * slips < 3 * f->n || is_slip(f, i)))
-            usable[n++] = i;
-    return n;
 }
 
 /* Set the samples about a fall, which end at the middle of the sticks beside it.  0: they are too few. */
@@ -48,9 +59,10 @@ set_fall(fall *w, const falls *r, const ss_features *f, size_t i, size_t n)
         w->top = fabs(f->loading[i].static_friction.value);
         w->middle = fabs(f->loading[i].friction.value);
     }
-    return t[i].end * r->rate < to && w->n > 4 * FALL_UNKNOWNS && w->top > w->middle;
+    return t[i].end * r->rate < to && w->n >= FEWEST_SAMPLES && w->top > w->middle;
 }
 
+/* The mean square of the samples about the mean of their fall. */
 static double
 power_of(const falls *r)
 {
@@ -69,43 +81,67 @@ power_of(const falls *r)
     return n > 0 ? sum / n : NAN;
 }
 
-/* Choose at most FALLS_MOST of the usable falls, evenly over the record. */
-static void
-choose(falls *out, const ss_features *f, size_t *usable, size_t n)
+/* Copy the force to out->y without its glitches, in the direction of the pull, and find its noise. */
+static ss_status
+copy_force(falls *out, const ss_features *f, const double *x, size_t n, double direction)
 {
-    size_t n_usable = find_usable(f, usable), most = n_usable < FALLS_MOST ? n_usable : FALLS_MOST;
+    double *along = malloc((n + 1) * sizeof *along);
+    ss_drop *drop = calloc(f->n + 1, sizeof *drop);
+    out->y = malloc((n + 1) * sizeof *out->y);
+    ss_status st = along != NULL && drop != NULL && out->y != NULL ? SS_OK : SS_ENOMEM;
+    rank_record r = { .x = along, .n = n };
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        along[i] = direction * x[i];
+    for (size_t i = 0; st == SS_OK && i < f->n; i++)
+        drop[i].height = along[(size_t)(f->transition[i].onset * out->rate)]
+                         - along[(size_t)fmin(f->transition[i].end * out->rate, (double)n - 1)];
+    if (st == SS_OK)
+        st = ss_record_noise(&r, 0);
+    if (st == SS_OK)
+        st = ss_drops_without_glitches(out->y, along, n, drop, f->n);
+    out->noise = r.noise;
+    free(along);
+    free(drop);
+    return st;
+}
+
+/* Slips of a Coulomb slider are surely falls: if three quarters are such slips, the others are left out.  Of
+ * the usable falls at most FALLS_MOST are chosen, evenly over the record. */
+static ss_status
+choose_falls(falls *out, const ss_features *f, size_t n)
+{
+    size_t slips = 0, n_usable = 0, *usable = malloc((f->n + 1) * sizeof *usable);
+    if (usable == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < f->n; i++)
+        slips += (size_t)is_slip(f, i);
+    for (size_t i = 0; i < f->n; i++)
+        if (!f->transition[i].gap && (4 * slips < 3 * f->n || is_slip(f, i)))
+            usable[n_usable++] = i;
+    size_t most = n_usable < FALLS_MOST ? n_usable : FALLS_MOST;
     for (size_t i = 0; i < most; i++)
         out->n += (size_t)set_fall(&out->fall[out->n], out, f, usable[i * n_usable / most], n);
     out->first = n_usable > 0 ? f->transition[usable[0]].onset : NAN;
     out->power = power_of(out);
+    free(usable);
+    return SS_OK;
 }
 
 ss_status
-ss_falls_gather(falls *out, const ss_features *f, const ss_signal *signal, size_t column, double direction)
+ss_falls_gather(falls *out, char *why, size_t room, const ss_features *f, const ss_signal *signal, size_t column,
+                const ss_scene *scene)
 {
-    size_t n = signal->n;
-    double *x = malloc((n + 1) * sizeof *x);
-    ss_drop *drop = calloc(f->n + 1, sizeof *drop);
-    size_t *usable = malloc((f->n + 1) * sizeof *usable);
-    *out = (falls){ .y = malloc((n + 1) * sizeof *x), .rate = signal->head->rate, .slope = f->slope,
-                    .k_over_m = f->k_over_m };
-    ss_status st = x != NULL && drop != NULL && usable != NULL && out->y != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t i = 0; st == SS_OK && i < n; i++)
-        x[i] = direction * signal->values[column * n + i];
-    for (size_t i = 0; st == SS_OK && i < f->n; i++)
-        drop[i].height = x[(size_t)(f->transition[i].onset * out->rate)]
-                         - x[(size_t)fmin(f->transition[i].end * out->rate, (double)n - 1)];
-    rank_record r = { .x = x, .n = n };
+    *out = (falls){ .rate = signal->head->rate, .slope = f->slope, .k_over_m = f->k_over_m };
+    ss_falls_doubt(why, room, f, signal, column, scene);
+    if (why[0] == '\0')
+        ss_falls_count(why, room, f->n, f);
+    if (why[0] != '\0')
+        return SS_OK;
+    ss_status st = copy_force(out, f, signal->values + column * signal->n, signal->n, sign(pull_of(scene)));
     if (st == SS_OK)
-        st = ss_record_noise(&r, 0);
-    if (st == SS_OK)
-        st = ss_drops_without_glitches(out->y, x, n, drop, f->n);
-    if (st == SS_OK)
-        choose(out, f, usable, n);
-    out->noise = r.noise;
-    free(usable);
-    free(drop);
-    free(x);
+        st = choose_falls(out, f, signal->n);
+    if (st == SS_OK && out->n < FALLS_FEWEST)
+        snprintf(why, room, "%zu falls that are whole are too few", out->n);
     return st;
 }
 

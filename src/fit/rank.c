@@ -29,23 +29,6 @@ check(const ss_signal *signal, size_t column, size_t n, const ss_rank_opts *opts
     return st;
 }
 
-static ss_status
-rank_pulled(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
-            const ss_rank_opts *opts, ss_error *err)
-{
-    size_t named;
-    ss_status st = ss_pull_compare(r, &named, signal, column, scene, opts, err);
-    if (st == SS_OK && isfinite(r->row[0].excess))
-        ss_ranking_sort(r);
-    for (size_t i = r->n; i-- > 1 && named < r->n;)     /* to the front */
-        if (r->row[i].scene == named) {
-            const ss_rank_row row = r->row[i];
-            r->row[i] = r->row[i - 1];
-            r->row[i - 1] = row;
-        }
-    return st;
-}
-
 /* --- pulled and forced scenes together ------------------------------------------------------ */
 
 static int
@@ -176,7 +159,7 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
         r->value[i] = NAN;
     for (size_t i = 0; i < n; i++)
         r->row[i] = (ss_rank_row){ .scene = i, .total = NAN, .excess = NAN };
-    st = (pulled == n ? rank_pulled : pulled == 0 ? ss_forced_compare : rank_both)(r, signal, column, scene, opts,
+    st = (pulled == n ? ss_pull_compare : pulled == 0 ? ss_forced_compare : rank_both)(r, signal, column, scene, opts,
                                                                              err);
     if (st == SS_OK)
         *out = r;

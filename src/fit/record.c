@@ -18,6 +18,30 @@ const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "
 const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3,
                                         .also = { -1, -1, -1, -1, -1 } };
 
+/* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
+ * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of
+ * which may share a sample. */
+#define ALLOWED 1.2
+#define UNCERTAIN (3 * 2.3)
+
+double
+ss_residue_excess(const residue *r, double noise)
+{
+    return r->left / fmax(fmin(noise, r->white), RESIDUE_QUIET * r->power);
+}
+
+int
+ss_residue_explains(const residue *r, double noise)
+{
+    return r->compared > 0 && ss_residue_excess(r, noise) <= ALLOWED * (1 + UNCERTAIN / sqrt(r->compared));
+}
+
+double
+ss_residue_lead(const residue *r, const residue *other, double noise)
+{
+    return r->compared * (ss_residue_excess(other, noise) - ss_residue_excess(r, noise));
+}
+
 static int
 is_missing(const rank_record *r, size_t i, size_t n)
 {

@@ -1,15 +1,18 @@
-/* falls.h -- the falls of a spring's force, and scenes fitted to them by simulation. */
-#ifndef FALLS_H
-#define FALLS_H
+/* pulled.h -- the falls in the force of a spring that pulls a slider, and scenes fitted to them. */
+#ifndef PULLED_H
+#define PULLED_H
 
 #include <stddef.h>
 #include <stickslip/rank.h>
 #include "base/progress.h"
+#include "fit/record.h"
 
 enum {
     FALLS_MOST = 16,                /* falls that are fitted */
-    FALL_UNKNOWNS = 3               /* of each: its onset, f_k, f_s - f_k */
+    FALLS_FEWEST = 5,               /* whose median and scatter are given */
+    PULLED_KEYS = SS_FIT_KEYS
 };
+#define PULLED_BUDGET 1e7           /* integration steps of a fit */
 
 /* Samples about a fall: every step-th of y from the first. */
 typedef struct fall {
@@ -30,36 +33,40 @@ typedef struct falls {
 } falls;
 
 /* A number of the scene that all falls have in common. */
-typedef struct falls_key {
+typedef struct pulled_key {
+    const char *name;
     size_t offset;                  /* in ss_scene */
     int power;                      /* if a rig becomes r times stiffer and keeps its forces, the key becomes
                                        r^power times larger */
     double own;                     /* the given value (of a speed, that of the pull over the surface) */
     double change, error;           /* the logarithm of its factor in the fit, and the error of this */
-} falls_key;
-enum { FALLS_KEYS = SS_FIT_KEYS };
+} pulled_key;
 
-typedef struct falls_fit {
-    int slips;                      /* 0: the scene does not stick and slip, and nothing else is set */
+typedef struct pulled_fit {
+    int slips;                      /* 0: the scene does not stick and slip: no key nor median is known */
+    int unfinished;                 /* 1: it took too many steps, so that a better fit may exist */
     ss_scene scene;                 /* of the medians; its slips begin with those of the record */
     size_t n_keys;                  /* the mass, the speed of the pull, and others */
-    falls_key key[FALLS_KEYS];
+    pulled_key key[PULLED_KEYS];
     ss_median static_friction, friction;
-    double left;                    /* mean square of the residuals of the samples compared */
-    size_t compared;
-} falls_fit;
+    residue of_samples;
+} pulled_fit;
 
-/* Gather the falls of a column, in direction 1 or -1; out->n = 0 if none is usable.  To be freed with
- * ss_falls_free. */
-ss_status ss_falls_gather(falls *out, const ss_features *features, const ss_signal *signal, size_t column,
-                          double direction);
+/* Why the record shows no pull in the direction of the scene's; or an empty text. */
+void ss_falls_doubt(char *why, size_t room, const ss_features *features, const ss_signal *signal, size_t column,
+                    const ss_scene *scene);
+/* Why so many slips are too few; or an empty text. */
+void ss_falls_count(char *why, size_t room, size_t slips, const ss_features *features);
+/* Gather the falls of a column; they are not usable if `why` is not empty.  To be freed with ss_falls_free
+ * in either case. */
+ss_status ss_falls_gather(falls *out, char *why, size_t room, const ss_features *features,
+                          const ss_signal *signal, size_t column, const ss_scene *scene);
 void ss_falls_free(falls *r);
 
 /* Fit mass, speed of the pull, damping (if the scene has one) and the model's own parameters of all falls,
  * and onset, f_s and f_k of each fall.  spread: the logarithm of the factor within which the scene knows its
- * own numbers; INFINITY: it does not know them.  *steps grows by the cost, and the fit ends unfinished beyond
- * the budget.  SS_ENOMEM, SS_STOP. */
-ss_status ss_falls_fit(falls_fit *out, const falls *falls, const ss_scene *scene, double spread,
-                       double budget, double *steps, const ss_stretch *progress);
+ * own numbers; INFINITY: it does not know them.  SS_ENOMEM, SS_STOP. */
+ss_status ss_pulled_fit(pulled_fit *out, const falls *falls, const ss_scene *scene, double spread,
+                        const ss_stretch *progress);
 
 #endif
