@@ -4,7 +4,7 @@
 # Tests are the CMocka programs named, from $BUILD/tests, and the scripts below tests/cli and
 # tests/build, with LONG=1 also tests/long.  A script is run by sh -eu in an empty
 # directory, with the tools in PATH and $SRC, $BUILD, $CC, $CCLD (compiler with flags for linking),
-# $LIBS, $INCLUDES, $TOOL_PARTS (objects that tools share), $MAKE and $SAN set.  It must give what
+# $LIBS, $INCLUDES, $TOOL_PARTS (objects that tools share), $MAKE, $SAN and $LOCALES set.  It must give what
 # NAME.out, NAME.err and NAME.exit beside it hold (nothing, nothing and 0 if they are absent).  Exit 77
 # skips it, its first line saying why.
 # python3 is the first that has NumPy, h5py, xarray and h5netcdf, or else the first.
@@ -108,6 +108,14 @@ for python in ${PYTHON-} $(command -v python3) /usr/bin/python3; do
         break
     fi
 done
+
+# A locale with a decimal comma, where the system can make one.
+mkdir "$WORK/locales"
+if localedef -c -i de_DE -f UTF-8 "$WORK/locales/de_DE.UTF-8" > /dev/null 2>&1 ||
+        [ -e "$WORK/locales/de_DE.UTF-8/LC_NUMERIC" ]; then
+    LOCALES=$WORK/locales
+    export LOCALES
+fi
 
 cd "$SRC" || exit 1
 tests=$*

@@ -203,12 +203,12 @@ stops_where_the_number_ends(void **state)
 static void
 does_not_care_about_the_locale(void **state)
 {
-    static const char *const comma[] = { "de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "nl_NL.UTF-8" };
     char text[SS_NUMBER_MAX];
-    int found = 0;
+    const char *made = getenv("LOCALES");       /* a folder with de_DE, by run.sh */
     (void)state;
-    for (size_t i = 0; i < sizeof comma / sizeof *comma && !found; i++)
-        found = setlocale(LC_ALL, comma[i]) != NULL && localeconv()->decimal_point[0] == ',';
+    if (made != NULL)
+        setenv("LOCPATH", made, 1);
+    int found = setlocale(LC_ALL, "de_DE.UTF-8") != NULL && localeconv()->decimal_point[0] == ',';
     if (!found) {
         print_message("skipped: no locale with a decimal comma is installed\n");
         skip();
