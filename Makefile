@@ -36,7 +36,7 @@ PKG_CONFIG ?= pkg-config
 PYTHON     ?= python3
 
 VERSION   := $(shell sed -n 's/^.define SS_VERSION "\(.*\)"/\1/p' include/stickslip/status.h)
-SOVERSION := 0
+SOVERSION := 1
 
 # --- flags -----------------------------------------------------------------------------------
 # HDF5 has no pkg-config file where it was built with autotools (Fedora, older Homebrew): there it
@@ -99,7 +99,8 @@ TOOL_LIBS = $(LIBS)
 else
 SHARED  := libstickslip.so.$(VERSION)
 LINKS   := libstickslip.so.$(SOVERSION) libstickslip.so
-SOFLAGS  = -shared -Wl,-soname,libstickslip.so.$(SOVERSION)
+SOFLAGS  = -shared -Wl,-soname,libstickslip.so.$(SOVERSION) -Wl,--version-script=$(EXPORTS)
+EXPORTS := $(BUILD)/stickslip.map
 # HDF5 comes with the shared library, which tools open when a file needs it (tools/hdf5.c): in the
 # build tree, or where it is installed, before any other that is found.
 TOOL_OBJ += $(BUILD)/tools/hdf5.o
@@ -137,11 +138,15 @@ $(BUILD)/number_pow10.h: data/number_pow10.sh
 	@mkdir -p $(@D)
 	sh data/number_pow10.sh > $@.new && mv $@.new $@
 
+$(BUILD)/stickslip.map: data/version_script.sh include/stickslip.h $(HEADERS)
+	@mkdir -p $(@D)
+	sh data/version_script.sh include/stickslip.h $(CC) -Iinclude > $@.new && mv $@.new $@
+
 $(STATIC): $(LIB_OBJ)
 	rm -f $@ && $(AR) rcs $@ $^
 
-$(BUILD)/$(SHARED): $(LIB_OBJ)
-	$(CC) $(SOFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(LIBS)
+$(BUILD)/$(SHARED): $(LIB_OBJ) $(EXPORTS)
+	$(CC) $(SOFLAGS) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(LIBS)
 	cd $(@D) && for l in $(LINKS); do ln -sf $(@F) $$l; done
 
 $(BUILD)/bin/%: $(BUILD)/tools/%.o $(TOOL_OBJ) $(STATIC) | $(BUILD)/$(SHARED)

@@ -1,7 +1,7 @@
 # The shared library has its soname and shows what the public headers declare, no more and no less.
 library=$BUILD/libstickslip.so
 [ -f "$library" ] || { echo "no ELF library"; exit 77; }
-nm -D --defined-only "$library" | sed 's/.* //' | grep -v '^_' | sort > shown
+nm -D --defined-only "$library" | sed -e 's/.* //' -e 's/@.*//' | grep -v -e '^_' -e '^STICKSLIP_' | sort > shown
 
 # Functions and constants that the headers declare.
 echo '#include <stickslip.h>' | $CC -I"$SRC/include" -x c -E -P - | grep -v '^#' |
