@@ -108,7 +108,7 @@ libdir   := $(LIBDIR)
 TOOL_LIBS = $(NUMERICS) -ldl
 endif
 OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o $(BUILD)/tests/clock.o \
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o $(BUILD)/tests/clock.o $(BUILD)/tests/rig.o \
 	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
 
 all: $(STATIC) $(BUILD)/$(SHARED) $(TOOLS:%=$(BUILD)/bin/%) $(SCRIPTS:%=$(BUILD)/bin/%)
@@ -169,6 +169,7 @@ $(BUILD)/tests/test_memory: ALL_LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 $(BUILD)/tests/test_sim $(BUILD)/tests/test_sim_truth $(BUILD)/tests/test_taylor $(BUILD)/tests/test_trade \
 	$(BUILD)/tests/test_rigs $(BUILD)/tests/test_chaos: $(BUILD)/tests/oracle.o
 $(BUILD)/tests/test_trade: $(BUILD)/tests/clock.o
+$(BUILD)/tests/test_rig: $(BUILD)/tests/rig.o
 
 # The harness of a reader: with libFuzzer, and over files that are named.
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/common.o $(STATIC)
