@@ -2,7 +2,7 @@
 # in meter.c.  Then ss-sweep measures it, and what lacks it refuses it in one clear line.
 mkdir -p include/stickslip
 sed 's/^    SS_MEASURES$/    SS_SLIP_FRACTION,\n&/' "$SRC/include/stickslip/sweep.h" > include/stickslip/sweep.h
-sed 's/^    \[SS_PERIOD\] = { { "period".*/&\n    [SS_SLIP_FRACTION] = { { "slip", "" }, sticks },/' \
+sed 's/^    \[SS_PERIOD\] = { { "period".*/&\n    [SS_SLIP_FRACTION] = { { "slip", "" }, STICKS },/' \
     "$SRC/src/study/sweep/steady.c" > steady.c
 sed 's/^    value\[SS_STOPS\] = .*/&\n    value[SS_SLIP_FRACTION] = 1 - r->stick \/ r->time;/' \
     "$SRC/src/study/sweep/meter.c" > meter.c

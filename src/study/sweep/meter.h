@@ -1,4 +1,4 @@
-/* meter.h -- measures along a walk, and its derivative with respect to its initial state. */
+/* meter.h -- measures along a walk. */
 #ifndef METER_H
 #define METER_H
 
@@ -46,26 +46,5 @@ void ss_meter_event(meter *r, const ss_event *event);
 /* Compute the measures of so many cycles.  closes: 1 if they are a period.  A value that is not
  * wanted may be wrong. */
 void ss_meter_end(meter *r, int cycles, int closes, double value[]);
-
-/* The derivative of (x_ref, q, v) now by (x_ref, q, v) at the start, for an engine that has a
- * response.  For a state with a third number, x_ref is this number. */
-typedef struct tangent {
-    double d[D_MOST][D_MOST];
-    double later[D_MOST];           /* the delay of the last event, at which v became 0 [s] */
-} tangent;
-
-void ss_tangent_begin(tangent *t, const state *m);
-/* Carry it along the present leg of w; then, if the leg ends in an event, across the event.  mode, q
- * and rates are the mode, the state and its rate of change before the event. */
-void ss_tangent_leg(tangent *t, const walk *w);
-void ss_tangent_event(tangent *t, const walk *w, int mode, const double q[], const double rates[]);
-/* At an onset of microstick: change from neighbouring states at one time to neighbouring states at
- * their own onsets, where only x - U t differs. */
-void ss_tangent_on_onset(tangent *t, const state *m);
-/* d = (I - t)^-1 r, computed in these units; 0 in a direction that t does not change. */
-void ss_tangent_solve(const tangent *t, const double unit[3], const double r[3], double d[3]);
-/* The moduli of the largest and of the second multiplier, and the argument of the largest, 0 ... pi;
- * NaN if t is not finite.  SS_ENOMEM. */
-ss_status ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle);
 
 #endif

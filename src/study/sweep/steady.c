@@ -1,4 +1,4 @@
-/* steady.c -- the measures of a periodic state, and the order of the searches for it. */
+/* steady.c -- the measures of a periodic state: what has them, and what is said of those that are missing. */
 #include <stickslip/sweep.h>
 
 #include <math.h>
@@ -7,68 +7,53 @@
 #include "base/range.h"
 #include "motion/method.h"
 #include "study/curve.h"
-#include "study/sweep/finder.h"
+#include "study/sweep/periodic.h"
 
 const ss_range ss_steady_tolerances = { 1e-13, 0.1 };
 const ss_steady_opts ss_steady_defaults = { .tol = 1e-9, .max_period = 8, .max_cycles = 10000,
                                             .max_steps = 10000000 };
 
-/* 1 if the model sticks, which some measures require. */
-static int
-sticks(const struct model *model)
-{
-    return model->guard != NULL;
-}
+/* What a measure needs of a model. */
+enum { STICKS = 1, RINGS = 2, DIFFERS = 4, LIMIT = 8 };
 
-static int
-rings(const struct model *model)
+static unsigned
+what_has(const struct model *m)
 {
-    return model->in_transition != NULL;
-}
-
-static int
-differs(const struct model *model)
-{
-    return model->variation != NULL;
-}
-
-static int
-has_limit(const struct model *model)
-{
-    return model->limit != NULL;
+    return (m->guard != NULL ? STICKS : 0u) | (m->in_transition != NULL ? RINGS : 0u)
+        | (m->variation != NULL ? DIFFERS : 0u) | (m->limit != NULL ? LIMIT : 0u);
 }
 
 static const struct {
     ss_label label;
-    int (*has)(const struct model *model);      /* NULL: every model has it */
+    unsigned needs;
 } measure[SS_MEASURES] = {
-    [SS_STOPS] = { { "stops", "" }, sticks },
-    [SS_STICK_FRACTION] = { { "stick", "" }, sticks },
-    [SS_AMPLITUDE] = { { "amplitude", "m" }, NULL },
-    [SS_X_MAX] = { { "x_max", "m" }, NULL },
-    [SS_V_MAX] = { { "v_max", "m/s" }, NULL },
-    [SS_A_MAX] = { { "a_max", "m/s^2" }, NULL },
-    [SS_ENERGY] = { { "energy", "J" }, NULL },
-    [SS_PERIOD] = { { "period", "" }, NULL },
-    [SS_CYCLES] = { { "cycles", "" }, NULL },
-    [SS_MICROSLIPS] = { { "microslips", "" }, sticks },
-    [SS_TRANSITION] = { { "transition", "Hz" }, rings },
-    [SS_X_PHASE] = { { "x_phase", "m" }, NULL },
-    [SS_V_PHASE] = { { "v_phase", "m/s" }, NULL },
-    [SS_FLOQUET] = { { "floquet", "" }, differs },
-    [SS_FLOQUET_2] = { { "floquet2", "" }, differs },
-    [SS_FLOQUET_ANGLE] = { { "floquet_angle", "rad" }, differs },
-    [SS_CYCLE_TIME] = { { "cycle_time", "s" }, NULL },
-    [SS_MODEL_ERROR_X] = { { "model_error_x", "" }, has_limit },
-    [SS_MODEL_ERROR_X_RMS] = { { "model_error_x_rms", "" }, has_limit },
-    [SS_MODEL_ERROR_V] = { { "model_error_v", "" }, has_limit },
-    [SS_MODEL_ERROR_V_RMS] = { { "model_error_v_rms", "" }, has_limit },
-    [SS_MODEL_ERROR_A] = { { "model_error_a", "" }, has_limit },
-    [SS_MODEL_ERROR_A_RMS] = { { "model_error_a_rms", "" }, has_limit },
-    [SS_MODEL_ERROR_F] = { { "model_error_f", "" }, has_limit },
-    [SS_MODEL_ERROR_F_RMS] = { { "model_error_f_rms", "" }, has_limit },
-    [SS_LYAPUNOV] = { { "lyapunov", "1/s" }, differs },
-    [SS_LYAPUNOV_ERROR] = { { "lyapunov_error", "1/s" }, differs },
+    [SS_STOPS] = { { "stops", "" }, STICKS },
+    [SS_STICK_FRACTION] = { { "stick", "" }, STICKS },
+    [SS_AMPLITUDE] = { { "amplitude", "m" }, 0 },
+    [SS_X_MAX] = { { "x_max", "m" }, 0 },
+    [SS_V_MAX] = { { "v_max", "m/s" }, 0 },
+    [SS_A_MAX] = { { "a_max", "m/s^2" }, 0 },
+    [SS_ENERGY] = { { "energy", "J" }, 0 },
+    [SS_PERIOD] = { { "period", "" }, 0 },
+    [SS_CYCLES] = { { "cycles", "" }, 0 },
+    [SS_MICROSLIPS] = { { "microslips", "" }, STICKS },
+    [SS_TRANSITION] = { { "transition", "Hz" }, RINGS },
+    [SS_X_PHASE] = { { "x_phase", "m" }, 0 },
+    [SS_V_PHASE] = { { "v_phase", "m/s" }, 0 },
+    [SS_FLOQUET] = { { "floquet", "" }, DIFFERS },
+    [SS_FLOQUET_2] = { { "floquet2", "" }, DIFFERS },
+    [SS_FLOQUET_ANGLE] = { { "floquet_angle", "rad" }, DIFFERS },
+    [SS_CYCLE_TIME] = { { "cycle_time", "s" }, 0 },
+    [SS_MODEL_ERROR_X] = { { "model_error_x", "" }, LIMIT },
+    [SS_MODEL_ERROR_X_RMS] = { { "model_error_x_rms", "" }, LIMIT },
+    [SS_MODEL_ERROR_V] = { { "model_error_v", "" }, LIMIT },
+    [SS_MODEL_ERROR_V_RMS] = { { "model_error_v_rms", "" }, LIMIT },
+    [SS_MODEL_ERROR_A] = { { "model_error_a", "" }, LIMIT },
+    [SS_MODEL_ERROR_A_RMS] = { { "model_error_a_rms", "" }, LIMIT },
+    [SS_MODEL_ERROR_F] = { { "model_error_f", "" }, LIMIT },
+    [SS_MODEL_ERROR_F_RMS] = { { "model_error_f_rms", "" }, LIMIT },
+    [SS_LYAPUNOV] = { { "lyapunov", "1/s" }, DIFFERS },
+    [SS_LYAPUNOV_ERROR] = { { "lyapunov_error", "1/s" }, DIFFERS },
 };
 
 const ss_label *
@@ -97,7 +82,7 @@ ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err
     if (m == NULL)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
     for (int i = 0; i < SS_MEASURES; i++)
-        if ((opts->measures & 1u << i) && measure[i].has != NULL && !measure[i].has(m))
+        if ((opts->measures & 1u << i) && (measure[i].needs & ~what_has(m)) != 0)
             return ss_fail(err, SS_EINVAL, "model %s has no measure '%s'", m->name,
                            measure[i].label.name);
     ss_status st = ss_range_check(opts->tol, ss_steady_tolerances, "tolerance", err);
@@ -114,62 +99,12 @@ ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err
         return st;
     if (opts->search < SS_SEARCH_AUTO || opts->search > SS_SEARCH_SHOOT)
         return ss_fail(err, SS_EINVAL, "search is no known choice");
-    if (opts->search == SS_SEARCH_SHOOT && !differs(m))
+    if (opts->search == SS_SEARCH_SHOOT && !(what_has(m) & DIFFERS))
         return ss_fail(err, SS_EINVAL, "model %s has no neighbouring states to shoot with", m->name);
     if (opts->search == SS_SEARCH_SHOOT && (opts->settle > 0 || (opts->measures & 1u << SS_CYCLES)))
         return ss_fail(err, SS_EINVAL, "shooting does not wait for the motion to settle: it leaves "
                        "no cycles to count");
     return SS_OK;
-}
-
-/* 1 if shooting is possible.  Without forcing, even differences that are small beside x change the time of
- * the next onset so much that finite differences give no derivative: the method must compute it, unless a
- * true stick makes it 0. */
-static int
-can_shoot(const ss_scene *scene, const ss_steady_opts *opts)
-{
-    const struct model *model = ss_model_of(scene);
-    int knows = model->still != NULL || ss_method_follows(method_of(opts, scene));
-    return differs(model) && (scene->base_frequency > 0 || knows);
-}
-
-/* --- the search ------------------------------------------------------------------------------ */
-
-/* Cycles simulated before Newton's first step where shooting is asked for. */
-enum { APPROACH = 4 };
-
-static ss_status
-begin(finder *f)
-{
-    const struct method *how = method_of(f->opts, f->scene);
-    f->in_closed_form = how->kind == CLOSED_FORM;
-    return ss_finder_begin(f, how->name);
-}
-
-static ss_status
-shoot(finder *f, ss_steady *out, int *period)
-{
-    ss_status st = ss_finder_go(f, APPROACH, NULL, NULL);
-    *period = 1;
-    if (st == SS_OK)
-        st = ss_finder_shoot(f, STABLE, period, out);
-    if (st != SS_OK || *period > 0)
-        return st;
-    ss_walk_end(&f->w);
-    f->n = 0;
-    return begin(f);
-}
-
-static ss_status
-search(finder *f, ss_steady *out)
-{
-    const ss_steady_opts *o = f->opts;
-    int period = 0, may_shoot = o->search != SS_SEARCH_SIMULATE && !(o->measures & 1u << SS_CYCLES)
-        && can_shoot(f->scene, o);
-    ss_status st = begin(f);
-    if (st == SS_OK && o->search == SS_SEARCH_SHOOT)
-        st = shoot(f, out, &period);
-    return st == SS_OK && period == 0 ? ss_finder_settle(f, may_shoot, out) : st;
 }
 
 /* --- the model in the limit ------------------------------------------------------------------ */
@@ -191,42 +126,45 @@ compare_courses(const course *limit, const course *ref, double value[], ss_error
 }
 
 static ss_status
-compare_with_limit(const finder *f, ss_steady *out)
+compare_with_limit(const finder *f)
 {
-    ss_scene scene = *f->scene;
-    ss_steady_opts opts = *f->opts;
+    ss_error *err = f->c.err;
+    ss_scene scene = *f->c.scene;
+    ss_steady_opts opts = *f->c.opts;
     ss_steady limit;
     ss_model_of(&scene)->limit(&scene);
     opts.measures = MODEL_ERRORS;
-    finder g = { .scene = &scene, .opts = &opts, .err = f->err };
-    ss_status st = search(&g, &limit);
+    finder g = { .c = { .scene = &scene, .opts = &opts, .err = err, .how = method_of(&opts, &scene) },
+                 .out = &limit };
+    ss_status st = ss_periodic_find(&g);
     if (st == SS_OK && limit.value[SS_PERIOD] == 0)
-        st = ss_fail(f->err, SS_EDATA, "model %s in its place has no period up to %d within %lu cycles",
+        st = ss_fail(err, SS_EDATA, "model %s in its place has no period up to %d within %lu cycles",
                      ss_model_name(scene.model), opts.max_period, opts.max_cycles);
     if (st == SS_OK)
-        st = compare_courses(&g.course, &f->course, out->value, f->err);
-    ss_walk_end(&g.w);
-    ss_course_free(&g.course);
+        st = compare_courses(&g.course, &f->course, f->out->value, err);
+    ss_periodic_free(&g);
     return st;
 }
 
 /* SS_EDATA, with the reason, if a measure is missing. */
 static ss_status
-complete(const finder *f, const ss_steady *out)
+check_complete(const finder *f)
 {
-    const ss_steady_opts *o = f->opts;
-    if (out->value[SS_PERIOD] == 0 && o->settle > 0)
-        return ss_fail(f->err, SS_EDATA, "no period up to %d after %lu cycles", o->max_period,
+    const ss_steady_opts *o = f->c.opts;
+    const double *value = f->out->value;
+    ss_error *err = f->c.err;
+    if (value[SS_PERIOD] == 0 && o->settle > 0)
+        return ss_fail(err, SS_EDATA, "no period up to %d after %lu cycles", o->max_period,
                        o->settle);
-    if (out->value[SS_PERIOD] == 0)
-        return ss_fail(f->err, SS_EDATA, "no period up to %d within %lu cycles", o->max_period,
+    if (value[SS_PERIOD] == 0)
+        return ss_fail(err, SS_EDATA, "no period up to %d within %lu cycles", o->max_period,
                        o->max_cycles);
     if (f->unresolved > 0)
-        return ss_fail(f->err, SS_EDATA, "%lu events a period within what rounding or tolerance "
+        return ss_fail(err, SS_EDATA, "%lu events a period within what rounding or tolerance "
                        "makes of them: not resolved", f->unresolved);
     for (int i = 0; i < SS_MEASURES; i++)
-        if ((o->measures & 1u << i) && isnan(out->value[i]))
-            return ss_fail(f->err, SS_EDATA, i == SS_TRANSITION
+        if ((o->measures & 1u << i) && isnan(value[i]))
+            return ss_fail(err, SS_EDATA, i == SS_TRANSITION
                            ? "%s: no oscillation, a has no three extrema in one"
                            : i == SS_LYAPUNOV ? "%s: neighbouring motions become one, within rounding"
                            : "%s: not a number",
@@ -237,7 +175,7 @@ complete(const finder *f, const ss_steady *out)
 /* Check that the scene has cycles.  Without forcing, a cycle begins with a stick, and another follows only
  * if something pulls. */
 static ss_status
-check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
+check_cycle(const ss_scene *scene, const ss_steady_opts *opts, const struct method *how, ss_error *err)
 {
     int asks = opts->search == SS_SEARCH_SHOOT || (opts->measures & (FLOQUET | LYAPUNOV));
     if (scene->base_frequency > 0 && isfinite(1 / scene->base_frequency))
@@ -247,7 +185,7 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
                        "double precision");
     if (scene->base != NULL)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
-    if (!sticks(ss_model_of(scene)))
+    if (!(what_has(ss_model_of(scene)) & STICKS))
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle, and no stick with "
                        "which one could begin");
     if (scene->base_velocity == scene->surface_velocity)
@@ -255,7 +193,7 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
                        "keeps it moving");
     if (opts->measures & MODEL_ERRORS)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, two models have no common phase");
-    if (!asks || can_shoot(scene, opts))
+    if (!asks || ss_periodic_can_shoot(scene, how))
         return SS_OK;
     return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting, multipliers and "
                    "exponents of model %s need method %s",
@@ -267,7 +205,6 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts
 {
     if (out == NULL || scene == NULL || opts == NULL || (opts->strobe > 0 && out->strobe == NULL))
         return SS_FAIL_NULL(err);
-    finder f = { .scene = scene, .opts = opts, .err = err, .autonomous = scene->base_frequency == 0 };
     for (int i = 0; i < SS_MEASURES; i++)
         out->value[i] = NAN;
     out->n_strobes = 0;
@@ -276,18 +213,18 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts
         st = ss_steady_check(opts, scene, err);
     if (st != SS_OK)
         return st;
-    st = check_cycle(scene, opts, err);
+    finder f = { .c = { .scene = scene, .opts = opts, .err = err, .how = method_of(opts, scene) }, .out = out };
+    st = check_cycle(scene, opts, f.c.how, err);
     if (st != SS_OK)
         return st;
-    st = search(&f, out);
-    ss_walk_end(&f.w);
+    st = ss_periodic_find(&f);
     if (st == SS_OK && (opts->measures & MODEL_ERRORS) && out->value[SS_PERIOD] > 0)
-        limit = compare_with_limit(&f, out);
-    ss_course_free(&f.course);
+        limit = compare_with_limit(&f);
+    ss_periodic_free(&f);
     for (int i = 0; i < SS_MEASURES; i++)
         if (st != SS_OK || !(opts->measures & 1u << i) || !isfinite(out->value[i]))
             out->value[i] = i == SS_PERIOD && st == SS_OK ? out->value[i] : NAN;
     if (limit != SS_OK)
         return limit == SS_ENOMEM ? ss_fail_memory(err, NULL) : SS_EDATA;
-    return st == SS_OK ? complete(&f, out) : st;
+    return st == SS_OK ? check_complete(&f) : st;
 }

@@ -1,13 +1,10 @@
 /* sweep.c -- compute the points of a grid on several threads and send their rows in grid order.
  *
- * Threads compute points in batches, in order.  A finished batch waits in a ring for those before
- * it; the thread that finishes the first missing batch sends all batches that are then in order.
  * A point depends only on the scene and its index in the grid, so the rows do not depend on the
  * threads. */
 #include <stickslip/sweep.h>
 
 #include <math.h>
-#include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -119,145 +116,56 @@ ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
     return st;
 }
 
-/* --- a point ------------------------------------------------------------------------------- */
-
-typedef struct result {
-    ss_steady steady;
-    ss_status status;
-    ss_error reason;
-} result;
-
-/* The values of the axes at a point of the grid. */
-static void
-place(const ss_sweep_opts *opts, size_t index, double vary[])
-{
-    for (size_t i = opts->n_axes; i-- > 0; index /= opts->axis[i].n)
-        vary[i] = ss_axis_value(&opts->axis[i], index % opts->axis[i].n);
-}
-
-static void
-work_out(const ss_scene *scene, const ss_sweep_opts *opts, const double vary[], result *out)
-{
-    ss_scene here = *scene;
-    for (size_t i = 0; i < opts->n_axes; i++)
-        *ss_scene_number(&here, opts->axis[i].key, NULL, NULL) = vary[i];
-    out->status = ss_steady_find(&out->steady, &here, &opts->steady, &out->reason);
-    if (out->status == SS_OK)
-        strcpy(out->reason.text, "ok");
-}
-
-/* --- all of them --------------------------------------------------------------------------- */
-
-enum { BATCH = 16, BATCHES_A_THREAD = 8 };
-
-typedef struct batch {
-    int done;
-    size_t n;
-    result result[BATCH];
-} batch;
+/* --- its points ---------------------------------------------------------------------------- */
 
 typedef struct sweep {
     const ss_scene *scene;
     const ss_sweep_opts *opts;
-    size_t n, taken, sent;         /* points of the shard; the next to compute; the next to send */
-    batch *ring;
-    size_t room;
-    ss_strobe *strobe;              /* of all points in the ring; NULL if none are wanted */
-    double *vary;                   /* of the row for the sink */
-    ss_status status;
-    pthread_mutex_t lock;           /* of taken, sent and the rest; held while the sink is called */
-    pthread_cond_t moved;           /* signalled when sent has grown, or the status has changed */
+    size_t n;                       /* points of the shard that are left */
 } sweep;
 
-static size_t
-index_of(const sweep *w, size_t i)
-{
-    return w->opts->shard + (w->opts->first + i) * w->opts->shards;
-}
-
-static batch *
-batch_of(sweep *w, size_t point)
-{
-    return &w->ring[point / BATCH % w->room];
-}
-
-/* Send the batch whose turn it is to the sink. */
-static void
-send_batch(sweep *w, batch *b)
-{
-    for (size_t i = 0; w->status == SS_OK && i < b->n; i++) {
-        const result *r = &b->result[i];
-        ss_sweep_row row = { index_of(w, w->sent + i), w->vary, r->steady, r->status,
-                             r->reason.text };
-        place(w->opts, row.index, w->vary);
-        if (r->status == SS_ENOMEM)
-            w->status = SS_ENOMEM;
-        else if (w->opts->sink(&row, w->opts->user) != 0)
-            w->status = SS_STOP;
-    }
-    w->sent += b->n;
-    b->done = 0;
-    if (w->status == SS_OK)
-        w->status = ss_progress_at(&w->opts->progress, (double)w->sent / (double)w->n);
-}
+/* A point: a row, with the values of the axes and the starts of cycles behind it. */
+typedef struct point {
+    ss_sweep_row row;
+    ss_error reason;
+    double values[];
+} point;
 
 static void
-work_on(void *user)
+work_out(size_t i, void *result, void *user)
 {
-    sweep *w = user;
-    double *vary = calloc(w->opts->n_axes, sizeof *vary);
-    pthread_mutex_lock(&w->lock);
-    if (vary == NULL)
-        w->status = SS_ENOMEM;
-    while (w->status == SS_OK && w->taken < w->n) {
-        if (w->taken >= w->sent + w->room * BATCH) {
-            pthread_cond_wait(&w->moved, &w->lock);
-            continue;
-        }
-        size_t first = w->taken;
-        batch *b = batch_of(w, first);
-        b->n = w->n - first < BATCH ? w->n - first : BATCH;
-        w->taken += b->n;
-        pthread_mutex_unlock(&w->lock);
-        for (size_t i = 0; i < b->n; i++) {
-            place(w->opts, index_of(w, first + i), vary);
-            work_out(w->scene, w->opts, vary, &b->result[i]);
-        }
-        pthread_mutex_lock(&w->lock);
-        b->done = 1;
-        while (w->sent < w->n && (b = batch_of(w, w->sent))->done)
-            send_batch(w, b);
-        pthread_cond_broadcast(&w->moved);
-    }
-    pthread_cond_broadcast(&w->moved);
-    pthread_mutex_unlock(&w->lock);
-    free(vary);
+    const sweep *w = user;
+    const ss_sweep_opts *opts = w->opts;
+    point *p = result;
+    ss_scene here = *w->scene;
+    size_t index = opts->shard + (opts->first + i) * opts->shards;
+    p->row.index = index;
+    p->row.vary = p->values;
+    for (size_t k = opts->n_axes; k-- > 0; index /= opts->axis[k].n)
+        p->values[k] = ss_axis_value(&opts->axis[k], index % opts->axis[k].n);
+    for (size_t k = 0; k < opts->n_axes; k++)
+        *ss_scene_number(&here, opts->axis[k].key, NULL, NULL) = p->values[k];
+    p->row.steady.strobe = opts->steady.strobe > 0 ? (ss_strobe *)(p->values + opts->n_axes) : NULL;
+    p->row.status = ss_steady_find(&p->row.steady, &here, &opts->steady, &p->reason);
+    if (p->row.status == SS_OK)
+        strcpy(p->reason.text, "ok");
+    p->row.reason = p->reason.text;
 }
 
-/* Make room for the starts of cycles of the points in the ring, if they are wanted. */
+/* Progress is told once in so many points: a user may flush the rows then. */
+enum { AT_ONCE = 16 };
+
 static ss_status
-make_room(sweep *w)
+send(size_t i, void *result, void *user)
 {
-    const ss_steady_opts *o = &w->opts->steady;
-    size_t each = (size_t)(o->strobe > o->max_period ? o->strobe : o->max_period), n = w->room * BATCH;
-    w->ring = calloc(w->room, sizeof *w->ring);
-    w->vary = calloc(w->opts->n_axes, sizeof *w->vary);
-    w->strobe = o->strobe > 0 ? calloc(n, each * sizeof *w->strobe) : NULL;
-    if (w->ring == NULL || w->vary == NULL || (o->strobe > 0 && w->strobe == NULL))
+    const sweep *w = user;
+    const point *p = result;
+    if (p->row.status == SS_ENOMEM)
         return SS_ENOMEM;
-    for (size_t i = 0; w->strobe != NULL && i < n; i++)
-        w->ring[i / BATCH].result[i % BATCH].steady.strobe = w->strobe + i * each;
-    return SS_OK;
-}
-
-static void
-work_together(sweep *w)
-{
-    pthread_mutex_init(&w->lock, NULL);
-    pthread_cond_init(&w->moved, NULL);
-    ss_pool_run(work_on, w, 0, (size_t)w->opts->threads);
-    pthread_cond_destroy(&w->moved);
-    pthread_mutex_destroy(&w->lock);
+    if (w->opts->sink(&p->row, w->opts->user) != 0)
+        return SS_STOP;
+    return (i + 1) % AT_ONCE == 0 || i + 1 == w->n
+        ? ss_progress_at(&w->opts->progress, (double)(i + 1) / (double)w->n) : SS_OK;
 }
 
 ss_status
@@ -265,19 +173,17 @@ ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
 {
     if (scene == NULL || opts == NULL || opts->sink == NULL)
         return SS_FAIL_NULL(err);
-    sweep w = { .scene = scene, .opts = opts, .room = (size_t)opts->threads * BATCHES_A_THREAD };
     size_t all;
     ss_status st = ss_sweep_check(scene, opts, err);
     if (st != SS_OK)
         return st;
     ss_sweep_points(opts, &all, NULL);
+    const ss_steady_opts *o = &opts->steady;
     size_t of_shard = all > opts->shard ? (all - opts->shard - 1) / opts->shards + 1 : 0;
-    w.n = of_shard > opts->first ? of_shard - opts->first : 0;
-    w.status = make_room(&w);
-    if (w.status == SS_OK)
-        work_together(&w);
-    free(w.ring);
-    free(w.vary);
-    free(w.strobe);
-    return w.status == SS_ENOMEM ? ss_fail_memory(err, NULL) : w.status;
+    size_t strobes = o->strobe == 0 ? 0 : (size_t)(o->strobe > o->max_period ? o->strobe : o->max_period);
+    sweep w = { scene, opts, of_shard > opts->first ? of_shard - opts->first : 0 };
+    const ss_line line = { .n = w.n, .work = work_out, .send = send, .user = &w, .size = sizeof (point)
+                           + opts->n_axes * sizeof (double) + strobes * sizeof (ss_strobe) };
+    st = ss_pool_line(&line, (size_t)opts->threads);
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }

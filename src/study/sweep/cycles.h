@@ -1,0 +1,80 @@
+/* cycles.h -- a motion cycle by cycle, and its derivative with respect to the state at its start.
+ *
+ * A cycle is a cycle of the forcing.  In a scene without forcing (autonomous), it goes from one
+ * onset of stick to the next, and its duration may vary. */
+#ifndef CYCLES_H
+#define CYCLES_H
+
+#include <float.h>
+#include "motion/method.h"
+#include "study/sweep/meter.h"
+
+/* The state at the start of a cycle: x - U t, v over the surface, and y of the model (memory), 0
+ * if it has none. */
+typedef struct section {
+    double x, v, y;
+} section;
+
+/* The derivative of (x_ref, q, v) now by (x_ref, q, v) at the start, for an engine that has a
+ * response.  For a state with a third number, x_ref is this number. */
+typedef struct tangent {
+    double d[D_MOST][D_MOST];
+    double later[D_MOST];           /* the delay of the last event, at which v became 0 [s] */
+} tangent;
+
+typedef struct cycles {
+    const ss_scene *scene;
+    const ss_steady_opts *opts;
+    const struct method *how;
+    ss_error *err;
+    ss_status status;                   /* that of the first failure, after which the walk stays where it is */
+    int autonomous;                     /* 1: there is no forcing */
+    walk w;
+    double n;                           /* cycles since the walk's t = 0 */
+    section unit;                       /* the units of differences */
+    double multiplier;                  /* the largest one of the period that Newton's method is near to;
+                                         * the error of its steps is that of a walk over 1 - this */
+} cycles;
+
+/* Begin at the scene's initial state, or if it is autonomous at its first onset of stick. */
+void ss_cycles_begin(cycles *c);
+/* Begin at a state at which a cycle begins. */
+void ss_cycles_begin_at(cycles *c, const motion *from);
+/* Let the engine, if it can, continue with errors that are small beside this distance, in units of
+ * c; 0: with errors within the tolerance.  Returns 1 if the errors are so small. */
+int ss_cycles_keep(cycles *c, double distance);
+/* Walk so many cycles, with a meter unless it is NULL.  SS_EDATA: an autonomous scene slides on
+ * without a stick. */
+void ss_cycles_go(cycles *c, int n, meter *r);
+/* The least number of cycles, at most `most`, after which the state returns to within tol of the
+ * present one; 0 if there is none. */
+int ss_cycles_return(cycles *c, int most, double tol);
+
+section ss_section_of(const motion *m);
+/* The largest of the three differences, in units of c.  One within rounding does not show a rate. */
+double ss_section_distance(const cycles *c, section a, section b);
+#define ROUNDING (64 * DBL_EPSILON)
+
+/* --- derivatives --------------------------------------------------------------------------- */
+
+/* The coordinates of a state at which a cycle begins or ends, and their units. */
+void ss_cycles_coordinates(const motion *m, double at[D_MOST]);
+void ss_cycles_units(const cycles *c, double unit[D_MOST]);
+/* Move the state by d.  Returns 0 if its mode does not allow this. */
+int ss_cycles_move(motion *m, const double d[D_MOST]);
+
+/* Walk so many cycles, and compute the derivative of the state at their end by the present state. */
+typedef enum derivative_use {
+    NEWTON, MULTIPLIERS                 /* these need more digits if there is no closed form */
+} derivative_use;
+void ss_cycles_derive(cycles *c, int n, derivative_use use, tangent *t);
+/* d = (I - t)^-1 r, computed in these units; 0 in a direction that t does not change. */
+void ss_tangent_solve(const tangent *t, const double unit[D_MOST], const double r[D_MOST], double d[D_MOST]);
+/* The moduli of the largest and of the second multiplier, and the argument of the largest, 0 ... pi;
+ * NaN if t is not finite.  SS_ENOMEM. */
+ss_status ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle);
+/* The largest Lyapunov exponent over so many further cycles, and its standard error; NaN if a cycle has no
+ * derivative. */
+void ss_cycles_exponent(cycles *c, unsigned long n, double *exponent, double *error);
+
+#endif
