@@ -465,22 +465,22 @@ truth_of(const record *r, const char *name, double *truth)
 }
 
 static void
-count(tally *t, const record *r, const char *name, ss_value got, const char *where)
+count(tally *t, const record *r, const char *name, double value, double error, const char *where)
 {
     double truth = NAN;
-    if (isnan(got.value) || !truth_of(r, name, &truth))
+    if (isnan(value) || !truth_of(r, name, &truth))
         return;
-    double off = fabs(got.value - truth) / got.error;
+    double off = fabs(value - truth) / error;
     if (strcmp(name, "slips") == 0)             /* one may be cut at either end */
-        off = fmax(0, fabs(got.value - truth) - 2) / fmax(got.error, 0.5);
+        off = fmax(0, fabs(value - truth) - 2) / fmax(error, 0.5);
     else if (strcmp(name, "slip_rate") == 0)
-        off = fmax(0, fabs(got.value - truth) - 2 * r->rate / (double)r->n) / got.error;
+        off = fmax(0, fabs(value - truth) - 2 * r->rate / (double)r->n) / error;
     t->numbers++;
     t->within += off <= 2;
     t->beyond += !(off <= 5);
     if (!(off <= 5) && where != NULL)
         fprintf(stderr, "%s\t%s %.9g +- %.3g\ttruth %.9g\toff %.3g\tsticks %.3g, samples %.3g a period, %zu rows\n",
-                where, name, got.value, got.error, truth, off, r->longest, r->rate / r->ring, r->n);
+                where, name, value, error, truth, off, r->longest, r->rate / r->ring, r->n);
 }
 
 static ss_signal *
@@ -529,14 +529,13 @@ read_record(tally *t, record *r, const sensor *by, const char *where)
         fprintf(stderr, "cover_identity: %s\n", err.text);
         exit(1);
     }
-    ss_summary summary;
-    ss_summary_fill(&summary, found, signal, 0, NULL);
     t->records++;
     int is_long = r->rig.is_elastic && r->longest >= 3;
     t->long_sticks += (size_t)is_long;
-    for (size_t i = 0; ss_summary_name(i) != NULL; i++) {
-        count(t, r, ss_summary_name(i), summary.number[i], where);
-        t->stiff += is_long && strcmp(ss_summary_name(i), "total_stiffness") == 0 && !isnan(summary.number[i].value);
+    for (int i = 0; i < SS_FEATURE_NUMBERS; i++) {
+        const ss_number *got = &found->number[i];
+        count(t, r, ss_feature_label((ss_feature)i)->name, got->value, got->error, where);
+        t->stiff += is_long && i == SS_TOTAL_STIFFNESS && !isnan(got->value);
     }
     ss_features_free(found);
     ss_signal_free(signal);
