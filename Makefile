@@ -80,7 +80,8 @@ PUBLISHED := $(sort $(wildcard data/catalogue/*.scene))
 SCENES  := $(PAPER) $(PUBLISHED)
 HEADERS := $(sort $(wildcard include/stickslip/*.h))
 EXAMPLES := $(sort $(wildcard tests/examples/*.c))
-MANUAL  := $(sort $(wildcard man/*.[1-9]))
+# stickslip(3) has the text of the headers.
+MANUAL  := $(filter-out man/stickslip.3,$(sort $(wildcard man/*.[1-9]))) $(BUILD)/stickslip.3
 TOOLS   := $(patsubst tools/%.c,%,$(sort $(wildcard tools/ss-*.c)))
 SCRIPTS := $(patsubst tools/%.sh,%,$(sort $(wildcard tools/ss-*.sh)))
 TESTS   := $(patsubst tests/%.c,%,$(sort $(wildcard tests/test_*.c)))
@@ -111,7 +112,7 @@ OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
 	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o $(BUILD)/tests/clock.o $(BUILD)/tests/rig.o \
 	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
 
-all: $(STATIC) $(BUILD)/$(SHARED) $(TOOLS:%=$(BUILD)/bin/%) $(SCRIPTS:%=$(BUILD)/bin/%)
+all: $(STATIC) $(BUILD)/$(SHARED) $(BUILD)/stickslip.3 $(TOOLS:%=$(BUILD)/bin/%) $(SCRIPTS:%=$(BUILD)/bin/%)
 
 $(BUILD)/%.o: %.c
 	@mkdir -p $(@D)
@@ -141,6 +142,10 @@ $(BUILD)/number_pow10.h: data/number_pow10.sh
 $(BUILD)/stickslip.map: data/version_script.sh include/stickslip.h $(HEADERS)
 	@mkdir -p $(@D)
 	sh data/version_script.sh include/stickslip.h $(CC) -Iinclude > $@.new && mv $@.new $@
+
+$(BUILD)/stickslip.3: data/manual_headers.sh man/stickslip.3 $(HEADERS)
+	@mkdir -p $(@D)
+	sh data/manual_headers.sh man/stickslip.3 $(HEADERS) > $@.new && mv $@.new $@
 
 $(STATIC): $(LIB_OBJ)
 	rm -f $@ && $(AR) rcs $@ $^
