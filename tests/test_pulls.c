@@ -156,8 +156,11 @@ set_truth(double truth[NUMBERS], const rig *r, const ss_scene *s)
 static void
 count_medians(coverage *c, const double truth[NUMBERS], const ss_features *f)
 {
-    const ss_median of[NUMBERS] = { f->slope, f->drop, f->duration, f->recurrence, f->stick,
-                                    f->static_friction, f->friction, f->k_over_m };
+    const ss_number of[NUMBERS] = { f->number[SS_LOADING_SLOPE], f->number[SS_DROP],
+                                    f->number[SS_DROP_DURATION], f->number[SS_RECURRENCE_TIME],
+                                        f->number[SS_STICK_TIME],
+                                    f->number[SS_STATIC_FRICTION], f->number[SS_FRICTION],
+                                        f->number[SS_K_OVER_M] };
     for (size_t k = 0; k < NUMBERS; k++)
         count(c, (ss_value){ of[k].value, of[k].error }, truth[k]);
 }
@@ -175,10 +178,10 @@ compare(coverage all[NUMBERS], coverage *medians, const rig *r, const ss_scene *
             count(&all[k], v[k], truth[k]);
     }
     count_medians(medians, truth, f);
-    if (!(fabs(f->slope.value / truth[SLOPE] - 1) <= .005))
-        fail_msg("slope %g, not %g", f->slope.value, truth[SLOPE]);
-    if (!(fabs(f->drop.value / truth[DROP] - 1) <= .005))
-        fail_msg("drop %g, not %g", f->drop.value, truth[DROP]);
+    if (!(fabs(f->number[SS_LOADING_SLOPE].value / truth[SLOPE] - 1) <= .005))
+        fail_msg("slope %g, not %g", f->number[SS_LOADING_SLOPE].value, truth[SLOPE]);
+    if (!(fabs(f->number[SS_DROP].value / truth[DROP] - 1) <= .005))
+        fail_msg("drop %g, not %g", f->number[SS_DROP].value, truth[DROP]);
 }
 
 /* Slips that end in the record and have a maximum found less than a slip from their onset; and how many
@@ -301,15 +304,18 @@ a_bent_recovery_leaves_its_slope_open(void **state)
         }
         ss_noise_add_once(x, signal->n, ss_noise_rms(x, signal->n, k % 2 ? 60 : 40), k + 1, NULL);
         assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
-        assert_int_equal((int)f->slips.value, CYCLES);
+        assert_int_equal((int)f->number[SS_SLIPS].value, CYCLES);
         if (bend < .5)
-            assert_true(fabs(f->slope.value - begin) <= 3 * f->slope.error
-                        && fabs(f->slope.value - end) <= 3 * f->slope.error && f->slope.error < .4);
+            assert_true(fabs(f->number[SS_LOADING_SLOPE].value - begin) <= 3 * f->number[SS_LOADING_SLOPE].error
+                        && fabs(f->number[SS_LOADING_SLOPE].value - end) <= 3
+                            * f->number[SS_LOADING_SLOPE].error && f->number[SS_LOADING_SLOPE].error < .4);
         else
-            assert_true(!(fabs(f->slope.value - begin) > 3 * f->slope.error));
+            assert_true(!(fabs(f->number[SS_LOADING_SLOPE].value - begin) > 3
+                          * f->number[SS_LOADING_SLOPE].error));
         if (bend > 2)
-            assert_true(isnan(f->slope.value) && isnan(f->slope.error) && isnan(f->stick.value)
-                        && f->why_slips != NULL);
+            assert_true(isnan(f->number[SS_LOADING_SLOPE].value)
+                        && isnan(f->number[SS_LOADING_SLOPE].error) && isnan(f->number[SS_STICK_TIME].value)
+                        && f->number[SS_SLIPS].why != NULL);
         ss_features_free(f);
         ss_signal_free(signal);
     }
@@ -333,10 +339,11 @@ an_upside_down_pull_has_events_but_no_friction(void **state)
                 t.signal->values[j] += (i % 2 ? 1 : -1) * 10 * scene.static_friction;
             ss_features *f = features_of(t.signal);
             match(&t, f, length_of_slip(r), &slips, &found, &wrong);
-            double slope = f->slope.value / (r->stiffness * r->speed), drop = f->drop.value / (2 * r->drop);
+            double slope = f->number[SS_LOADING_SLOPE].value / (r->stiffness * r->speed),
+                drop = f->number[SS_DROP].value / (2 * r->drop);
             if (!(fabs(slope - 1) <= (k == 0 ? .005 : .05) && fabs(drop - 1) <= (k == 0 ? .005 : .05)))
                 fail_msg("rig %zu, %g dB: slope %g, drop %g of the truth", i, snr[k], slope, drop);
-            assert_true(isnan(f->friction.value) && isnan(f->static_friction.value));
+            assert_true(isnan(f->number[SS_FRICTION].value) && isnan(f->number[SS_STATIC_FRICTION].value));
             ss_features_free(f);
             ss_signal_free(t.signal);
         }
@@ -361,9 +368,10 @@ slips_of_a_clipped_pull_are_not_known(void **state)
                 t.signal->values[j] = scene.friction + clips * .6 * r->drop;
         assert_int_equal(ss_features_find(&f, t.signal, 0, NULL, NULL), SS_OK);
         if (clips == 0)
-            assert_true(f->slips.value > 20);
+            assert_true(f->number[SS_SLIPS].value > 20);
         else
-            assert_true(isnan(f->slips.value) && isnan(f->slips.error) && f->why_slips != NULL
+            assert_true(isnan(f->number[SS_SLIPS].value) && isnan(f->number[SS_SLIPS].error)
+                        && f->number[SS_SLIPS].why != NULL
                         && f->loading == NULL);
         ss_features_free(f);
         ss_signal_free(t.signal);
@@ -387,10 +395,11 @@ a_pull_without_its_mean_does_not_reverse(void **state)
         for (size_t j = 0; j < t.n; j++)
             t.signal->values[j] -= mean;
         assert_int_equal(ss_features_find(&f, t.signal, 0, NULL, NULL), SS_OK);
-        assert_true(isnan(f->friction.value) && isnan(f->drop.value) && isnan(f->slope.value));
-        if (!isnan(f->slips.value)) {
+        assert_true(isnan(f->number[SS_FRICTION].value) && isnan(f->number[SS_DROP].value)
+                    && isnan(f->number[SS_LOADING_SLOPE].value));
+        if (!isnan(f->number[SS_SLIPS].value)) {
             known++;
-            assert_true(fabs(f->slips.value - (double)t.n_slips) <= 1);
+            assert_true(fabs(f->number[SS_SLIPS].value - (double)t.n_slips) <= 1);
         }
         ss_features_free(f);
         ss_signal_free(t.signal);
@@ -407,9 +416,11 @@ a_clean_pull_keeps_the_closed_form(void **state)
         ss_scene scene = scene_of(&rigs[i]);
         record t = record_of(&scene, 300, 1, 1);
         ss_features *f = features_of(t.signal);
-        const double got[] = { f->slope.value, f->drop.value, f->duration.value, f->recurrence.value,
-                               f->stick.value, f->static_friction.value, f->friction.value,
-                               f->k_over_m.value };
+        const double got[] = { f->number[SS_LOADING_SLOPE].value, f->number[SS_DROP].value,
+                               f->number[SS_DROP_DURATION].value, f->number[SS_RECURRENCE_TIME].value,
+                               f->number[SS_STICK_TIME].value, f->number[SS_STATIC_FRICTION].value,
+                                   f->number[SS_FRICTION].value,
+                               f->number[SS_K_OVER_M].value };
         const double period = length_of_slip(&rigs[i]) + length_of_stick(&rigs[i]);
         const double truth[] = { rigs[i].stiffness * rigs[i].speed, 2 * rigs[i].drop,
                                  length_of_middle(&rigs[i]), period, length_of_stick(&rigs[i]),
@@ -449,8 +460,10 @@ what_is_no_slip_has_no_friction(void **state)
         ss_noise_add_once(signal->values, N, run % 2 ? .003 : .015, 1, NULL);
         ss_features *f = features_of(signal);
         assert_int_equal(f->n, 20);
-        assert_true(run / 2 == 1 || fabs(f->slope.value - (double)RATE / RISE) <= 3 * f->slope.error);
-        assert_true(isnan(f->friction.value) && isnan(f->drop.value));
+        assert_true(run / 2 == 1
+                    || fabs(f->number[SS_LOADING_SLOPE].value - (double)RATE / RISE) <= 3
+                        * f->number[SS_LOADING_SLOPE].error);
+        assert_true(isnan(f->number[SS_FRICTION].value) && isnan(f->number[SS_DROP].value));
         for (size_t i = 0; i < f->n; i++)
             assert_true(isnan(f->loading[i].friction.value) && isnan(f->loading[i].k_over_m.value));
         ss_features_free(f);
@@ -487,7 +500,8 @@ slips_that_disagree_on_the_rig_leave_it_open(void **state)
     for (int apart = 0; apart < 2; apart++) {
         ss_signal *signal = slips_of_two_rigs(apart ? .2 : 0);
         ss_features *f = features_of(signal);
-        double off = fabs(f->k_over_m.value / (60 * 60) - 1), error = f->k_over_m.error / (60 * 60);
+        double off = fabs(f->number[SS_K_OVER_M].value / (60 * 60) - 1),
+            error = f->number[SS_K_OVER_M].error / (60 * 60);
         if (!(f->n >= 18 && off <= 3 * error && (apart ? error >= .3 : error <= .01)))
             fail_msg("%zu slips, k/m off by %g, error %g", f->n, off, error);
         ss_features_free(f);
@@ -514,7 +528,7 @@ what_falls_as_it_rises_does_not_slip(void **state)
         }
         ss_noise_add_once(signal->values, N, .003, 1, NULL);
         assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
-        assert_true(isnan(f->slips.value) && f->loading == NULL && f->why_slips != NULL);
+        assert_true(isnan(f->number[SS_SLIPS].value) && f->loading == NULL && f->number[SS_SLIPS].why != NULL);
         ss_features_free(f);
         ss_signal_free(signal);
     }
@@ -538,7 +552,7 @@ between(unsigned long long *seed, double lo, double hi)
 }
 
 static void
-count_fit(coverage *c, ss_median m, double truth)
+count_fit(coverage *c, ss_number m, double truth)
 {
     double errors = fabs(m.value - truth) / m.error;
     c->n++;
@@ -581,9 +595,9 @@ fits_of_pulls_cover(void **state)
             ss_pull *p = fit(t.signal, &s);
             if (p->verdict == SS_NAMED) {
                 named++;
-                count_fit(&c[0], p->features->static_friction, s.static_friction);
-                count_fit(&c[1], p->features->friction, s.friction);
-                count_fit(&c[2], p->features->k_over_m, s.stiffness / s.mass);
+                count_fit(&c[0], p->features->number[SS_STATIC_FRICTION], s.static_friction);
+                count_fit(&c[1], p->features->number[SS_FRICTION], s.friction);
+                count_fit(&c[2], p->features->number[SS_K_OVER_M], s.stiffness / s.mass);
                 assert_true(p->scene.stiffness == s.stiffness && ss_scene_check(&p->scene, NULL) == SS_OK);
                 assert_true(fabs(p->scene.mass / s.mass - 1) <= .2);
                 assert_true(fabs(p->scene.base_velocity / s.base_velocity - 1) <= .05);
@@ -798,8 +812,8 @@ glitches_make_no_longer_period(void **state)
         for (int k = (int)between(&seed, 1, 20); k > 0; k--)
             t.signal->values[(size_t)(draw(&seed) * (double)(t.n - 1))] += between(&seed, .3, 30) * r.drop;
         assert_int_equal(ss_features_find(&f, t.signal, 0, NULL, NULL), SS_OK);
-        known += isfinite(f->repetition_frequency.value);
-        single += f->repetition_frequency.value * period > .9;
+        known += isfinite(f->number[SS_REPETITION_FREQUENCY].value);
+        single += f->number[SS_REPETITION_FREQUENCY].value * period > .9;
         ss_features_free(f);
         ss_signal_free(t.signal);
     }

@@ -204,11 +204,12 @@ nothing_repeats_that_does_not(void **state)
             if (i % 2)
                 add_noise(rng, x, 0.01 * sqrt(power));
             ss_features *f = features_of(x);
-            double lag = RATE / f->repetition_frequency.value;
+            double lag = RATE / f->number[SS_REPETITION_FREQUENCY].value;
             double far = fmin(8, floor(N / lag / 4)) * lag;
             if (!isnan(lag) && !(correlation(x, lag) > 0.9 && correlation(x, far) > 0.5)) {
                 print_message("%s %lu: %g +- %g Hz, correlation %.3f and %.3f\n", kinds[k].name, i,
-                              f->repetition_frequency.value, f->repetition_frequency.error,
+                              f->number[SS_REPETITION_FREQUENCY].value,
+                                  f->number[SS_REPETITION_FREQUENCY].error,
                               correlation(x, lag), correlation(x, far));
                 wrong++;
             }
@@ -275,7 +276,7 @@ errors_cover(double (*fill)(gsl_rng *rng, double *x), const char *name, double s
         double truth = fill(rng, x);
         add_noise(rng, x, 0.3 * noise[i % 3]);
         ss_features *f = features_of(x);
-        ss_value v = f->repetition_frequency;
+        ss_number v = f->number[SS_REPETITION_FREQUENCY];
         if (!isnan(v.value)) {
             known++;
             within += fabs(v.value - truth) <= 2 * v.error;

@@ -74,18 +74,18 @@ reads_stiffness_and_damping(void **state)
         for (int k = 0; k < 3; k++)
             for (unsigned long seed = 1; seed <= (k > 0 ? SEEDS : 1); seed++) {
                 ss_features *f = features_of(&scene, level[k].snr, seed);
-                double K = f->total_stiffness.value / stiffness(&scene) - 1;
-                double z = f->damping_ratio.value / ratio(&scene) - 1;
+                double K = f->number[SS_TOTAL_STIFFNESS].value / stiffness(&scene) - 1;
+                double z = f->number[SS_DAMPING_RATIO].value / ratio(&scene) - 1;
                 if (!(fabs(K) <= level[k].stiffness && fabs(z) <= level[k].ratio))
                     fail_msg("%s at %g dB, seed %lu: stiffness off by %g, damping by %g",
                              names[i % 2], level[k].snr, seed, K, z);
-                assert_true(fabs(f->contact_stiffness.value + scene.stiffness
-                                 - f->total_stiffness.value) < 1e-6);
+                assert_true(fabs(f->number[SS_CONTACT_STIFFNESS].value + scene.stiffness
+                                 - f->number[SS_TOTAL_STIFFNESS].value) < 1e-6);
                 if (k == 0)     /* what is left is shared by all: within three of its errors */
-                    assert_true(fabs(K * stiffness(&scene)) <= 3 * f->total_stiffness.error
-                                && fabs(z * ratio(&scene)) <= 3 * f->damping_ratio.error);
-                assert_true(fabs(f->repetition_frequency.value - scene.base_frequency) < 0.01);
-                assert_true(fabs(f->slip_rate.value - 2 * scene.base_frequency) < 0.02);
+                    assert_true(fabs(K * stiffness(&scene)) <= 3 * f->number[SS_TOTAL_STIFFNESS].error
+                                && fabs(z * ratio(&scene)) <= 3 * f->number[SS_DAMPING_RATIO].error);
+                assert_true(fabs(f->number[SS_REPETITION_FREQUENCY].value - scene.base_frequency) < 0.01);
+                assert_true(fabs(f->number[SS_SLIP_RATE].value - 2 * scene.base_frequency) < 0.02);
                 ss_features_free(f);
             }
     }
@@ -103,8 +103,8 @@ reads_long_records_as_well(void **state)
         ss_scene scene = scene_of(run[i].name);
         scene.duration = 120;
         ss_features *f = features_of(&scene, level[run[i].level].snr, 1);
-        double K = f->total_stiffness.value / stiffness(&scene) - 1;
-        double z = f->damping_ratio.value / ratio(&scene) - 1;
+        double K = f->number[SS_TOTAL_STIFFNESS].value / stiffness(&scene) - 1;
+        double z = f->number[SS_DAMPING_RATIO].value / ratio(&scene) - 1;
         if (!(fabs(K) <= level[run[i].level].stiffness && fabs(z) <= level[run[i].level].ratio))
             fail_msg("%s: stiffness off by %g, damping by %g", run[i].name, K, z);
         assert_true(fabs((double)f->n - 600) <= 2);
@@ -126,8 +126,8 @@ reads_stiff_and_soft_contacts(void **state)
             scene.contact_stiffness = K_y[i];
             scene.contact_damping = damping[j] * 2 * sqrt(stiffness(&scene) * scene.mass);
             ss_features *f = features_of(&scene, 40, 1);
-            double K = f->total_stiffness.value / stiffness(&scene) - 1;
-            double z = f->damping_ratio.value / damping[j] - 1;
+            double K = f->number[SS_TOTAL_STIFFNESS].value / stiffness(&scene) - 1;
+            double z = f->number[SS_DAMPING_RATIO].value / damping[j] - 1;
             refused += isnan(K);
             if (fabs(K) > 5e-3 || fabs(z) > 0.05)       /* not a number: refused */
                 fail_msg("K_y %g, ratio %g: off by %g, %g", K_y[i], damping[j], K, z);
@@ -151,8 +151,9 @@ refuses_sticks_under_two_periods(void **state)
             scene.friction = row[i].friction;
             scene.contact_stiffness = row[i].K_y;
             ss_features *f = features_of(&scene, level[k].snr, 1);
-            if (!isnan(f->frequency.value) || !isnan(f->damping_ratio.value))
-                fail_msg("base %g Hz, K_y %g: %g Hz", row[i].base, row[i].K_y, f->frequency.value);
+            if (!isnan(f->number[SS_TRANSITION_FREQUENCY].value) || !isnan(f->number[SS_DAMPING_RATIO].value))
+                fail_msg("base %g Hz, K_y %g: %g Hz", row[i].base, row[i].K_y,
+                         f->number[SS_TRANSITION_FREQUENCY].value);
             for (size_t t = 0; t < f->n; t++)
                 assert_true(isnan(f->transition[t].frequency.value));
             ss_features_free(f);
@@ -174,7 +175,7 @@ compliant_contacts_have_local_maxima_and_others_not(void **state)
                 if (f->recurring < row[i].least || f->recurring > row[i].most)
                     fail_msg("%s at %g dB: %zu of %zu", row[i].name, level[k].snr, f->recurring,
                              f->n);
-                assert_true(isnan(f->frequency_raw.value) == (row[i].most == 0));
+                assert_true(isnan(f->number[SS_TRANSITION_FREQUENCY_RAW].value) == (row[i].most == 0));
                 if (f->n < 15 || f->n > 16)
                     fail_msg("%s at %g dB, seed %lu: %zu transitions", row[i].name, level[k].snr,
                              seed, f->n);
@@ -238,10 +239,11 @@ units_and_rates_do_not_matter(void **state)
     for (int i = 1; i < 3; i++) {
         ss_features *a = features_of(&scene, 40, 1);
         ss_features *b = features_in(&scene, 40, 1, unit[i], seconds[i]);
-        double f = a->frequency.value, g = b->frequency.value * seconds[i];
+        double f = a->number[SS_TRANSITION_FREQUENCY].value,
+            g = b->number[SS_TRANSITION_FREQUENCY].value * seconds[i];
         assert_int_equal(a->n, b->n);
         assert_true(fabs(g / f - 1) < 1e-9);
-        assert_true(fabs(b->damping_ratio.value / a->damping_ratio.value - 1) < 1e-6);
+        assert_true(fabs(b->number[SS_DAMPING_RATIO].value / a->number[SS_DAMPING_RATIO].value - 1) < 1e-6);
         ss_features_free(a);
         ss_features_free(b);
     }
@@ -266,9 +268,11 @@ finds_nothing_in_noise_silence_and_short_records(void **state)
             ss_features *f = NULL;
             assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
             assert_int_equal(f->n, 0);
-            assert_true(f->slips.value == 0);
-            assert_true(isnan(f->frequency.value) && isnan(f->frequency_raw.value)
-                        && isnan(f->repetition_frequency.value) && isnan(f->slip_rate.value));
+            assert_true(f->number[SS_SLIPS].value == 0);
+            assert_true(isnan(f->number[SS_TRANSITION_FREQUENCY].value)
+                        && isnan(f->number[SS_TRANSITION_FREQUENCY_RAW].value)
+                        && isnan(f->number[SS_REPETITION_FREQUENCY].value)
+                            && isnan(f->number[SS_SLIP_RATE].value));
             ss_features_free(f);
             ss_signal_free(signal);
         }
@@ -294,11 +298,13 @@ rings_beside_larger_jumps(void **state)
                                          * (k > 0 ? sin(phase) : cos(phase)));
         }
         assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
-        if (!(fabs(f->frequency.value - damped) <= 4 * f->frequency.error
-              && f->frequency.error < 1e-4 * damped
-              && fabs(f->damping_ratio.value - damping) <= 4 * f->damping_ratio.error
-              && f->damping_ratio.error < 1e-2 * damping))
-            fail_msg("%d: %g Hz, %g", k, f->frequency.value, f->damping_ratio.value);
+        if (!(fabs(f->number[SS_TRANSITION_FREQUENCY].value - damped) <= 4
+              * f->number[SS_TRANSITION_FREQUENCY].error
+              && f->number[SS_TRANSITION_FREQUENCY].error < 1e-4 * damped
+              && fabs(f->number[SS_DAMPING_RATIO].value - damping) <= 4 * f->number[SS_DAMPING_RATIO].error
+              && f->number[SS_DAMPING_RATIO].error < 1e-2 * damping))
+            fail_msg("%d: %g Hz, %g", k, f->number[SS_TRANSITION_FREQUENCY].value,
+                     f->number[SS_DAMPING_RATIO].value);
         assert_int_equal(f->n, 8000 / half);
         for (size_t i = 0; i < f->n; i++) {
             reversal += half;           /* the jump is between this sample and the one before */
@@ -350,8 +356,10 @@ the_ringing_of_a_filter_is_no_contact(void **state)
         filter_sharply(a, n, 0.2);
         ss_noise_add_once(a, n, ss_noise_rms(a, n, 60), 1 + (unsigned long)k, NULL);
         assert_int_equal(ss_features_find(&f, signal, column, NULL, NULL), SS_OK);
-        slips += isfinite(f->slip_rate.value);
-        assert_true(isnan(f->frequency.value) && isnan(f->damping_ratio.value) && f->why_ringing != NULL);
+        slips += isfinite(f->number[SS_SLIP_RATE].value);
+        assert_true(isnan(f->number[SS_TRANSITION_FREQUENCY].value)
+                    && isnan(f->number[SS_DAMPING_RATIO].value)
+                        && f->number[SS_TRANSITION_FREQUENCY].why != NULL);
         ss_features_free(f);
         ss_signal_free(signal);
     }
@@ -402,11 +410,11 @@ no_slip_rate_where_repetitions_have_no_transition(void **state)
             signal->values[i] += height + sin(2 * M_PI * (double)i / 200);
         }
         assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
-        assert_true(all || fabs(f->repetition_frequency.value - 5) < 0.01);
+        assert_true(all || fabs(f->number[SS_REPETITION_FREQUENCY].value - 5) < 0.01);
         if (all)
-            assert_true(fabs(f->slip_rate.value - 5) < 0.02);
+            assert_true(fabs(f->number[SS_SLIP_RATE].value - 5) < 0.02);
         else
-            assert_true(f->n == 11 && isnan(f->slip_rate.value));
+            assert_true(f->n == 11 && isnan(f->number[SS_SLIP_RATE].value));
         ss_features_free(f);
         ss_signal_free(signal);
     }
@@ -423,7 +431,7 @@ the_forcing_is_no_harmonic(void **state)
         signal->values[i] += 0.1 * sin(p) + sin(3 * p) + 0.3 * cos(5 * p);
     }
     assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
-    assert_true(fabs(f->repetition_frequency.value - 2.3) < 0.005);
+    assert_true(fabs(f->number[SS_REPETITION_FREQUENCY].value - 2.3) < 0.005);
     ss_features_free(f);
     ss_signal_free(signal);
 }
@@ -444,8 +452,9 @@ reads_the_slope_of_force_over_displacement(void **state)
         assert_int_equal(ss_features_find(&f, signal, (size_t)ss_header_column(signal->head, "a"),
                                           &opts, NULL), SS_OK);
         double z = ratio(&scene);
-        assert_true(fabs(f->contact_slope.value / scene.contact_stiffness - 1) < 2 * z * z + 1e-4);
-        assert_true(isnan(f->total_stiffness.value));               /* no mass given */
+        assert_true(fabs(f->number[SS_CONTACT_STIFFNESS_SLOPE].value / scene.contact_stiffness - 1) < 2 * z
+                    * z + 1e-4);
+        assert_true(isnan(f->number[SS_TOTAL_STIFFNESS].value));               /* no mass given */
         ss_features_free(f);
         ss_signal_free(signal);
     }
@@ -550,11 +559,13 @@ check_gap(const ss_signal *signal, size_t column, const ss_features *whole, int 
     /* a gap makes no maximum prominent, nor moves what is fitted to the rest */
     if (!rings && f->recurring > 0)
         fail_msg("%s: %zu local maxima", what, f->recurring);
-    if (rings && !(fabs(f->frequency.value - whole->frequency.value)
-                   <= 2 * hypot(whole->frequency.error, f->frequency.error)))
-        fail_msg("%s: %.9g Hz, not %.9g", what, f->frequency.value, whole->frequency.value);
-    if (!(fabs(f->slip_rate.value - whole->slip_rate.value) <= 0.01))
-        fail_msg("%s: %g slips a second", what, f->slip_rate.value);
+    if (rings && !(fabs(f->number[SS_TRANSITION_FREQUENCY].value - whole->number[SS_TRANSITION_FREQUENCY].value)
+                   <= 2 * hypot(whole->number[SS_TRANSITION_FREQUENCY].error,
+                                f->number[SS_TRANSITION_FREQUENCY].error)))
+        fail_msg("%s: %.9g Hz, not %.9g", what, f->number[SS_TRANSITION_FREQUENCY].value,
+                 whole->number[SS_TRANSITION_FREQUENCY].value);
+    if (!(fabs(f->number[SS_SLIP_RATE].value - whole->number[SS_SLIP_RATE].value) <= 0.01))
+        fail_msg("%s: %g slips a second", what, f->number[SS_SLIP_RATE].value);
     ss_features_free(f);
     ss_signal_free(with);
 }

@@ -150,7 +150,7 @@ print_value(const char *format, double x)
 }
 
 static void
-print_row(const char *name, const char *format, double words, double raw, ss_value fitted,
+print_row(const char *name, const char *format, double words, double raw, ss_number fitted,
           double truth)
 {
     printf("  %-22s", name);
@@ -187,11 +187,12 @@ print_contact(const char *path, const char *name, const char *column_name)
     tool_check(ss_features_find(&f, signal, (size_t)column, &opts, &err), &err);
     printf("  transitions: %zu, with a local maximum %zu\n", f->n, f->recurring);
     printf("  %-22s %10s %10s %10s %10s %10s\n", "", "paper", "raw", "fitted", "+-", "simulated");
-    print_row("frequency / Hz", " %10.3f", said ? 45 : NAN, f->frequency_raw.value, f->frequency,
+    print_row("frequency / Hz", " %10.3f", said ? 45 : NAN, f->number[SS_TRANSITION_FREQUENCY_RAW].value,
+              f->number[SS_TRANSITION_FREQUENCY],
               sqrt(K / m - c * c / (4 * m * m)) / (2 * M_PI));
-    print_row("damping ratio", " %10.5f", NAN, NAN, f->damping_ratio, c / (2 * sqrt(K * m)));
-    print_row("total stiffness / N/m", " %10.0f", said ? 193500 : NAN, f->total_stiffness_raw.value,
-              f->total_stiffness, K);
+    print_row("damping ratio", " %10.5f", NAN, NAN, f->number[SS_DAMPING_RATIO], c / (2 * sqrt(K * m)));
+    print_row("total stiffness / N/m", " %10.0f", said ? 193500 : NAN, f->number[SS_TOTAL_STIFFNESS_RAW].value,
+              f->number[SS_TOTAL_STIFFNESS], K);
     ss_features_free(f);
     ss_signal_free(signal);
 }

@@ -68,9 +68,9 @@ find_features(const request *req, const char *path)
         tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
     tool_note("noise of rms %.3g, local maxima: %zu, spikes: %zu, %s", f.features->noise,
               f.features->n_maxima, f.features->spikes->n, ss_spikes_verdict(f.features->spikes));
-    if (f.opts.stiffness > f.features->total_stiffness.value)
+    if (f.opts.stiffness > f.features->number[SS_TOTAL_STIFFNESS].value)
         tool_warn("the oscillation's stiffness with --mass, %.4g N/m, is below --stiffness: it "
-                  "leaves none to the contact", f.features->total_stiffness.value);
+                  "leaves none to the contact", f.features->number[SS_TOTAL_STIFFNESS].value);
     return f;
 }
 

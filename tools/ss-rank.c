@@ -227,7 +227,7 @@ fit_contact(const job *j, const ss_signal *signal, size_t column, const ss_scene
 
 /* Write a median, and beside it the value of the given scene, unless that is NaN. */
 static void
-write_median(FILE *out, const char *what, ss_median m, const char *unit, double given)
+write_median(FILE *out, const char *what, ss_number m, const char *unit, double given)
 {
     char nominal[64] = "";
     double off = 100 * (m.value / given - 1);
@@ -238,7 +238,7 @@ write_median(FILE *out, const char *what, ss_median m, const char *unit, double 
 }
 
 static void
-warn_of_rig(const char *what, ss_median m, double given, double spread)
+warn_of_rig(const char *what, ss_number m, double given, double spread)
 {
     if (fabs(m.value / given - 1) > spread)
         tool_warn("%s of the slips is %.2g times that of the given scene", what, m.value / given);
@@ -267,11 +267,11 @@ write_slips(FILE *out, const ss_pull *p, const ss_signal *signal, double k_over_
             "# deviation of the slips; the stiffness is that given, mass and speed follow.\n"
             "# Left of the power of the falls: %.3g %%, %.3g times the noise.\n",
             p->n_slips, f->n, 100 * p->left, p->excess);
-    write_median(out, "static_friction", f->static_friction, "N", NAN);
-    write_median(out, "friction", f->friction, "N", NAN);
-    write_median(out, "drop", f->drop, "N", NAN);
-    write_median(out, "k/m", f->k_over_m, "1/s^2", k_over_m);
-    write_median(out, "loading", f->slope, "N/s", loading);
+    write_median(out, "static_friction", f->number[SS_STATIC_FRICTION], "N", NAN);
+    write_median(out, "friction", f->number[SS_FRICTION], "N", NAN);
+    write_median(out, "drop", f->number[SS_DROP], "N", NAN);
+    write_median(out, "k/m", f->number[SS_K_OVER_M], "1/s^2", k_over_m);
+    write_median(out, "loading", f->number[SS_LOADING_SLOPE], "N/s", loading);
     write_events(out, f, signal->head->start);
 }
 
@@ -297,8 +297,8 @@ static void
 warn_of_pull(const ss_pull *p, double k_over_m, double loading, double spread)
 {
     if (p->n_keys == 0) {
-        warn_of_rig("k/m", p->features->k_over_m, k_over_m, spread);
-        warn_of_rig("loading", p->features->slope, loading, spread);
+        warn_of_rig("k/m", p->features->number[SS_K_OVER_M], k_over_m, spread);
+        warn_of_rig("loading", p->features->number[SS_LOADING_SLOPE], loading, spread);
     }
     for (size_t i = 0; i < p->n_keys; i++)
         if (fabs(p->key[i].found.value / p->key[i].given - 1) > spread)

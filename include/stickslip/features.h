@@ -69,44 +69,45 @@ typedef struct ss_loading {
                                    that of their deviations from their mean [unit^2] */
 } ss_loading;
 
-/* The median of many values and its standard error.  scatter is the standard deviation of the
- * values, estimated by their median deviation.  error is that of the scatter, or of the errors of
- * the values if these are larger; that of k_over_m has the part of the scatter in it that these errors
- * do not explain, too.  The errors of slips have in them what the fits of all slips leave alike. */
-typedef struct ss_median {
-    double value, error, scatter;
-} ss_median;
-
 /* --- the numbers that a recording has as a whole ---------------------------------------------------- */
 
-/* Their list: number(NAME, name, unit, about, needs).
+/* The events that numbers are medians of are falls or reversals of a force.  Of reversals, the friction is half of
+ * the step from one to the next, and the loading stiffness is this step over the displacement.  The error of a
+ * median is that of the scatter, or of the errors of the events if these are larger; that of k_over_m (stiffness
+ * over mass) has the part of the scatter in it that these errors do not explain, too.  The errors of falls have in
+ * them what the fits of all falls leave alike.  The error of slips, if known, counts those near the height that
+ * makes a fall.  transition_frequency_raw is the label of the local maxima, as the paper reads it, and
+ * transition_frequency that of the damped oscillation, one for all transitions.  contact_stiffness needs mass and
+ * stiffness, contact_damping the mass; contact_stiffness_slope is |df/dx| in the stick.
+ *
+ * Their list: number(NAME, name, unit, about, needs, by).
  * name: of its note.  unit: "" if it has none; NULL if it contains the unit of the column.
  * about: the note about_ABOUT says why numbers of this kind are not known, or how they were found.
- * needs: the recordings and options for which it is written (internal). */
+ * needs: the recordings and options for which it is written; by: the function that finds it (both internal). */
 #define SS_FEATURE_NUMBER_LIST(number) \
-    number(SS_TRANSITIONS,              "transitions",              "",      "slips",      0) \
-    number(SS_SLIPS,                    "slips",                    "",      "slips",      0) \
-    number(SS_SLIP_RATE,                "slip_rate",                "1/s",   "slips",      0) \
-    number(SS_LOADING_SLOPE,            "loading_slope",            NULL,    "slips",      OF_FALLS) \
-    number(SS_LOADING_STIFFNESS,        "loading_stiffness",        NULL,    "slips",      OF_EVENTS | DISPLACEMENT) \
-    number(SS_DROP,                     "drop",                     NULL,    "slips",      OF_FALLS) \
-    number(SS_DROP_DURATION,            "drop_duration",            "s",     "slips",      OF_FALLS) \
-    number(SS_RECURRENCE_TIME,          "recurrence_time",          "s",     "slips",      OF_FALLS) \
-    number(SS_STICK_TIME,               "stick_time",               "s",     "slips",      OF_FALLS) \
-    number(SS_STATIC_FRICTION,          "static_friction",          NULL,    "slips",      OF_FALLS) \
-    number(SS_FRICTION,                 "friction",                 NULL,    "slips",      OF_EVENTS) \
-    number(SS_K_OVER_M,                 "k_over_m",                 "1/s^2", "slips",      OF_FALLS) \
-    number(SS_REPETITION_FREQUENCY,     "repetition_frequency",     "Hz",    "repetition", 0) \
-    number(SS_TRANSITION_FREQUENCY_RAW, "transition_frequency_raw", "Hz",    "ringing",    0) \
-    number(SS_TRANSITION_FREQUENCY,     "transition_frequency",     "Hz",    "ringing",    0) \
-    number(SS_DAMPING_RATIO,            "damping_ratio",            "",      "ringing",    0) \
-    number(SS_TOTAL_STIFFNESS_RAW,      "total_stiffness_raw",      "N/m",   "ringing",    MASS) \
-    number(SS_TOTAL_STIFFNESS,          "total_stiffness",          "N/m",   "ringing",    MASS) \
-    number(SS_CONTACT_STIFFNESS,        "contact_stiffness",        "N/m",   "ringing",    MASS) \
-    number(SS_CONTACT_DAMPING,          "contact_damping",          "N s/m", "ringing",    MASS) \
-    number(SS_CONTACT_STIFFNESS_SLOPE,  "contact_stiffness_slope",  "N/m",   "ringing",    DISPLACEMENT | FORCE)
+    number(SS_TRANSITIONS,              "transitions",              "",      "slips",      0,                  by_search) \
+    number(SS_SLIPS,                    "slips",                    "",      "slips",      0,                  by_search) \
+    number(SS_SLIP_RATE,                "slip_rate",                "1/s",   "slips",      0,                  by_search) \
+    number(SS_LOADING_SLOPE,            "loading_slope",            NULL,    "slips",      OF_FALLS,           by_search) \
+    number(SS_LOADING_STIFFNESS,        "loading_stiffness",        NULL,    "slips",      OF_EVENTS | WITH_X, by_search) \
+    number(SS_DROP,                     "drop",                     NULL,    "slips",      OF_FALLS,           by_search) \
+    number(SS_DROP_DURATION,            "drop_duration",            "s",     "slips",      OF_FALLS,           by_search) \
+    number(SS_RECURRENCE_TIME,          "recurrence_time",          "s",     "slips",      OF_FALLS,           by_search) \
+    number(SS_STICK_TIME,               "stick_time",               "s",     "slips",      OF_FALLS,           by_search) \
+    number(SS_STATIC_FRICTION,          "static_friction",          NULL,    "slips",      OF_FALLS,           by_search) \
+    number(SS_FRICTION,                 "friction",                 NULL,    "slips",      OF_EVENTS,          by_search) \
+    number(SS_K_OVER_M,                 "k_over_m",                 "1/s^2", "slips",      OF_FALLS,           by_search) \
+    number(SS_REPETITION_FREQUENCY,     "repetition_frequency",     "Hz",    "repetition", 0,                  by_search) \
+    number(SS_TRANSITION_FREQUENCY_RAW, "transition_frequency_raw", "Hz",    "ringing",    0,                  by_search) \
+    number(SS_TRANSITION_FREQUENCY,     "transition_frequency",     "Hz",    "ringing",    0,                  by_search) \
+    number(SS_DAMPING_RATIO,            "damping_ratio",            "",      "ringing",    0,                  by_search) \
+    number(SS_TOTAL_STIFFNESS_RAW,      "total_stiffness_raw",      "N/m",   "ringing",    WITH_MASS,          ss_find_stiffness_raw) \
+    number(SS_TOTAL_STIFFNESS,          "total_stiffness",          "N/m",   "ringing",    WITH_MASS,          ss_find_stiffness) \
+    number(SS_CONTACT_STIFFNESS,        "contact_stiffness",        "N/m",   "ringing",    WITH_MASS,          ss_find_contact_stiffness) \
+    number(SS_CONTACT_DAMPING,          "contact_damping",          "N s/m", "ringing",    WITH_MASS,          ss_find_contact_damping) \
+    number(SS_CONTACT_STIFFNESS_SLOPE,  "contact_stiffness_slope",  "N/m",   "ringing",    WITH_X | WITH_F,    ss_find_contact_slope)
 
-#define SS_FEATURE_ENUMERATOR(NAME, name, unit, about, needs) NAME,
+#define SS_FEATURE_ENUMERATOR(NAME, name, unit, about, needs, by) NAME,
 typedef enum ss_feature { SS_FEATURE_NUMBER_LIST(SS_FEATURE_ENUMERATOR) SS_FEATURE_NUMBERS } ss_feature;
 #undef SS_FEATURE_ENUMERATOR
 
@@ -117,31 +118,14 @@ typedef struct ss_features {
     size_t n;
     ss_transition *transition;  /* in time order */
     ss_loading *loading;        /* one for each transition if these are falls of a force; else NULL */
-    ss_median slope, stiffness, drop, duration, recurrence, stick;  /* of the loadings; NaN: not known */
-    ss_median static_friction, friction, k_over_m;
-    int reverses;               /* 1: transitions are reversals of a force; friction is half of its step
-                                   from one to the next, stiffness is this step over the displacement */
+    int reverses;               /* 1: transitions are reversals of a force */
     size_t n_maxima;
     ss_maximum *maximum;        /* all local maxima above the threshold, in time order */
     ss_spikes *spikes;          /* of the whole record; they have no meaning unless conclusive */
     double noise;               /* rms of white noise that would explain |W| at the shortest scales */
     size_t recurring;           /* the number of transitions that have a local maximum */
 
-    ss_value slips;             /* macroscopic slips that begin in the record; the error, if known, counts
-                                   those near the height that makes a fall */
-    ss_value slip_rate;         /* [1/s] */
-    ss_value repetition_frequency;      /* [Hz] at which the signal repeats itself */
-    const char *why_slips, *why_ringing;        /* constant texts: why the slips or the oscillation are not
-                                   known, or how they were found; NULL: nothing to say */
-    const char *why_repetition; /* constant text: why the repetition is not known; else NULL */
-    ss_value frequency_raw;     /* [Hz] the label of the local maxima, as the paper reads it */
-    ss_value frequency;         /* [Hz] of the damped oscillation, one for all transitions */
-    ss_value damping_ratio;
-    ss_value total_stiffness_raw, total_stiffness;      /* [N/m] with a mass */
-    ss_value contact_stiffness, contact_damping;        /* [N/m, N s/m] with mass and stiffness; the
-                                                           damping needs the mass only */
-    ss_value contact_slope;     /* [N/m] |df/dx| in the stick, with columns of force and displacement */
-    ss_number number[SS_FEATURE_NUMBERS];
+    ss_number number[SS_FEATURE_NUMBERS];       /* by ss_feature */
 } ss_features;
 
 typedef struct ss_features_opts {
@@ -150,7 +134,7 @@ typedef struct ss_features_opts {
     double mass, stiffness;     /* m [kg], k [N/m]; 0: not known */
     double drop;                /* > 0: transitions are the falls by more than this (ss_drops_find) */
     double fmin;                /* [Hz] the lowest frequency of the map; 0: the lowest usable one */
-    int displacement, force;    /* columns for contact_slope; -1: there is none */
+    int displacement, force;    /* columns for contact_stiffness_slope; -1: there is none */
     int threads;                /* 1 ... SS_THREADS_MAX */
     ss_progress progress;
 } ss_features_opts;

@@ -174,7 +174,7 @@ typedef struct ss_pull {
     int explains;               /* 1: the residual is noise; 0: the friction is not that of the scene */
     double noise;               /* power of the noise over that of the record, at most */
     ss_features *features;      /* its loadings are the slips [N], their medians the scene's numbers */
-    ss_median static_friction, friction;        /* [N] of the slips */
+    ss_number static_friction, friction;        /* [N] of the slips */
     size_t n_keys;              /* 0: the model is Coulomb's without damping, all is in features */
     ss_fitted key[SS_FIT_KEYS];     /* what all slips have in common */
 } ss_pull;

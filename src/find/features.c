@@ -11,7 +11,6 @@
 #include "find/scale_rows.h"
 #include "find/search.h"
 #include "signal/gaps.h"
-#include "find/slope.h"
 
 const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displacement = -1,
                                                 .force = -1, .threads = 1 };
@@ -78,51 +77,6 @@ keep_prominent(search *s)
         if (s->found[i].prominence >= s->opts->threshold)
             s->out->maximum[s->out->n_maxima++] = s->found[i];
     return SS_OK;
-}
-
-/* --- stiffness and damping ----------------------------------------------------------------- */
-
-/* K = m r^2 and c = 2 m s with r = hypot(omega, s).  Their errors follow from those of frequency and ratio as
- * if these were independent. */
-static void
-find_stiffness(ss_features *out, double m, double k)
-{
-    if (!(m > 0))
-        return;
-    double raw = 2 * M_PI * out->frequency_raw.value, f = out->frequency.value;
-    double z = out->damping_ratio.value, dz = out->damping_ratio.error, df = out->frequency.error;
-    double q = 1 - z * z, r = 2 * M_PI * f / sqrt(q), total = m * r * r;
-    out->total_stiffness_raw = (ss_value){ m * raw * raw, 2 * m * raw * raw
-                                         * out->frequency_raw.error / out->frequency_raw.value };
-    out->total_stiffness = (ss_value){ total, total * hypot(2 * df / f, 2 * z * dz / q) };
-    out->contact_damping = (ss_value){ 2 * m * r * z,
-                                       2 * m * r * hypot(z * df / f, dz / q) };
-    if (k > 0 && total > k)
-        out->contact_stiffness = (ss_value){ total - k, out->total_stiffness.error };
-}
-
-/* Find the contact's stiffness from force and displacement, over the spans in which oscillations are fitted. */
-static ss_status
-find_slope(search *s)
-{
-    ss_features *out = s->out;
-    const double *values = s->signal->values;
-    size_t x = (size_t)s->opts->displacement, f = (size_t)s->opts->force, n = 0;
-    if (s->opts->displacement < 0 || s->opts->force < 0)
-        return SS_OK;
-    if (out->reverses && isfinite(out->friction.value))     /* the stiffness is found from its loading */
-        return SS_OK;
-    ss_window *span = malloc((out->n + 1) * sizeof *span);
-    if (span == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < out->n; i++)
-        if (!isnan(out->transition[i].from))
-            span[n++] = (ss_window){ (size_t)(out->transition[i].from * s->rate + 0.5),
-                                   (size_t)(out->transition[i].to * s->rate + 0.5) };
-    ss_status st = ss_slope_find(values + f * s->n, values + x * s->n, s->x, span, n,
-                                 &out->contact_slope);
-    free(span);
-    return st;
 }
 
 /* --- all of it ----------------------------------------------------------------------------- */
@@ -192,15 +146,15 @@ find_repetition(search *s)
 {
     ss_features *out = s->out;
     ss_status st = ss_cycles_find(s->x, s->n, &s->cycles);
-    out->why_repetition = s->cycles.why;
+    out->number[SS_REPETITION_FREQUENCY].why = s->cycles.why;
     if (st != SS_OK || s->cycles.why != NULL)
         return st;
     if (!(s->cycles.likeness >= CYCLES_LIKE))
-        out->why_repetition = "a cycle does not resemble the next one enough";
+        say(out, SS_REPETITION_FREQUENCY, "a cycle does not resemble the next one enough");
     else if (!(s->cycles.lasting >= CYCLES_LAST))
-        out->why_repetition = "cycles resemble the next one, but not those some cycles later";
+        say(out, SS_REPETITION_FREQUENCY, "cycles resemble the next one, but not those some cycles later");
     else
-        out->repetition_frequency = cycle_rate(s);
+        know(out, SS_REPETITION_FREQUENCY, cycle_rate(s));
     return SS_OK;
 }
 
@@ -213,7 +167,8 @@ find_before_map(search *s)
         return st;
     st = ss_row_source_init(s->rows, s->x, s->n, s->rate, ss_spike_defaults.precision, s->gap, s->n_gaps,
                             NULL);
-    s->rows->keeps_heads = isnan(s->out->repetition_frequency.value);   /* single events may be sought */
+    s->rows->keeps_heads =
+        isnan(s->out->number[SS_REPETITION_FREQUENCY].value);   /* single events may be sought */
     return st == SS_OK ? ss_spikes_in(&s->out->spikes, s->rows, &ss_spike_defaults, NULL) : st;
 }
 
@@ -226,8 +181,7 @@ find_with_map(search *s)
     if ((st = ss_transitions_find(s)) != SS_OK || (st = report_progress(s, FITTED)) != SS_OK)
         return st;
     ss_slip_rate_find(s);
-    find_stiffness(s->out, s->opts->mass, s->opts->stiffness);
-    return find_slope(s);
+    return ss_numbers_find(s);
 }
 
 static ss_status
@@ -269,12 +223,10 @@ normalised(const double *x, size_t n, double *largest)
 static void
 forget_all(ss_features *out)
 {
-    out->slips = (ss_value){ 0, NAN };
-    out->slip_rate = out->repetition_frequency = out->frequency_raw = out->frequency = out->damping_ratio
-        = out->total_stiffness_raw = out->total_stiffness = out->contact_stiffness = out->contact_damping
-        = out->contact_slope = unknown;
-    ss_loadings_forget(out);
-    out->why_ringing = "the recording is too short";
+    for (int k = 0; k < SS_FEATURE_NUMBERS; k++)
+        out->number[k] = no_number;
+    out->number[SS_SLIPS].value = 0;
+    say(out, SS_TRANSITION_FREQUENCY, "the recording is too short");
 }
 
 /* Find the features of the samples x of a column.  *cleaned, unless cleaned is NULL, becomes these samples
@@ -343,7 +295,7 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
         free(cleaned);
     }
     if (st == SS_OK) {
-        ss_numbers_fill(found);
+        found->number[SS_TRANSITIONS].value = (double)found->n;
         *out = found;
     }
     return st;

@@ -12,7 +12,7 @@ enum { CYCLES = 3, FEWEST = 4 };        /* copies of the mean cycle; fewest cycl
 ss_status
 ss_fold_spikes(const search *s, ss_spikes **out, double *period)
 {
-    double samples = s->rate / s->out->repetition_frequency.value;      /* NaN if nothing repeats */
+    double samples = s->rate / s->out->number[SS_REPETITION_FREQUENCY].value;      /* NaN if nothing repeats */
     *out = NULL;
     *period = samples / s->rate;
     if (!(samples * (CYCLES + FEWEST) <= (double)s->n))

@@ -124,9 +124,9 @@ find_falls(search *s, const double *x, double height, double reload, int named, 
     if (*decided && quicker < 0 && !s->has_offset)
         s->has_offset = 1;
     else if (*decided && s->opts->drop == 0 && is_clipped(x, s->n))
-        s->out->why_slips = "the force is clipped: it stands still at its largest or least value";
+        say(s->out, SS_SLIPS, "the force is clipped: it stands still at its largest or least value");
     else if (*decided && quicker <= 0)
-        s->out->why_slips = "the force falls no quicker than it rises";
+        say(s->out, SS_SLIPS, "the force falls no quicker than it rises");
     else if (*decided && (st = set_falls(s, drop, n)) == SS_OK)
         st = ss_loading_find(s, x, drop, n);
     free(y);
@@ -145,7 +145,7 @@ find_typical_falls(search *s, double *x, int *decided)
     if (st != SS_OK || typical.height == 0) {
         *decided = st == SS_OK && named;
         if (*decided)
-            s->out->why_slips = "the falls of the force have no typical height above its noise";
+            say(s->out, SS_SLIPS, "the falls of the force have no typical height above its noise");
         return st;
     }
     int had_offset = s->has_offset;
@@ -156,7 +156,7 @@ find_typical_falls(search *s, double *x, int *decided)
         return find_typical_falls(s, x, decided);
     }
     if (st == SS_OK && *decided)
-        s->out->slips.error = 0.5 * fabs((double)typical.more - (double)typical.less);
+        s->out->number[SS_SLIPS].error = 0.5 * fabs((double)typical.more - (double)typical.less);
     return st;
 }
 
@@ -232,7 +232,7 @@ find_by_itself(search *s, double *x, int *decided)
     *decided = 1;
     if (isnan(s->cycles.period.value)
         || s->cycles.likeness < CYCLES_LIKE || s->cycles.symmetry > -CYCLES_ALIKE) {
-        s->out->why_slips = "the force changes its sign, but not in mirrored half-cycles that repeat";
+        say(s->out, SS_SLIPS, "the force changes its sign, but not in mirrored half-cycles that repeat");
         return SS_OK;
     }
     double middle = 0.5 * (quantile(s->x, s->n, OUTLIERS, x) + quantile(s->x, s->n, 1 - OUTLIERS, x));

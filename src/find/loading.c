@@ -313,7 +313,8 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
         for (size_t i = 0; i < n; i++)
             v[i] = isfinite(out->loading[i].stick.value)
                 ? times(difference(f[i].slip.onset, f[i - 1].slip.end), 1 / s->rate) : unknown;
-        out->stick.error = hypot(out->stick.error, ss_median_of(v, n, scratch).value - out->stick.value);
+        ss_number *stick = &out->number[SS_STICK_TIME];
+        stick->error = hypot(stick->error, ss_median_of(v, n, scratch).value - stick->value);
     }
     free(f);
     free(v);

@@ -25,7 +25,7 @@ median_error(size_t *known, const ss_value *v, size_t n, double *scratch)
     return *known > 0 ? gsl_stats_median(scratch, 1, *known) : 0;
 }
 
-ss_median
+ss_number
 ss_median_of(const ss_value *v, size_t n, double *scratch)
 {
     size_t used = 0, known;
@@ -33,25 +33,25 @@ ss_median_of(const ss_value *v, size_t n, double *scratch)
         if (isfinite(v[i].value))
             scratch[used++] = v[i].value;
     if (used < 2)
-        return (ss_median){ used > 0 ? scratch[0] : NAN, NAN, NAN };
+        return (ss_number){ used > 0 ? scratch[0] : NAN, NAN, NAN, NULL };
     double median = gsl_stats_median(scratch, 1, used);
     for (size_t i = 0; i < used; i++)
         scratch[i] = fabs(scratch[i] - median);
     double scatter = gsl_stats_median(scratch, 1, used) / GAUSS_MEDIAN;
     double error = median_error(&known, v, n, scratch);
     double common = sqrt(fmax(0, error * error - scatter * scatter));
-    return (ss_median){ median, hypot(sqrt(M_PI / 2 / (double)used) * scatter, common), scatter };
+    return (ss_number){ median, hypot(sqrt(M_PI / 2 / (double)used) * scatter, common), scatter, NULL };
 }
 
 /* The median of one number of all loadings, which is offset bytes behind their starts; `common` is the part
  * of the variance of each that all share. */
-static ss_median
+static ss_number
 median_over(const ss_features *out, size_t offset, double common, ss_value *v, double *scratch)
 {
     size_t known;
     for (size_t i = 0; i < out->n; i++)
         memcpy(&v[i], (const char *)&out->loading[i] + offset, sizeof *v);
-    ss_median m = ss_median_of(v, out->n, scratch);
+    ss_number m = ss_median_of(v, out->n, scratch);
     if (common > 0 && isfinite(m.error))
         m.error = fmax(m.error, sqrt(common) * median_error(&known, v, out->n, scratch));
     return m;
@@ -61,7 +61,7 @@ median_over(const ss_features *out, size_t offset, double common, ss_value *v, d
  * by more than their errors, at three standard deviations, they are not quite slips of the model: a misfit
  * may shift all of them alike, which their scatter does not show. */
 static void
-add_misfit(ss_median *k_over_m, double common, const ss_value *v, size_t n, double *scratch)
+add_misfit(ss_number *k_over_m, double common, const ss_value *v, size_t n, double *scratch)
 {
     size_t known;
     double error = sqrt(1 - common) * median_error(&known, v, n, scratch), scatter = k_over_m->scatter;
@@ -81,21 +81,21 @@ ss_loading_medians(ss_features *out, const ss_drop *drop, double common, ss_valu
     int is_typical = 2 * slips >= out->n;
     int is_short = out->n > 1 && falling <= SHORT * (drop[out->n - 1].end - drop[0].t);
     if (is_typical || is_short) {
-        out->slope = median_over(out, offsetof(ss_loading, slope), 0, v, scratch);
-        out->stiffness = median_over(out, offsetof(ss_loading, stiffness), 0, v, scratch);
+        out->number[SS_LOADING_SLOPE] = median_over(out, offsetof(ss_loading, slope), 0, v, scratch);
+        out->number[SS_LOADING_STIFFNESS] = median_over(out, offsetof(ss_loading, stiffness), 0, v, scratch);
     }
     if (!is_typical)
         return;
-    const struct { ss_median *to; size_t offset; double common; } of_slips[] = {
-        { &out->drop, offsetof(ss_loading, drop), common },
-        { &out->duration, offsetof(ss_loading, duration), common },
-        { &out->recurrence, offsetof(ss_loading, recurrence), 0 },
-        { &out->stick, offsetof(ss_loading, stick), common },
-        { &out->static_friction, offsetof(ss_loading, static_friction), common },
-        { &out->friction, offsetof(ss_loading, friction), common },
-        { &out->k_over_m, offsetof(ss_loading, k_over_m), common },
+    const struct { ss_number *to; size_t offset; double common; } of_slips[] = {
+        { &out->number[SS_DROP], offsetof(ss_loading, drop), common },
+        { &out->number[SS_DROP_DURATION], offsetof(ss_loading, duration), common },
+        { &out->number[SS_RECURRENCE_TIME], offsetof(ss_loading, recurrence), 0 },
+        { &out->number[SS_STICK_TIME], offsetof(ss_loading, stick), common },
+        { &out->number[SS_STATIC_FRICTION], offsetof(ss_loading, static_friction), common },
+        { &out->number[SS_FRICTION], offsetof(ss_loading, friction), common },
+        { &out->number[SS_K_OVER_M], offsetof(ss_loading, k_over_m), common },
     };
     for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
         *of_slips[i].to = median_over(out, of_slips[i].offset, of_slips[i].common, v, scratch);
-    add_misfit(&out->k_over_m, common, v, out->n, scratch);     /* v still holds the errors of k/m */
+    add_misfit(&out->number[SS_K_OVER_M], common, v, out->n, scratch);     /* v still holds the errors of k/m */
 }

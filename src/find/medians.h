@@ -6,7 +6,7 @@
 #include "find/drops.h"
 
 /* The median of those of n values that are numbers; scratch holds n. */
-ss_median ss_median_of(const ss_value *v, size_t n, double *scratch);
+ss_number ss_median_of(const ss_value *v, size_t n, double *scratch);
 
 /* Find the medians of the numbers of out->loading that are typical; `common` is the part of the
  * variance that all slips share.  If fewer than half of the falls are slips of a pulled slider, these may

@@ -4,10 +4,10 @@
 #ifndef NUMBERS_H
 #define NUMBERS_H
 
-#include <stickslip/features.h>
+#include "find/search.h"
 
 enum {
-    DISPLACEMENT = 1, FORCE = 2, MASS = 4,      /* in the options */
+    WITH_X = 1, WITH_F = 2, WITH_MASS = 4,      /* columns and mass in the options */
     LOADING = 8,                                /* the transitions are falls of a force */
     OF_EVENTS = 16,                             /* falls or reversals of a force: it is their median */
     OF_FALLS = LOADING | OF_EVENTS
@@ -17,13 +17,14 @@ typedef struct feature_number {
     ss_label label;
     const char *about;
     unsigned needs;
+    ss_status (*by)(search *s);
 } feature_number;
 extern const feature_number ss_feature_numbers[SS_FEATURE_NUMBERS];
 
 /* What these features and options have of what numbers need. */
 unsigned ss_features_have(const ss_features *f, const ss_features_opts *opts);
 
-/* Fill in the numbers from the fields. */
-void ss_numbers_fill(ss_features *f);
+/* Find the numbers that follow from the others, in the order of the list. */
+ss_status ss_numbers_find(search *s);
 
 #endif

@@ -143,9 +143,9 @@ fit_singly(search *s, const size_t *anchor, double f, ss_window *window, ss_valu
     ss_status st = find_bars(s, BAR_EVENTS, f, &bar, &n_bars);
     if (st == SS_OK)
         st = ss_ringdown_fit_each(s->x, s->n, anchor, n, w, bar, n_bars, window, all, each);
-    if (st == SS_OK && (s->out->why_ringing = judge_fit(all, w, n, n, n, 0)) == NULL
+    if (st == SS_OK && (s->out->number[SS_TRANSITION_FREQUENCY].why = judge_fit(all, w, n, n, n, 0)) == NULL
         && !(scatter_of(all[0], each, n) < all[0].value / PRECISE))
-        s->out->why_ringing = "each transition rings at another frequency";
+        say(s->out, SS_TRANSITION_FREQUENCY, "each transition rings at another frequency");
     free(bar);
     return st;
 }
@@ -156,7 +156,7 @@ static ss_status
 fit_once(const search *s, const size_t *anchor, size_t n, double f, const ss_window *bar, size_t n_bars,
          ss_window *window, ss_value all[2], ss_value *each, const char **why)
 {
-    double turn = 2 * M_PI / s->rate, forcing = s->out->repetition_frequency.value;
+    double turn = 2 * M_PI / s->rate, forcing = s->out->number[SS_REPETITION_FREQUENCY].value;
     size_t used = 0, crossed = 0;
     ss_status st = ss_ringdown_fit(s->x, s->n, anchor, n, turn * f, isnan(forcing) ? 0 : turn * forcing,
                                    s->out->noise / s->largest, bar, n_bars, window, all, each);
@@ -252,11 +252,13 @@ static void
 report(search *s, const ss_window *window, const ss_value all[2], const ss_value *each)
 {
     ss_features *out = s->out;
-    set_oscillation(all, s->rate, &out->frequency, &out->damping_ratio);
-    if (!isnan(out->frequency.value)
-        && !(out->damping_ratio.value > POSITIVE * out->damping_ratio.error)) {
-        out->damping_ratio = unknown;
-        out->why_ringing = "the damping ratio is less than three of its standard errors";
+    ss_value frequency, ratio;
+    set_oscillation(all, s->rate, &frequency, &ratio);
+    know(out, SS_TRANSITION_FREQUENCY, frequency);
+    know(out, SS_DAMPING_RATIO, ratio);
+    if (!isnan(frequency.value) && !(ratio.value > POSITIVE * ratio.error)) {
+        know(out, SS_DAMPING_RATIO, unknown);
+        say(out, SS_TRANSITION_FREQUENCY, "the damping ratio is less than three of its standard errors");
     }
     for (size_t i = 0; i < out->n; i++) {
         ss_transition *tr = &out->transition[i];
@@ -277,18 +279,19 @@ fit_shared(search *s, const size_t *anchor, double f, ss_window *window, ss_valu
 {
     ss_hum hum = SS_HUM_NONE;
     int is_edge = 0;
-    double repeats = s->out->repetition_frequency.value;
+    double repeats = s->out->number[SS_REPETITION_FREQUENCY].value;
     ss_status st = isnan(repeats) ? SS_OK
         : ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / repeats, &hum);
     if (st == SS_OK)
-        st = fit(s, anchor, s->out->n, f, window, all, each, &s->out->why_ringing);
-    if (st == SS_OK && s->out->why_ringing == NULL)
+        st = fit(s, anchor, s->out->n, f, window, all, each, &s->out->number[SS_TRANSITION_FREQUENCY].why);
+    if (st == SS_OK && s->out->number[SS_TRANSITION_FREQUENCY].why == NULL)
         st = ss_edge_find(s->x, s->n, all[0].value / (2 * M_PI), &is_edge);
     if (is_edge)
-        s->out->why_ringing = "it rings where the spectrum ends without a peak, as a filter does";
+        say(s->out, SS_TRANSITION_FREQUENCY,
+            "it rings where the spectrum ends without a peak, as a filter does");
     s->is_cleaned |= hum == SS_HUM_SUBTRACTED;
     if (hum == SS_HUM_HIDDEN)
-        s->out->why_ringing = "a steady hum beside a harmonic of what repeats is in its band";
+        say(s->out, SS_TRANSITION_FREQUENCY, "a steady hum beside a harmonic of what repeats is in its band");
     return st;
 }
 
@@ -303,10 +306,10 @@ ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly)
         st = singly ? fit_singly(s, anchor, f, window, all, each)
             : fit_shared(s, anchor, f, window, all, each);
     if (st == SS_OK) {
-        if (out->why_ringing != NULL)
+        if (out->number[SS_TRANSITION_FREQUENCY].why != NULL)
             ss_ringdown_clear(anchor, out->n, window, all, each);
         else if (s->is_cleaned)
-            out->why_ringing = "fitted to what is left when a steady hum near it is subtracted";
+            say(out, SS_TRANSITION_FREQUENCY, "fitted to what is left when a steady hum near it is subtracted");
         report(s, window, all, each);
     }
     free(window);

@@ -106,11 +106,11 @@ measure(const search *s, const double *x, const plateau *p, ss_value *friction, 
     }
 }
 
-static ss_median
+static ss_number
 known_median(const ss_value *v, size_t n, double *scratch)
 {
-    ss_median m = ss_median_of(v, n, scratch);
-    return 3 * m.error < m.value ? m : no_median;
+    ss_number m = ss_median_of(v, n, scratch);
+    return 3 * m.error < m.value ? m : no_number;
 }
 
 ss_status
@@ -130,11 +130,11 @@ ss_reversals_measure(search *s, const double *x)
     out->reverses = st == SS_OK;
     if (st == SS_OK && 2 * stay > out->n) {
         measure(s, x, p, v, v + out->n);
-        out->friction = known_median(v, out->n, copy);
-        out->stiffness = known_median(v + out->n, out->n, copy);
+        out->number[SS_FRICTION] = known_median(v, out->n, copy);
+        out->number[SS_LOADING_STIFFNESS] = known_median(v + out->n, out->n, copy);
     }
-    if (st == SS_OK && isnan(out->friction.value))
-        out->why_slips = "between its reversals the force does not stay at a level, as friction does";
+    if (st == SS_OK && isnan(out->number[SS_FRICTION].value))
+        say(out, SS_SLIPS, "between its reversals the force does not stay at a level, as friction does");
     free(p);
     free(v);
     free(copy);

@@ -36,7 +36,7 @@ typedef struct gathered {
 static ss_status
 find_recurrent(const search *s, double prominence, double *f)
 {
-    double best_level = 0, slowest = s->out->repetition_frequency.value;
+    double best_level = 0, slowest = s->out->number[SS_REPETITION_FREQUENCY].value;
     size_t most = FEW - 1, n = 0;
     gathered *list = malloc((s->n_found + 1) * sizeof *list);
     *f = 0;
@@ -119,9 +119,9 @@ read_raw(search *s)
         mean += f[i] / (double)n;
     for (size_t i = 0; i < n; i++)
         scatter += (f[i] - mean) * (f[i] - mean);
-    out->frequency_raw.value = gsl_stats_median(f, 1, n);
+    out->number[SS_TRANSITION_FREQUENCY_RAW].value = gsl_stats_median(f, 1, n);
     step = gsl_stats_select(f, 1, n, n / 2) * (exp2(1. / ss_morlet_defaults.voices) - 1);
-    out->frequency_raw.error = sqrt(step * step / 12
+    out->number[SS_TRANSITION_FREQUENCY_RAW].error = sqrt(step * step / 12
                                     + (n > 1 ? scatter / (double)(n - 1) / (double)n : 0));
     free(f);
     return SS_OK;
@@ -207,7 +207,7 @@ ss_ringing_find(search *s, double prominence)
     size_t n = 0;
     double label;
     ss_status st = find_recurrent(s, prominence, &label);
-    out->why_ringing = "no oscillation swells again and again";
+    say(out, SS_TRANSITION_FREQUENCY, "no oscillation swells again and again");
     if (st != SS_OK || label == 0)
         return st;
     st = ss_maxima_of_row(&swell, &n, s->map, row_of(s->map, label), s->top, RANGE,
@@ -216,8 +216,9 @@ ss_ringing_find(search *s, double prominence)
         st = ss_transitions_new(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
     int is_none = ringing < FEW || 2 * ringing < out->n;
-    if (!is_none && isnan(out->repetition_frequency.value) && !begin_sharply(s, swell, label)) {
-        out->why_ringing = "what swells again and again neither repeats with a cycle nor begins sharply";
+    if (!is_none && isnan(out->number[SS_REPETITION_FREQUENCY].value) && !begin_sharply(s, swell, label)) {
+        say(out, SS_TRANSITION_FREQUENCY,
+            "what swells again and again neither repeats with a cycle nor begins sharply");
         is_none = 1;
     }
     if (is_none)
@@ -416,6 +417,6 @@ ss_ringing_behind(search *s)
 {
     double label = 0;
     ss_status st = s->out->n < FEW ? SS_OK : strongest_band(s, &label);
-    s->out->why_ringing = "no band of frequencies stands out behind the transitions";
+    say(s->out, SS_TRANSITION_FREQUENCY, "no band of frequencies stands out behind the transitions");
     return st == SS_OK && label > 0 ? fit_behind(s, true_frequency(s, label)) : st;
 }

@@ -17,7 +17,7 @@ enum { FEW = 3 };               /* fewest maxima of a kind that recur */
 enum { CLIPPED = 8 };           /* samples in a row at the largest or least value: the signal is clipped */
 
 static const ss_value unknown = { NAN, NAN };
-static const ss_median no_median = { NAN, NAN, NAN };
+static const ss_number no_number = { NAN, NAN, NAN, NULL };
 static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 
 typedef struct search {
@@ -42,6 +42,27 @@ typedef struct search {
                                    next transition */
     ss_features *out;
 } search;
+
+/* Value and error of a number become these; its reason stays. */
+static inline void
+know(ss_features *out, ss_feature which, ss_value v)
+{
+    out->number[which].value = v.value;
+    out->number[which].error = v.error;
+}
+
+static inline ss_value
+known(const ss_features *out, ss_feature which)
+{
+    return (ss_value){ out->number[which].value, out->number[which].error };
+}
+
+/* Say why a number is not known, or how it was found. */
+static inline void
+say(ss_features *out, ss_feature which, const char *why)
+{
+    out->number[which].why = why;
+}
 
 static inline int
 is_event(const ss_spike *spike)

@@ -4,6 +4,7 @@
  * the cycles of the signal, which are found without them.  The falls of a force are slips by themselves. */
 #include <math.h>
 #include <stdlib.h>
+#include "find/numbers.h"
 #include "find/search.h"
 #include "signal/gaps.h"
 
@@ -56,7 +57,8 @@ recur(const search *s, size_t step, double time)
 static size_t
 slips_in_cycle(const search *s)
 {
-    double period = 1 / s->out->repetition_frequency.value, each = round(mean_rate(s).value * period);
+    double period = 1 / s->out->number[SS_REPETITION_FREQUENCY].value,
+        each = round(mean_rate(s).value * period);
     return each >= 1 && each < (double)s->out->n && recur(s, (size_t)each, period) ? (size_t)each : 0;
 }
 
@@ -73,7 +75,7 @@ static void
 keep_ringing(search *s)
 {
     ss_features *out = s->out;
-    double apart = ALONE / (out->repetition_frequency.value * (double)least_in_cycle(s));
+    double apart = ALONE / (out->number[SS_REPETITION_FREQUENCY].value * (double)least_in_cycle(s));
     size_t kept = 0;
     for (size_t i = 0; i < out->n; i++) {
         const ss_transition *tr = &out->transition[i], *last = &out->transition[kept - (kept > 0)];
@@ -95,7 +97,7 @@ is_doubtful(const search *s, size_t each)
 {
     size_t least = least_in_cycle(s);
     return each % least != 0
-        || (each > least && !recur(s, 1, 1 / ((double)each * s->out->repetition_frequency.value)));
+        || (each > least && !recur(s, 1, 1 / ((double)each * s->out->number[SS_REPETITION_FREQUENCY].value)));
 }
 
 void
@@ -103,16 +105,17 @@ ss_loadings_forget(ss_features *out)
 {
     free(out->loading);
     out->loading = NULL;
-    out->slope = out->stiffness = out->drop = out->duration = out->recurrence = out->stick
-        = out->static_friction = out->friction = out->k_over_m = no_median;
+    for (int k = 0; k < SS_FEATURE_NUMBERS; k++)
+        if (ss_feature_numbers[k].needs & OF_EVENTS)
+            out->number[k] = no_number;
 }
 
 static void
 forget_slips(ss_features *out, const char *why)
 {
-    out->slips.value = NAN;
-    out->slip_rate = unknown;
-    out->why_slips = why;
+    out->number[SS_SLIPS].value = NAN;
+    know(out, SS_SLIP_RATE, unknown);
+    out->number[SS_SLIPS].why = why;
 }
 
 static void
@@ -120,8 +123,10 @@ forget_ringing(ss_features *out)
 {
     for (size_t i = 0; i < out->n; i++)
         out->transition[i].frequency = out->transition[i].damping_ratio = unknown;
-    out->frequency_raw = out->frequency = out->damping_ratio = unknown;
-    out->why_ringing = "the slips are not known";
+    know(out, SS_TRANSITION_FREQUENCY_RAW, unknown);
+    know(out, SS_TRANSITION_FREQUENCY, unknown);
+    know(out, SS_DAMPING_RATIO, unknown);
+    say(out, SS_TRANSITION_FREQUENCY, "the slips are not known");
 }
 
 /* Count a slip in each cycle, as sharp events do not repeat with the cycle.  A cycle of dry friction has a
@@ -136,9 +141,9 @@ count_cycles(search *s)
     if (s->quantity == QUANTITY_UNKNOWN && s->cycles.symmetry > -CYCLES_ALIKE
         && s->cycles.overtones > OVERTONES) {
         out->n = out->recurring = 0;
-        out->slips.value = (double)s->cycles.n;
-        out->slip_rate = out->repetition_frequency;
-        out->why_slips = "counted as one a cycle, as nothing sharp repeats with it";
+        out->number[SS_SLIPS].value = (double)s->cycles.n;
+        know(out, SS_SLIP_RATE, known(out, SS_REPETITION_FREQUENCY));
+        say(out, SS_SLIPS, "counted as one a cycle, as nothing sharp repeats with it");
     } else
         forget_slips(out, more ? "there are more sharp events than slips that could repeat with the cycle"
             : "there are fewer sharp events than cycles");
@@ -149,10 +154,10 @@ static void
 confirm_repetition(search *s)
 {
     ss_features *out = s->out;
-    if (isnan(out->repetition_frequency.value)
-        && fabs(out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS) {
-        out->repetition_frequency = cycle_rate(s);
-        out->why_repetition = NULL;
+    if (isnan(out->number[SS_REPETITION_FREQUENCY].value)
+        && fabs(out->number[SS_SLIP_RATE].value / cycle_rate(s).value - 1) <= CONFIRMS) {
+        know(out, SS_REPETITION_FREQUENCY, cycle_rate(s));
+        out->number[SS_REPETITION_FREQUENCY].why = NULL;
     }
 }
 
@@ -162,11 +167,12 @@ static void
 doubt_repetition(search *s)
 {
     ss_features *out = s->out;
-    if (slips_in_cycle(s) < 2 || !recur(s, 1, 1 / out->slip_rate.value)
-        || !(out->drop.scatter <= ALIKE * out->drop.value))
+    if (slips_in_cycle(s) < 2 || !recur(s, 1, 1 / out->number[SS_SLIP_RATE].value)
+        || !(out->number[SS_DROP].scatter <= ALIKE * out->number[SS_DROP].value))
         return;
-    out->repetition_frequency = unknown;
-    out->why_repetition = "each fall is like the next one, but the signal repeats only after several";
+    know(out, SS_REPETITION_FREQUENCY, unknown);
+    say(out, SS_REPETITION_FREQUENCY,
+        "each fall is like the next one, but the signal repeats only after several");
 }
 
 /* Is the signal no force of one sign, but one with an offset?  It is if it repeats with several falls in a
@@ -175,20 +181,20 @@ static int
 has_offset(const search *s)
 {
     return s->quantity == QUANTITY_UNKNOWN && s->opts->drop == 0
-        && !isnan(s->out->repetition_frequency.value)
-        && !(fabs(s->out->slip_rate.value / cycle_rate(s).value - 1) <= CONFIRMS);
+        && !isnan(s->out->number[SS_REPETITION_FREQUENCY].value)
+        && !(fabs(s->out->number[SS_SLIP_RATE].value / cycle_rate(s).value - 1) <= CONFIRMS);
 }
 
 void
 ss_slip_rate_find(search *s)
 {
     ss_features *out = s->out;
-    if (out->why_slips != NULL) {
-        out->slips = unknown;
+    if (out->number[SS_SLIPS].why != NULL) {
+        know(out, SS_SLIPS, unknown);
         return;
     }
-    out->slips.value = (double)out->n;
-    out->slip_rate = mean_rate(s);
+    out->number[SS_SLIPS].value = (double)out->n;
+    know(out, SS_SLIP_RATE, mean_rate(s));
     if (out->loading != NULL) {
         if (has_offset(s)) {
             ss_loadings_forget(out);
@@ -198,25 +204,26 @@ ss_slip_rate_find(search *s)
         }
         confirm_repetition(s);
         doubt_repetition(s);
-        if (out->n > 0 && isnan(out->drop.value))
-            out->why_slips = "most falls of the force are no slips of an evenly pulled slider";
-        else if (out->n > 0 && isnan(out->slope.value))
-            out->why_slips = "the force rises along no lines: it has no slope, and its sticks no length";
+        if (out->n > 0 && isnan(out->number[SS_DROP].value))
+            say(out, SS_SLIPS, "most falls of the force are no slips of an evenly pulled slider");
+        else if (out->n > 0 && isnan(out->number[SS_LOADING_SLOPE].value))
+            say(out, SS_SLIPS, "the force rises along no lines: it has no slope, and its sticks no length");
         else if (s->has_offset)
-            out->why_slips = "they are rises: the zero of the force is not that of friction, which is not known";
+            say(out, SS_SLIPS,
+                "they are rises: the zero of the force is not that of friction, which is not known");
         return;
     }
-    if (isnan(out->repetition_frequency.value)) {
+    if (isnan(out->number[SS_REPETITION_FREQUENCY].value)) {
         if (out->n == 0)
-            out->why_slips = "nothing stands out: slips that are smooth or weak are not seen";
+            say(out, SS_SLIPS, "nothing stands out: slips that are smooth or weak are not seen");
         else
-            out->why_slips = "counted by what stands out, as nothing repeats that would confirm it";
+            say(out, SS_SLIPS, "counted by what stands out, as nothing repeats that would confirm it");
         return;
     }
     size_t each = slips_in_cycle(s);
-    if (each > least_in_cycle(s) && !isnan(out->frequency.value)) {
+    if (each > least_in_cycle(s) && !isnan(out->number[SS_TRANSITION_FREQUENCY].value)) {
         keep_ringing(s);
-        out->slips.value = (double)out->n;
+        out->number[SS_SLIPS].value = (double)out->n;
         each = slips_in_cycle(s);
     }
     if (each == 0)
@@ -224,6 +231,6 @@ ss_slip_rate_find(search *s)
     else if (is_doubtful(s, each))
         forget_slips(out, "of several sharp events a cycle some may be no slips of their own");
     else
-        out->slip_rate = (ss_value){ (double)each * out->repetition_frequency.value,
-                                     (double)each * out->repetition_frequency.error };
+        know(out, SS_SLIP_RATE, (ss_value){ (double)each * out->number[SS_REPETITION_FREQUENCY].value,
+                                            (double)each * out->number[SS_REPETITION_FREQUENCY].error });
 }

@@ -27,7 +27,8 @@ find_spiked(search *s)
 {
     ss_features *out = s->out;
     const ss_spikes *found = out->spikes;
-    double apart = isnan(out->repetition_frequency.value) ? 0 : 0.125 / out->repetition_frequency.value;
+    double apart = isnan(out->number[SS_REPETITION_FREQUENCY].value) ? 0 : 0.125
+        / out->number[SS_REPETITION_FREQUENCY].value;
     ss_status st = ss_transitions_new(out, found->n);
     if (st != SS_OK)
         return st;
@@ -115,7 +116,8 @@ find_single(search *s)
     s->map = NULL;
     ss_status st = ss_bursts_in(&found, s->rows, CLEAR, NULL);
     if (st == SS_OK && is_clipped_between(s, found))
-        s->out->why_slips = "two events may be one that is clipped: it stands still at an extreme between them";
+        say(s->out, SS_SLIPS,
+            "two events may be one that is clipped: it stands still at an extreme between them");
     else if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
         for (size_t i = 0; i < found->n; i++) {
             ss_transition *tr = &s->out->transition[i];
@@ -150,7 +152,8 @@ static void
 count_spikes(const search *s)
 {
     ss_features *out = s->out;
-    double period = isnan(out->frequency.value) ? 0 : 1 / out->frequency.value;
+    double period = isnan(out->number[SS_TRANSITION_FREQUENCY].value) ? 0 : 1
+        / out->number[SS_TRANSITION_FREQUENCY].value;
     double reach = spike_reach(out->spikes);
     for (size_t i = 0; i < out->n; i++) {
         ss_transition *tr = &out->transition[i];
@@ -168,12 +171,12 @@ static ss_status
 find_transitions(search *s)
 {
     ss_features *out = s->out;
-    int spiked = out->spikes->conclusive && !isnan(out->repetition_frequency.value)
+    int spiked = out->spikes->conclusive && !isnan(out->number[SS_REPETITION_FREQUENCY].value)
         && has_strong_event(out->spikes);
     ss_status st = SS_OK;
     for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
         st = ss_ringing_find(s, slight ? 0 : s->opts->threshold);
-        if (slight && spiked && out->recurring == 0 && isnan(out->frequency.value))
+        if (slight && spiked && out->recurring == 0 && isnan(out->number[SS_TRANSITION_FREQUENCY].value))
             out->n = 0;                 /* the times of spikes are better */
     }
     if (st == SS_OK && out->n == 0 && spiked) {
@@ -196,7 +199,7 @@ ss_transitions_find(search *s)
     if (st == SS_OK && !decided)
         st = find_transitions(s);
     else if (st == SS_OK && s->out->loading != NULL)
-        s->out->why_ringing = "it is not looked for behind the falls of a force";
+        say(s->out, SS_TRANSITION_FREQUENCY, "it is not looked for behind the falls of a force");
     else if (st == SS_OK)
         st = ss_ringing_behind(s);
     if (st == SS_OK)

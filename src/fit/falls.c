@@ -20,7 +20,7 @@ ss_falls_doubt(char *why, size_t room, const ss_features *f, const ss_signal *si
     for (size_t i = 0; i < signal->n; i++)
         sum += signal->values[column * signal->n + i];
     if (f->loading == NULL || f->n == 0)
-        snprintf(why, room, "%s", f->why_slips != NULL ? f->why_slips
+        snprintf(why, room, "%s", f->number[SS_SLIPS].why != NULL ? f->number[SS_SLIPS].why
                  : "no falls of a force are found: is it one by name or unit, and of one sign?");
     else if (sum * pull_of(scene) < 0)
         snprintf(why, room, "the force has the opposite sign of %s",
@@ -30,7 +30,7 @@ ss_falls_doubt(char *why, size_t room, const ss_features *f, const ss_signal *si
 void
 ss_falls_count(char *why, size_t room, size_t slips, const ss_features *f)
 {
-    if (slips < FALLS_FEWEST || isnan(f->slope.error))
+    if (slips < FALLS_FEWEST || isnan(f->number[SS_LOADING_SLOPE].error))
         snprintf(why, room, "%zu slips are too few for a median and its scatter", slips);
 }
 
@@ -131,7 +131,8 @@ ss_status
 ss_falls_gather(falls *out, char *why, size_t room, const ss_features *f, const ss_signal *signal, size_t column,
                 const ss_scene *scene)
 {
-    *out = (falls){ .rate = signal->head->rate, .slope = f->slope, .k_over_m = f->k_over_m };
+    *out = (falls){ .rate = signal->head->rate, .slope = f->number[SS_LOADING_SLOPE],
+                    .k_over_m = f->number[SS_K_OVER_M] };
     ss_falls_doubt(why, room, f, signal, column, scene);
     if (why[0] == '\0')
         ss_falls_count(why, room, f->n, f);

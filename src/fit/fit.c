@@ -61,7 +61,7 @@ narrow_ranges(candidate *c, int *is_narrow, const ss_signal *signal, size_t colu
     ss_status st = ss_features_find(&f, signal, column, &opts, err);
     if (st != SS_OK)
         return st;
-    const double estimate[2] = { f->contact_stiffness.value, f->contact_damping.value };
+    const double estimate[2] = { f->number[SS_CONTACT_STIFFNESS].value, f->number[SS_CONTACT_DAMPING].value };
     ss_features_free(f);
     *is_narrow = 0;
     for (size_t i = 0; i < 2; i++)

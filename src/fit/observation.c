@@ -78,9 +78,9 @@ measure_features(observation *l, const ss_signal *signal, size_t column, double 
     double halves = (double)signal->n / signal->head->rate / half;
     l->has_slope = opts.displacement >= 0 && opts.force >= 0;
     l->value[SS_BY_MAXIMUM] = fmin((double)f->recurring / floor(halves), 1);
-    l->value[SS_BY_FREQUENCY] = f->frequency.value;
-    l->value[SS_BY_DAMPING] = f->damping_ratio.value;
-    l->value[SS_BY_STIFFNESS] = f->contact_slope.value;
+    l->value[SS_BY_FREQUENCY] = f->number[SS_TRANSITION_FREQUENCY].value;
+    l->value[SS_BY_DAMPING] = f->number[SS_DAMPING_RATIO].value;
+    l->value[SS_BY_STIFFNESS] = f->number[SS_CONTACT_STIFFNESS_SLOPE].value;
     st = measure_spikes(l, f->spikes, halves);
     ss_features_free(f);
     return st;

@@ -63,15 +63,16 @@ static ss_scene
 scene_of(const ss_scene *start, const ss_features *f, double onset, const ss_signal *signal)
 {
     ss_scene s = *start;
-    double direction = sign(pull_of(start)), loading = f->slope.value;
+    double direction = sign(pull_of(start)), loading = f->number[SS_LOADING_SLOPE].value;
     double pull = direction * loading / s.stiffness;
-    s.mass = s.stiffness / f->k_over_m.value;
+    s.mass = s.stiffness / f->number[SS_K_OVER_M].value;
     if (s.base_velocity != 0)
         s.base_velocity = s.surface_velocity + pull;
     else
         s.surface_velocity = -pull;
-    s.friction = f->friction.value;
-    s.static_friction = s.friction + f->drop.value / 2;     /* it scatters less if the level drifts */
+    s.friction = f->number[SS_FRICTION].value;
+    s.static_friction = s.friction + f->number[SS_DROP].value
+        / 2;     /* it scatters less if the level drifts */
     s.x0 = -direction * fmax(s.static_friction - loading * onset, -s.static_friction) / s.stiffness;
     s.v0 = s.surface_velocity;
     s.settle = 0;
@@ -87,8 +88,8 @@ fit_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *st
     const ss_features *f = p->features;
     rank_record record = { .x = signal->values + column * signal->n, .n = signal->n };
     double left = 0, power = 0, n = 0, onset = NAN;
-    p->static_friction = f->static_friction;
-    p->friction = f->friction;
+    p->static_friction = f->number[SS_STATIC_FRICTION];
+    p->friction = f->number[SS_FRICTION];
     for (size_t i = 0; f->loading != NULL && i < f->n; i++) {
         const ss_loading *l = &f->loading[i];
         if (!isfinite(l->friction.value))

@@ -43,7 +43,7 @@ change_of_key(const pulled_key *k, double known)
 }
 
 static change
-change_of_friction(const char *name, ss_median found, double given)
+change_of_friction(const char *name, ss_number found, double given)
 {
     double by = found.value > 0 && given > 0 ? log(found.value / given) : found.value == given ? 0 : INFINITY;
     double error = found.error / found.value;

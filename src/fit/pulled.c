@@ -297,7 +297,7 @@ start(problem *f, double far, double *u, double *row)
 
 /* The median of f_k or f_s over the falls.  Its error is that of the scatter, or that of the mean if this is
  * larger: the errors of the keys are common to all falls. */
-static ss_median
+static ss_number
 median_of(const problem *f, const double *u, const double *covariance, int is_static)
 {
     const size_t n = f->r->n, keys = f->out->n_keys, unknowns = keys + LOCALS * n;
@@ -313,7 +313,7 @@ median_of(const problem *f, const double *u, const double *covariance, int is_st
         for (size_t k = 0; k < LOCALS * n; k++)
             if (slope[i] != 0 && slope[k] != 0)
                 variance += slope[i] * slope[k] * covariance[(keys + i) * unknowns + keys + k];
-    ss_median m = ss_median_of(v, n, scratch);
+    ss_number m = ss_median_of(v, n, scratch);
     m.error = fmax(m.error, sqrt(fmax(variance, 0)));
     return m;
 }

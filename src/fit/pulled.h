@@ -27,7 +27,7 @@ typedef struct falls {
     size_t n;
     fall fall[FALLS_MOST];
     double first;                   /* the onset of the first fall of the record [s] */
-    ss_median slope, k_over_m;      /* as the features have them; k_over_m NaN: not known */
+    ss_number slope, k_over_m;      /* as the features have them; k_over_m NaN: not known */
     double noise;                   /* variance of white noise: an upper bound */
     double power;                   /* mean square of the samples about the mean of their fall */
 } falls;
@@ -48,7 +48,7 @@ typedef struct pulled_fit {
     ss_scene scene;                 /* of the medians; its slips begin with those of the record */
     size_t n_keys;                  /* the mass, the speed of the pull, and others */
     pulled_key key[PULLED_KEYS];
-    ss_median static_friction, friction;
+    ss_number static_friction, friction;
     residue of_samples;
 } pulled_fit;
 

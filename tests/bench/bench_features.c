@@ -46,7 +46,7 @@ count(tally *t, const ss_features *f, const ss_scene *scene)
 {
     double total = scene->stiffness + scene->contact_stiffness;
     double ratio = scene->contact_damping / (2 * sqrt(total * scene->mass));
-    ss_value got[2] = { f->total_stiffness, f->damping_ratio };
+    ss_number got[2] = { f->number[SS_TOTAL_STIFFNESS], f->number[SS_DAMPING_RATIO] };
     double truth[2] = { total, ratio };
     t->n++;
     t->refused += isnan(got[0].value);
@@ -106,10 +106,11 @@ probe(const ss_scene *scene)
     double longest = sticks.longest * sqrt(total / scene->mass) / (2 * M_PI);
     for (int k = 0; k < 2; k++) {
         ss_features *f = features_of(signal, snr_of[k], 1, scene);
-        double K = f->total_stiffness.value / total - 1, z = f->damping_ratio.value / ratio - 1;
+        double K = f->number[SS_TOTAL_STIFFNESS].value / total - 1,
+            z = f->number[SS_DAMPING_RATIO].value / ratio - 1;
         errors += fabs(K) > most[k][0] || fabs(z) > most[k][1] || (longest < 2 && !isnan(K));
-        double in_K = fabs(K) * total / f->total_stiffness.error;
-        double in_z = fabs(z) * ratio / f->damping_ratio.error;
+        double in_K = fabs(K) * total / f->number[SS_TOTAL_STIFFNESS].error;
+        double in_z = fabs(z) * ratio / f->number[SS_DAMPING_RATIO].error;
         errors += k == 0 && (in_K > 10 || in_z > 10);   /* misfit that all share is known of, about */
         printf("%.4g\t%.4f\t%g\t%g\t%g\t%.2f\t%.4f\t%.3f\t%.1f\t%.1f\n", scene->contact_stiffness,
                ratio, scene->base_frequency, scene->friction, snr_of[k], longest, 100 * K, 100 * z,

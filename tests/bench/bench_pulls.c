@@ -179,7 +179,7 @@ fit(tally *t, const ss_signal *g, const ss_scene *start, const ss_scene *truth)
             count(t, p->key[i].found.value, p->key[i].found.error,
                   *ss_scene_number(&of, p->key[i].name, NULL, NULL));
         if (p->n_keys == 0)
-            count(t, p->features->k_over_m.value, p->features->k_over_m.error,
+            count(t, p->features->number[SS_K_OVER_M].value, p->features->number[SS_K_OVER_M].error,
                   truth->stiffness / truth->mass);
     }
     ss_pull_free(p);

@@ -303,7 +303,7 @@ typedef struct tally {
 } tally;
 
 static void
-compare(tally *t, int which, ss_value got, double truth)
+compare(tally *t, int which, ss_number got, double truth)
 {
     double off = fabs(got.value - truth) / got.error;
     if (isnan(got.value))
@@ -319,8 +319,9 @@ static int
 are_right(const ss_features *f, const draw *d)
 {
     double duration = CYCLES / d->scene.base_frequency;
-    int is_rate = isnan(f->slip_rate.value) || fabs(f->slip_rate.value * duration - d->slips) <= 2;
-    return is_rate && fabs(f->slips.value - d->slips) <= 2;
+    int is_rate = isnan(f->number[SS_SLIP_RATE].value)
+        || fabs(f->number[SS_SLIP_RATE].value * duration - d->slips) <= 2;
+    return is_rate && fabs(f->number[SS_SLIPS].value - d->slips) <= 2;
 }
 
 static void
@@ -347,24 +348,29 @@ read_one(tally *t, const condition *c, const draw *d, int verbose)
     if (ss_features_find(&f, signal, 0, &opts, NULL) != SS_OK)
         exit(1);
     t->n++;
-    t->answers += !isnan(f->total_stiffness.value);
+    t->answers += !isnan(f->number[SS_TOTAL_STIFFNESS].value);
     double total = d->scene.stiffness + d->scene.contact_stiffness;
-    compare(t, 0, f->total_stiffness, total);
-    compare(t, 1, f->damping_ratio, d->ratio);
+    compare(t, 0, f->number[SS_TOTAL_STIFFNESS], total);
+    compare(t, 1, f->number[SS_DAMPING_RATIO], d->ratio);
     if (c->kind != TWICE)
-        compare(t, 2, f->repetition_frequency, d->scene.base_frequency);
-    if (!isnan(f->slips.value) && f->why_slips == NULL) {
+        compare(t, 2, f->number[SS_REPETITION_FREQUENCY], d->scene.base_frequency);
+    if (!isnan(f->number[SS_SLIPS].value) && f->number[SS_SLIPS].why == NULL) {
         t->counted++;
         t->right += are_right(f, d);
     }
     if (verbose) {
-        double K = f->total_stiffness.value / total - 1, z = f->damping_ratio.value / d->ratio - 1;
-        double r = f->repetition_frequency.value / d->scene.base_frequency - 1;
+        double K = f->number[SS_TOTAL_STIFFNESS].value / total - 1,
+            z = f->number[SS_DAMPING_RATIO].value / d->ratio - 1;
+        double r = f->number[SS_REPETITION_FREQUENCY].value / d->scene.base_frequency - 1;
         fprintf(stderr, "%lu\tf %.4g zeta %.4f apart %.3g rate %.3g stick %.2f n %zu\tslips %g of %g, %.4g a cycle\tK %.3g (%.2f) z %.3g (%.2f) r %.3g (%.2f)\t%s | %s\n",
                 d->number, d->f, d->ratio, d->f / d->scene.base_frequency, d->scene.rate / d->f, d->longest,
-                n, f->slips.value, d->slips, f->slip_rate.value / d->scene.base_frequency, K, K * total / f->total_stiffness.error, z, z * d->ratio / f->damping_ratio.error,
-                r, r * d->scene.base_frequency / f->repetition_frequency.error,
-                f->why_ringing != NULL ? f->why_ringing : "", f->why_slips != NULL ? f->why_slips : "");
+                n, f->number[SS_SLIPS].value, d->slips,
+                    f->number[SS_SLIP_RATE].value / d->scene.base_frequency, K,
+                        K * total / f->number[SS_TOTAL_STIFFNESS].error, z,
+                            z * d->ratio / f->number[SS_DAMPING_RATIO].error,
+                r, r * d->scene.base_frequency / f->number[SS_REPETITION_FREQUENCY].error,
+                f->number[SS_TRANSITION_FREQUENCY].why != NULL ? f->number[SS_TRANSITION_FREQUENCY].why : "",
+                    f->number[SS_SLIPS].why != NULL ? f->number[SS_SLIPS].why : "");
     }
     ss_features_free(f);
     ss_signal_free(signal);

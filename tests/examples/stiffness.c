@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 static void
-print(const char *name, ss_value number, const char *unit)
+print(const char *name, ss_number number, const char *unit)
 {
     if (isnan(number.value))
         printf("%s: not known\n", name);
@@ -23,11 +23,11 @@ static void
 print_features(const ss_features *f)
 {
     printf("%zu transitions\n", f->n);
-    print("frequency", f->frequency, " Hz");
-    print("contact stiffness", f->contact_stiffness, " N/m");
-    print("contact damping", f->contact_damping, " N s/m");
-    if (f->why_ringing != NULL)
-        printf("%s\n", f->why_ringing);
+    print("frequency", f->number[SS_TRANSITION_FREQUENCY], " Hz");
+    print("contact stiffness", f->number[SS_CONTACT_STIFFNESS], " N/m");
+    print("contact damping", f->number[SS_CONTACT_DAMPING], " N s/m");
+    if (f->number[SS_TRANSITION_FREQUENCY].why != NULL)
+        printf("%s\n", f->number[SS_TRANSITION_FREQUENCY].why);
 }
 
 int
