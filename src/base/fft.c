@@ -14,12 +14,10 @@ free_plan(fftw_plan plan)
     pthread_mutex_unlock(&ss_fftw_planner);
 }
 
-ss_status
-ss_real_fft_new(real_fft *f, size_t n, int back)
+/* Plan an FFT of f->x, which stays as it is. */
+static ss_status
+plan_real(real_fft *f, size_t n, int back)
 {
-    *f = (real_fft){ n < INT_MAX - 2 ? fftw_malloc((n + 2) * sizeof *f->x) : NULL, NULL };
-    if (f->x == NULL)
-        return SS_ENOMEM;
     fftw_complex *terms = (fftw_complex *)f->x;
     pthread_mutex_lock(&ss_fftw_planner);
     f->plan = back ? fftw_plan_dft_c2r_1d((int)n, terms, f->x, FFTW_ESTIMATE)
@@ -29,6 +27,20 @@ ss_real_fft_new(real_fft *f, size_t n, int back)
         return SS_OK;
     ss_real_fft_free(f);
     return SS_ENOMEM;
+}
+
+ss_status
+ss_real_fft_new(real_fft *f, size_t n, int back)
+{
+    *f = (real_fft){ n < INT_MAX - 2 ? fftw_malloc((n + 2) * sizeof *f->x) : NULL, NULL };
+    return f->x != NULL ? plan_real(f, n, back) : SS_ENOMEM;
+}
+
+ss_status
+ss_real_fft_turn(real_fft *f, size_t n)
+{
+    free_plan(f->plan);
+    return plan_real(f, n, 1);
 }
 
 void
@@ -47,14 +59,14 @@ ss_real_fft_free(real_fft *f)
 }
 
 ss_status
-ss_complex_fft(double complex *z, size_t n, size_t records, size_t stride, int back)
+ss_complex_fft(double complex *z, size_t n, size_t records, int back)
 {
     fftw_complex *at = (fftw_complex *)z;
-    const int length = (int)n, apart = (int)stride, next = stride == 1 ? length : 1;
-    if (n > INT_MAX || records > INT_MAX || stride > INT_MAX)
+    const int length = (int)n;
+    if (n > INT_MAX || records > INT_MAX)
         return SS_ENOMEM;
     pthread_mutex_lock(&ss_fftw_planner);
-    fftw_plan plan = fftw_plan_many_dft(1, &length, (int)records, at, NULL, apart, next, at, NULL, apart, next,
+    fftw_plan plan = fftw_plan_many_dft(1, &length, (int)records, at, NULL, 1, length, at, NULL, 1, length,
                                         back ? FFTW_BACKWARD : FFTW_FORWARD, FFTW_ESTIMATE);
     pthread_mutex_unlock(&ss_fftw_planner);
     if (plan == NULL)

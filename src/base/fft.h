@@ -20,11 +20,12 @@ typedef struct real_fft {
 
 /* SS_ENOMEM: f holds nothing, as if it were {0}. */
 ss_status ss_real_fft_new(real_fft *f, size_t n, int back);
+/* Plan the way back for what n samples have become. */
+ss_status ss_real_fft_turn(real_fft *f, size_t n);
 void ss_real_fft_run(const real_fft *f);
 void ss_real_fft_free(real_fft *f);                     /* {0} is allowed */
 
-/* The FFT of n complex samples, stride apart, for each of so many records: these begin n samples apart
- * if the stride is 1, else one behind the other. */
-ss_status ss_complex_fft(double complex *z, size_t n, size_t records, size_t stride, int back);
+/* The FFTs of so many records of n complex samples, one behind the other. */
+ss_status ss_complex_fft(double complex *z, size_t n, size_t records, int back);
 
 #endif

@@ -4,7 +4,8 @@
  * it does not see single cycles, and it has peaks also where nothing repeats.  So each cycle is
  * compared with the next: the lag at which they differ least is the period of the cycle (de Cheveigne
  * and Kawahara 2002).  This lag is exact where the signal is periodic, and the length of the window
- * does not bias it, as it biases the peak of a correlation.  The result is the median of the cycles'
+ * does not bias it, as it biases the peak of a correlation.  It is searched in averaged samples first, then
+ * in all of them, and a parabola finds it between samples.  The result is the median of the cycles'
  * frequencies, which ramps at the ends of a record do not move.
  *
  * Its standard error is the root of the sum of the squares of five errors:
@@ -20,7 +21,7 @@
  *
  * A signal does not repeat itself
  * - if the median cycle explains less of the variance of the next than is asked for;
- * - if more than BROKEN of the cycles have no best lag within CYCLE_WIDTH of the period, or are not like the
+ * - if more than BROKEN of the cycles have no best lag within WIDTH of the period, or are not like the
  *   next cycle at that lag.  Such is a signal that rings anew behind each slip;
  * - if it rings once: the effective number of cycles, (sum E)^2 / sum E^2 of their energies E, is less
  *   than LASTING of them, or the energy decays or grows exponentially, by more than FADE in all and
@@ -38,10 +39,11 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/gauss.h"
-#include "find/next_cycle.h"
+#include "base/versions.h"
 #include "find/period.h"
 
 #define POINTS 256.0            /* in a period while the lag is searched: more are averaged */
+#define WIDTH 0.2               /* relative difference of a cycle's period from the record's, at most */
 #define AGREES 0.5              /* the least correlation of a cycle that is like the next */
 #define SPOILT 2                /* cycles that one gap may make unlike the next */
 #define BROKEN 0.25             /* part of the cycles that may be unlike the next: see above */
@@ -54,37 +56,205 @@
 #define BETWEEN 0.5             /* the largest correlation with the cycles between two swells */
 #define SLOWEST 512             /* the most cycles in a swell */
 #define ROBUST 8                /* the fewest cycles whose scatter is found from the median deviation */
-#define LATER 8.0               /* cycles: see lasting_of */
+#define LATER 8.0               /* cycles behind which a signal must still be like itself */
 #define FEWEST 16               /* the fewest cycles that show modulation */
+#define PULLED 16               /* a hum pulls the lag by less than one part in so many */
+enum { PARTS = 16 };            /* cycles that may be taken for one, at most */
+enum { LAGS = 3 };              /* lags over 2, 4 and 8 cycles */
 
-static double
-median_of(double *v, size_t n)
-{
-    return gsl_stats_select(v, 1, n, n / 2);
-}
+typedef struct view {           /* of the signal: all n samples, or averages of some */
+    const double *x;
+    size_t n;
+} view;
 
-/* Does the cycle have energy, and a lag? */
-static int
-is_known(const next_cycle *c, double least)
-{
-    return c->energy > least && !isnan(c->lag);
-}
+/* How a cycle differs from the next one; NaN: not known. */
+typedef struct cycle {
+    double rate;                /* one over the lag to the next cycle [1/samples] */
+    double pull[LAGS];          /* half of the lag over two cycles, a quarter of that over four ..., less the
+                                   lag over one [samples] */
+    double likeness;            /* correlation with the next cycle */
+    double symmetry;            /* correlation with itself half a cycle later */
+    double mean, energy;        /* energy: mean square of the signal, less its mean */
+    double drift;               /* mean square of the shift that the drift of the waveform may make [samples^2] */
+    double bend;                /* error of the lag between samples, by two parabolas [samples] */
+    unsigned parts;             /* bit p: it repeats after 1/p of its length as well as after all of it, to
+                                   within a sample */
+} cycle;
 
-/* The effective number of cycles over their number: see above. */
-static double
-lasting(const next_cycle *c, size_t n)
+/* --- one cycle and the next ------------------------------------------------------------------ */
+
+/* Of m samples and those some lag later, each less their mean: mean squares and mean product. */
+typedef struct moments {
+    double a, b, ab;
+} moments;
+
+/* Sums are made in lanes, which do not wait for each other.  (gcc uses no vectors for 8 lanes.) */
+VERSIONS static moments
+moments_of(const view *v, size_t first, size_t lag, size_t m)
 {
-    double sum = 0, squares = 0;
-    for (size_t i = 0; i < n; i++) {
-        sum += c[i].energy;
-        squares += c[i].energy * c[i].energy;
+    enum { LANES = 16 };
+    const double *p = v->x + first, *q = p + lag;
+    double lane[5][LANES] = { { 0 } }, sum[5] = { 0 }, one = 1 / (double)m;
+    size_t k = 0;
+    for (; k + LANES <= m; k += LANES)
+        for (size_t l = 0; l < LANES; l++) {
+            double a = p[k + l], b = q[k + l];
+            lane[0][l] += a, lane[1][l] += b;
+            lane[2][l] += a * a, lane[3][l] += b * b, lane[4][l] += a * b;
+        }
+    for (int j = 0; j < 5; j++)
+        for (size_t l = 0; l < LANES; l++)
+            sum[j] += lane[j][l];
+    for (; k < m; k++) {
+        sum[0] += p[k], sum[1] += q[k];
+        sum[2] += p[k] * p[k], sum[3] += q[k] * q[k], sum[4] += p[k] * q[k];
     }
-    return sum * sum / (squares * (double)n);
+    return (moments){ fmax(0, (sum[2] - sum[0] * sum[0] * one) * one),
+                      fmax(0, (sum[3] - sum[1] * sum[1] * one) * one),
+                      (sum[4] - sum[0] * sum[1] * one) * one };
+}
+
+/* The mean square difference of the m samples from `first` on and those lag later, each less their mean. */
+static double
+difference(const view *v, size_t first, size_t lag, size_t m)
+{
+    moments of = moments_of(v, first, lag, m);
+    return fmax(0, of.a + of.b - 2 * of.ab);
+}
+
+/* The same over their mean squares. */
+static double
+relative(const view *v, size_t first, size_t lag, size_t m)
+{
+    moments of = moments_of(v, first, lag, m);
+    return of.a + of.b > 0 ? fmax(0, of.a + of.b - 2 * of.ab) / (of.a + of.b) : 1;
+}
+
+static double
+correlation(const view *v, size_t first, size_t lag, size_t m)
+{
+    moments of = moments_of(v, first, lag, m);
+    return of.a > 0 && of.b > 0 ? of.ab / sqrt(of.a * of.b) : 0;
+}
+
+/* The vertex of the parabola through the values at -step, 0, step. */
+static double
+vertex(double before, double at, double behind, double step)
+{
+    double bend = before - 2 * at + behind;
+    return bend > 0 ? fmax(-1, fmin(1, 0.5 * (before - behind) / bend)) * step : 0;
+}
+
+/* The lag of least difference near one that is known to within reach, found with steps that are halved. */
+static size_t
+refine(const view *v, size_t first, size_t m, size_t lag, size_t reach)
+{
+    double least = relative(v, first, lag, m);
+    for (size_t step = reach; step > 0; step /= 2)
+        for (int sign = -1; sign <= 1; sign += 2)
+            for (;;) {
+                size_t next = sign < 0 ? lag - step : lag + step;
+                if (next < 2 || first + next + m + 2 > v->n)
+                    break;
+                double d = relative(v, first, next, m);
+                if (!(d < least))
+                    break;
+                least = d;
+                lag = next;
+            }
+    return lag;
+}
+
+/* The lag of least difference in steps from lo to hi. */
+static size_t
+best_lag(const view *v, size_t first, size_t m, size_t lo, size_t hi, size_t step)
+{
+    size_t best = lo;
+    double least = INFINITY;
+    for (size_t lag = lo; lag <= hi && first + lag + m <= v->n; lag += step) {
+        double d = relative(v, first, lag, m);
+        if (d < least) {
+            least = d;
+            best = lag;
+        }
+    }
+    return best;
+}
+
+/* Measure the cycle that begins at sample `first`, and its lag, within WIDTH of the period [samples].  coarse
+ * is fine averaged over q samples.  fine reaches (2 + WIDTH) periods and a few samples beyond. */
+static cycle
+measure(const view *fine, const view *coarse, size_t q, size_t first, double period)
+{
+    cycle c = { .rate = NAN, .pull = { NAN, NAN, NAN }, .drift = NAN };
+    size_t i = first / q, m = (size_t)(period / (double)q), whole = (size_t)period;
+    size_t lo = (size_t)fmax(2, period * (1 - WIDTH) / (double)q);
+    size_t hi = (size_t)(period * (1 + WIDTH) / (double)q) + 1;
+    c.energy = moments_of(fine, first, whole, whole).a;
+    for (size_t k = first; k < first + whole; k++)
+        c.mean += fine->x[k] / (double)whole;
+
+    size_t rough = best_lag(coarse, i, m, lo, hi, 1);
+    if (rough == lo || rough == hi)
+        return c;
+    double before = correlation(coarse, i, rough - 1, m), at = correlation(coarse, i, rough, m);
+    double behind = correlation(coarse, i, rough + 1, m);
+    c.likeness = fmin(1, at - 0.25 * (before - behind) * vertex(-before, -at, -behind, 1));
+    c.symmetry = correlation(coarse, i, rough / 2, m);
+
+    size_t lag = refine(fine, first, whole, rough * q, q), likely = (size_t)(period + 0.5);
+    if (first + likely + whole + 2 <= fine->n) {        /* averages hide what rings within them */
+        likely = refine(fine, first, whole, likely, q);
+        if (relative(fine, first, likely, whole) < relative(fine, first, lag, whole))
+            lag = likely;
+    }
+    if (lag < 3 || first + lag + whole + 2 > fine->n)
+        return c;
+    double d[5];
+    for (size_t k = 0; k < 5; k++)
+        d[k] = relative(fine, first, lag + k - 2, whole);
+    for (size_t p = 2; p <= PARTS && lag >= 4 * p; p++)
+        if (fmin(relative(fine, first, lag / p, whole), relative(fine, first, lag / p + 1, whole))
+            <= fmin(d[1], d[3]))
+            c.parts |= 1u << p;
+    double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);
+    c.rate = 1 / ((double)lag + near);
+    c.bend = fabs(near - far) / 3;
+
+    double slopes = difference(fine, first, 1, whole);
+    if (first + 2 * lag + whole < fine->n && slopes > 0)
+        c.drift = (difference(fine, first, 2 * lag, whole) - difference(fine, first, lag, whole)) / 3 / slopes;
+    /* a hum may pull the lag over twice as many cycles from twice the lag, by up to reach */
+    size_t over = lag, reach = lag / PULLED, step = reach / 8 + 1;
+    for (int k = 0; k < LAGS && first + 2 * over + whole + 4 < fine->n; k++) {
+        over = best_lag(fine, first, whole, 2 * over - reach, 2 * over + reach, step);
+        over = refine(fine, first, whole, over, step);
+        double off = vertex(relative(fine, first, over - 1, whole), relative(fine, first, over, whole),
+                            relative(fine, first, over + 1, whole), 1);
+        c.pull[k] = ((double)over + off) / (2 << k) - (double)lag - near;
+    }
+    return c;
+}
+
+/* --- many cycles ----------------------------------------------------------------------------- */
+
+/* The median over n cycles of a member, that of the first: field.  NaN: it is not known of half of them.  v has
+ * room for n. */
+static double
+median_of(const cycle *c, size_t n, const double *field, double *v)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < n; i++) {
+        double here = field[i * (sizeof *c / sizeof *field)];
+        if (!isnan(here))
+            v[used++] = here;
+    }
+    return used > 0 && 2 * used >= n ? gsl_stats_median(v, 1, used) : NAN;
 }
 
 /* Do the cycles with energy decay, or grow, along a straight line in log energy? */
 static int
-fades(const next_cycle *c, size_t n, double least)
+fades(const cycle *c, size_t n, double least)
 {
     double m = 0, t = 0, y = 0, tt = 0, yy = 0, ty = 0;
     for (size_t i = 0; i < n; i++) {
@@ -98,18 +268,19 @@ fades(const next_cycle *c, size_t n, double least)
     return m >= 4 && rate * QUICK > 1 && rate * m > log(FADE) && cov * cov > STRAIGHT * vt * vy;
 }
 
-/* Does a number of each cycle, v, repeat itself some cycles later with a correlation of more than like, after
+/* Does a member of the cycles repeat itself some cycles later with a correlation of more than like, after
  * it has been different between?  Not if its scatter is below DEPTH of a scale. */
 static int
-repeats(const double *v, size_t n, double scale, double like)
+repeats(const cycle *c, size_t n, const double *field, double scale, double like, double *v)
 {
     const view of = { v, n };
-    double power, other, product, least = 1;
-    ss_view_difference(&of, 0, 0, n, &power, &other, &product);
-    if (n < FEWEST || !(sqrt(power) > DEPTH * scale))
+    double least = 1;
+    for (size_t i = 0; i < n; i++)
+        v[i] = field[i * (sizeof *c / sizeof *field)];
+    if (n < FEWEST || !(sqrt(moments_of(&of, 0, 0, n).a) > DEPTH * scale))
         return 0;
     for (size_t lag = 1; lag <= n / 2 && lag <= SLOWEST; lag++) {
-        double r = ss_view_correlation(&of, 0, lag, n - lag);
+        double r = correlation(&of, 0, lag, n - lag);
         if (least < BETWEEN && r > like)
             return 1;
         least = fmin(least, r);
@@ -117,40 +288,15 @@ repeats(const double *v, size_t n, double scale, double like)
     return 0;
 }
 
-/* Do the energies of the cycles repeat, from one swell to the next? */
-static int
-is_modulated(const next_cycle *c, size_t n, double *v)
-{
-    double mean = 0;
-    for (size_t i = 0; i < n; i++)
-        mean += (v[i] = c[i].energy) / (double)n;
-    return repeats(v, n, mean, CYCLES_LIKE);
-}
-
-/* Do the means of the cycles repeat?  Then these are cycles of a hum, or of ringing, in a longer cycle. */
-static int
-is_in_longer(const next_cycle *c, size_t n, double *v)
-{
-    double power = 0;
-    for (size_t i = 0; i < n; i++) {
-        v[i] = c[i].mean;
-        power += c[i].energy / (double)n;
-    }
-    return repeats(v, n, sqrt(power), CYCLES_ALIKE);
-}
-
 /* The number of parts of a cycle that repeat as well as the cycle does when it is shifted by a sample. */
 static size_t
-parts_of(const next_cycle *c, size_t n, double least)
+parts_of(const cycle *c, size_t n)
 {
-    for (size_t p = CYCLE_PARTS; p > 1; p--) {
-        size_t so = 0, all = 0;
+    for (size_t p = PARTS; p > 1 && n > 0; p--) {
+        size_t so = 0;
         for (size_t i = 0; i < n; i++)
-            if (is_known(&c[i], least)) {
-                all++;
-                so += c[i].parts >> p & 1;
-            }
-        if (all > 0 && 4 * so >= 3 * all)
+            so += c[i].parts >> p & 1;
+        if (4 * so >= 3 * n)
             return p;
     }
     return 1;
@@ -160,9 +306,7 @@ parts_of(const next_cycle *c, size_t n, double least)
 static double
 overtones(const double *x, size_t n, double period)
 {
-    double c = 0, s = 0, mean = 0, power = 0;
-    for (size_t i = 0; i < n; i++)
-        mean += x[i] / (double)n;
+    double c = 0, s = 0, mean = gsl_stats_mean(x, 1, n), power = 0;
     for (size_t i = 0; i < n; i++) {
         double turn = 2 * M_PI * (double)i / period;
         c += (x[i] - mean) * cos(turn), s += (x[i] - mean) * sin(turn);
@@ -171,112 +315,73 @@ overtones(const double *x, size_t n, double period)
     return power > 0 ? fmax(0, 1 - 2 * (c * c + s * s) / ((double)n * power)) : 0;
 }
 
-/* The correlation of neighbours; 0 if they are too few. */
-static double
-neighbours(const double *v, size_t n, double mean, double variance)
-{
-    double sum = 0;
-    for (size_t i = 1; i < n; i++)
-        sum += (v[i] - mean) * (v[i - 1] - mean);
-    return n < 5 || !(variance > 0) ? 0
-        : fmax(0, fmin(0.9, sum / ((double)(n - 1) * variance)));
-}
-
-/* The largest difference of the lag over one cycle from those over more, if half of the cycles have these. */
-static double
-pull_of(const next_cycle *c, size_t n, double least, double *v)
-{
-    double most = 0;
-    for (int k = 0; k < CYCLE_LAGS; k++) {
-        size_t used = 0, known = 0;
-        for (size_t i = 0; i < n; i++) {
-            known += (size_t)is_known(&c[i], least);
-            if (is_known(&c[i], least) && !isnan(c[i].later[k]))
-                v[used++] = c[i].later[k] - c[i].lag;
-        }
-        if (used > 0 && 2 * used >= known)
-            most = fmax(most, fabs(gsl_stats_median(v, 1, used)));
-    }
-    return most;
-}
-
-/* Find median and standard error of the frequencies of the cycles with energy. */
+/* Find median and standard error of the frequencies of n cycles. */
 static void
-summarise(const next_cycle *c, size_t n, double least, double *v, ss_cycles *out)
+summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
 {
-    size_t used = 0, drifting = 0;
-    double mean = 0, variance = 0, drift = 0, bend = 0, lags = 0;
-    for (size_t i = 0; i < n; i++)
-        if (is_known(&c[i], least)) {
-            mean += v[used++] = 1 / c[i].lag;
-            bend += c[i].bend, lags += c[i].lag;
-        }
-    mean /= (double)used, bend /= (double)used;
-    for (size_t i = 0; i < used; i++)
-        variance += (v[i] - mean) * (v[i] - mean) / (double)(used - 1);
-    double rho = neighbours(v, used, mean, variance), f = gsl_stats_median(v, 1, used);
-    double free_ones = fmax(1, (double)used * (1 - rho) / (1 + rho));
-    double student = gsl_cdf_tdist_Pinv(0.8413, fmax(1, fmin((double)used - 1, free_ones)));
-    if (used >= ROBUST) {
-        for (size_t i = 0; i < used; i++)
-            v[i] = fabs(v[i] - f);
-        variance = pow(median_of(v, used) / GAUSS_MEDIAN, 2);
+    double f = median_of(c, n, &c->rate, v), drift = median_of(c, n, &c->drift, v), bend = 0, lags = 0, pull = 0;
+    for (int k = 0; k < LAGS; k++)
+        pull = fmax(pull, fabs(median_of(c, n, &c->pull[k], v)));
+    for (size_t i = 0; i < n; i++) {
+        v[i] = c[i].rate;
+        lags += 1 / c[i].rate / (double)n;
+        bend += c[i].bend / (double)n;
     }
-    for (size_t i = 0; i < n; i++)
-        if (is_known(&c[i], least) && !isnan(c[i].twice) && c[i].slopes > 0)
-            v[drifting++] = (c[i].twice - c[i].change) / 3 / c[i].slopes;
-    if (drifting > 0)
-        drift = sqrt(fmax(0, median_of(v, drifting)));
-    double pull = pull_of(c, n, least, v), skew = fabs(lags / (double)used - 1 / f);
-    double scatter = student * sqrt(M_PI / 2 * variance / free_ones);
+    double variance = gsl_stats_variance(v, 1, n);
+    double rho = n < 5 || !(variance > 0) ? 0 : fmax(0, fmin(0.9, gsl_stats_lag1_autocorrelation(v, 1, n)));
+    double free_ones = fmax(1, (double)n * (1 - rho) / (1 + rho));
+    double student = gsl_cdf_tdist_Pinv(0.8413, fmax(1, fmin((double)n - 1, free_ones)));
+    if (n >= ROBUST) {
+        for (size_t i = 0; i < n; i++)
+            v[i] = fabs(v[i] - f);
+        variance = pow(gsl_stats_median(v, 1, n) / GAUSS_MEDIAN, 2);
+    }
+    double scatter = student * sqrt(M_PI / 2 * variance / free_ones), skew = fabs(lags - 1 / f);
+    drift = drift > 0 ? sqrt(drift) : 0;
     out->frequency = (ss_value){ f, hypot(scatter, hypot(hypot(pull, skew), hypot(drift, bend)) * f * f) };
     out->period = (ss_value){ 1 / f, out->frequency.error / (f * f) };
 }
 
-/* Count the cycles, and find how alike they are, or why they do not repeat. */
-static void
-judge(const next_cycle *c, size_t n, double least, double *v, ss_cycles *out)
+/* Describe the cycles of x, which are step samples long, by the n that begin so far apart.  known and v have
+ * room for n.  Returns the number of shorter cycles in each of them. */
+static size_t
+describe(const cycle *c, size_t n, const double *x, size_t step, cycle *known, double *v, ss_cycles *out)
 {
-    size_t used = 0, alike = 0;
-    for (size_t i = 0; i < n; i++)
-        if (is_known(&c[i], least))
-            v[used++] = c[i].symmetry;
-    out->symmetry = used > 0 ? median_of(v, used) : 0;
-    used = 0;
+    double energy = 0, squares = 0;
+    size_t n_known = 0, alike = 0, first = n, last = 0;
     for (size_t i = 0; i < n; i++) {
-        out->n += c[i].energy > least;
-        alike += is_known(&c[i], least) && c[i].likeness > AGREES;
-        if (is_known(&c[i], least))
-            v[used++] = c[i].likeness;
+        energy += c[i].energy / (double)n;
+        squares += c[i].energy * c[i].energy / (double)n;
     }
-    out->likeness = used > 0 ? median_of(v, used) : 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!(c[i].energy > ACTIVE * energy))
+            continue;
+        out->n++;
+        first = first < i ? first : i;
+        last = i;
+        if (isnan(c[i].rate))
+            continue;
+        known[n_known++] = c[i];
+        alike += c[i].likeness > AGREES;
+    }
+    out->symmetry = n_known > 0 ? median_of(known, n_known, &known->symmetry, v) : 0;
+    out->likeness = n_known > 0 ? median_of(known, n_known, &known->likeness, v) : 0;
     if (out->n < 2)
         out->why = "under three cycles of what may repeat are in the record";
-    else if ((double)(out->n - alike) > fmax(SPOILT, BROKEN * (double)out->n) || used < 2
+    else if ((double)(out->n - alike) > fmax(SPOILT, BROKEN * (double)out->n) || n_known < 2
              || !(out->likeness >= CYCLES_ALIKE))
         out->why = "no cycle resembles the next one";
-    else if (lasting(c, n) < LASTING || fades(c, n, least))
+    else if (energy * energy < LASTING * squares || fades(c, n, ACTIVE * energy))
         out->why = "it rings once, or sounds in a small part of the record only";
-    else if (is_in_longer(c, n, v))
+    else if (repeats(c, n, &c->mean, sqrt(energy), CYCLES_ALIKE, v))
         out->why = "what hums or rings repeats sooner than the rest";
-    else if ((out->modulated = is_modulated(c, n, v)) != 0)
+    else if ((out->modulated = repeats(c, n, &c->energy, energy, CYCLES_LIKE, v)) != 0)
         out->why = "its cycles swell and fade in turn: it is modulated";
-}
-
-/* Describe the n cycles of x, which begin step samples apart. */
-static void
-describe(const next_cycle *c, size_t n, const double *x, size_t step, double least, double *v, ss_cycles *out)
-{
-    judge(c, n, least, v, out);
-    if (out->why != NULL)
-        return;
-    summarise(c, n, least, v, out);
-    size_t first = 0, last = n - 1;
-    while (!(c[first].energy > least))
-        first++;
-    while (!(c[last].energy > least))
-        last--;
-    out->overtones = overtones(x + (first + last) / 2 * step, step, out->period.value);
+    else {
+        summarise(known, n_known, v, out);
+        out->overtones = overtones(x + (first + last) / 2 * step, step, out->period.value);
+    }
+    return parts_of(known, n_known);
 }
 
 /* Describe the cycles of this period.  *parts becomes the number of shorter cycles in each of them. */
@@ -284,37 +389,21 @@ static ss_status
 find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
 {
     size_t q = period > POINTS ? (size_t)(period / POINTS) : 1, step = (size_t)period, found = 0;
-    size_t reach = step + (size_t)(period * (1 + CYCLE_WIDTH)) + 2 * q + 4, most = n / step + 1;
-    double *averaged = calloc(n / q + 1, sizeof *averaged), *v = malloc(most * sizeof *v);
-    next_cycle *c = malloc(most * sizeof *c);
+    size_t reach = step + (size_t)(period * (1 + WIDTH)) + 2 * q + 4, most = n / step + 1;
+    double *averaged = calloc(n / q + 1 + most, sizeof *averaged);
+    cycle *c = malloc(2 * most * sizeof *c);
     *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
-    if (averaged != NULL && v != NULL && c != NULL) {
+    if (averaged != NULL && c != NULL) {
         const view fine = { x, n }, coarse = { averaged, n / q };
-        double least = 0;
         for (size_t i = 0; i < n / q * q; i++)
             averaged[i / q] += x[i] / (double)q;
-        for (size_t i = 0; i + reach < n; i += step) {
-            c[found] = ss_next_cycle(&fine, &coarse, q, i, period);
-            least += c[found++].energy;
-        }
-        least *= ACTIVE / (double)found;
-        *parts = parts_of(c, found, least);
-        describe(c, found, x, step, least, v, out);
+        for (size_t i = 0; i + reach < n; i += step)
+            c[found++] = measure(&fine, &coarse, q, i, period);
+        *parts = describe(c, found, x, step, c + most, averaged + n / q + 1, out);
     }
     free(averaged);
-    free(v);
     free(c);
-    return averaged != NULL && v != NULL && c != NULL ? SS_OK : SS_ENOMEM;
-}
-
-/* The correlation of the record with itself LATER cycles later, or fewer if a quarter of it has fewer. */
-static double
-lasting_of(const double *x, size_t n, double period)
-{
-    const view of = { x, n };
-    double cycles = fmax(1, fmin(LATER, floor(0.25 * (double)n / period)));
-    size_t lag = (size_t)(cycles * period + 0.5);
-    return lag < n ? ss_view_correlation(&of, 0, lag, n - lag) : 0;
+    return averaged != NULL && c != NULL ? SS_OK : SS_ENOMEM;
 }
 
 ss_status
@@ -334,7 +423,8 @@ ss_cycles_find(const double *x, size_t n, ss_cycles *out)
         start.value /= (double)parts;
         st = find_at(x, n, start.value, out, &parts);
     } while (st == SS_OK && parts > 1);
-    if (!isnan(out->period.value))
-        out->lasting = lasting_of(x, n, out->period.value);
+    double later = fmax(1, fmin(LATER, floor(0.25 * (double)n / out->period.value))) * out->period.value;
+    if (later + 0.5 < (double)n)        /* not NaN */
+        out->lasting = correlation(&(view){ x, n }, 0, (size_t)(later + 0.5), n - (size_t)(later + 0.5));
     return st;
 }

@@ -9,8 +9,7 @@
  *
  * The band about the frequency is first shifted to zero and thinned, so that a bin costs little.  The
  * error of the period, over all m periods, must be a small part of an oscillation; so the period is
- * the one that gives its harmonics most amplitude.  Long records are treated in parts, because a hum
- * may drift. */
+ * taken from the harmonics themselves.  Long records are treated in parts, because a hum may drift. */
 #include "find/hum.h"
 
 #include <complex.h>
@@ -18,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/fft.h"
+#include "base/sort.h"
 
 #define BAND 0.5                /* part of the frequency that the band extends to either side */
 #define ABOVE 10.0              /* a line's power over all others */
@@ -77,7 +77,7 @@ zoom_in(zoomed *zoom, const double *x, size_t n, double f)
         if (j > 0)
             zoom->z[(j + few - middle) % few] = 2 / (double)size * (whole.x[2 * j] + I * whole.x[2 * j + 1]);
     ss_real_fft_free(&whole);
-    return ss_complex_fft(zoom->z, few, 1, 1, 1);
+    return ss_complex_fft(zoom->z, few, 1, 1);
 }
 
 /* The bins under a Hann window of length samples, in which a line of amplitude 1 is 1 high.  They are one
@@ -91,60 +91,57 @@ window(const spectrum *s, const zoomed *zoom, double length)
     double complex *a = calloc(2 * size, sizeof *a);
     if (a == NULL)
         return SS_ENOMEM;
-    double complex *chirp = a + size;
+    /* by steps, which err by less than n^2 eps: exp(-i from t), exp(i turn t), exp(i turn t^2 / 2) */
+    double complex *chirp = a + size, shift = 1, hann = 1, c = 1;
+    const double complex by = cexp(-I * from), on = cexp(I * turn), half = cexp(I * turn / 2);
     for (size_t i = 0; i < under || i < s->n; i++) {
-        double t = (double)i;
-        double complex c = cexp(I * turn / 2 * t * t);
         if (i < s->n)
             chirp[i] = c;
         if (i < under) {
-            a[i] = zoom->z[i] * (1 - cos(turn * t)) * cexp(-I * (from + turn / 2 * t) * t);
+            a[i] = zoom->z[i] * (1 - creal(hann)) * shift * conj(c);
             chirp[(size - i) % size] = c;
         }
+        c *= hann * half, shift *= by, hann *= on;
     }
-    ss_status st = ss_complex_fft(a, size, 2, 1, 0);
+    ss_status st = ss_complex_fft(a, size, 2, 0);
     for (size_t i = 0; i < size; i++)
         a[i] *= chirp[i] / (double)size;
     if (st == SS_OK)
-        st = ss_complex_fft(a, size, 1, 1, 1);
+        st = ss_complex_fft(a, size, 1, 1);
     for (size_t k = 0; k < s->n; k++)
         s->bin[k] = zoom->step / length * cexp(-I * turn / 2 * (double)k * (double)k) * a[k];
     free(a);
     return st;
 }
 
-/* The sum of the amplitudes of the harmonics of a period, in *sum. */
+/* The period whose harmonics would be at whole bins: the median of what each says, by its weight, as a hum
+ * may be beside one.  A line x bins above bin k, and nothing else, gives
+ * x = 2 (b[k-1] - b[k+1]) / (2 b[k] - b[k-1] - b[k+1]). */
 static ss_status
-comb(const spectrum *s, const zoomed *zoom, double period, double *sum)
+refine(const spectrum *s, double *period)
 {
-    ss_status st = window(s, zoom, (double)s->cycles * period);
-    *sum = 0;
-    for (size_t i = (s->cycles - s->first % s->cycles) % s->cycles; i < s->n; i += s->cycles)
-        *sum += cabs(s->bin[i]);
-    return st;
-}
-
-/* The period that gives its harmonics most amplitude, to a thousandth of a bin at f, and its bins. */
-static ss_status
-refine(const spectrum *s, const zoomed *zoom, double f, double *period)
-{
-    double bin = 1 / (f * (double)s->cycles), step = bin / 4, start = *period, most, sum;
-    ss_status st = comb(s, zoom, *period, &most);
-    for (int i = -4; i <= 4 && st == SS_OK; i++)
-        if ((st = comb(s, zoom, start + i * step, &sum)) == SS_OK && sum > most) {
-            most = sum;
-            *period = start + i * step;
+    struct { double off, weight; } *says = malloc((s->n / s->cycles + 2) * sizeof *says);
+    double total = 0, below = 0;
+    size_t m = s->cycles, n = 0, i = 0;
+    if (says == NULL)
+        return SS_ENOMEM;
+    for (size_t h = (s->first + m) / m; h * m + 1 < s->first + s->n; h++) {
+        const double complex *b = s->bin + (h * m - s->first);
+        if (h * m == s->first)
+            continue;
+        double complex top = 2 * b[0] - b[-1] - b[1];
+        if (power(top) > 0) {
+            says[n].off = 2 * creal((b[-1] - b[1]) / top) / (double)(h * m);
+            total += says[n++].weight = (double)h * cabs(top);
         }
-    while (st == SS_OK && step > bin / 1000) {
-        double middle = *period;
-        step /= 2;
-        for (int sign = -1; sign <= 1 && st == SS_OK; sign += 2)
-            if ((st = comb(s, zoom, middle + sign * step, &sum)) == SS_OK && sum > most) {
-                most = sum;
-                *period = middle + sign * step;
-            }
     }
-    return st == SS_OK ? comb(s, zoom, *period, &sum) : st;
+    qsort(says, n, sizeof *says, ss_ascending);
+    while (i < n && (below += says[i].weight) < total / 2)
+        i++;
+    if (i < n)
+        *period /= 1 + says[i].off;
+    free(says);
+    return SS_OK;
 }
 
 /* --- the lines ------------------------------------------------------------------------------- */
@@ -237,8 +234,11 @@ subtract_part(double *x, size_t n, double f, double period, ss_hum *found)
         return SS_OK;
     s.bin = malloc(s.n * sizeof *s.bin);
     ss_status st = s.bin != NULL ? zoom_in(&zoom, x, n, f) : SS_ENOMEM;
-    if (st == SS_OK)
-        st = refine(&s, &zoom, f, &period);
+    for (int pass = 0; st == SS_OK && pass < 3; pass++) {   /* the first may be a bin off */
+        st = pass > 0 ? refine(&s, &period) : SS_OK;
+        if (st == SS_OK)
+            st = window(&s, &zoom, cycles * period);
+    }
     size_t lines = st == SS_OK ? find_lines(&s, hum) : 0;
     free(s.bin);
     free(zoom.z);

@@ -8,10 +8,7 @@
  * scatter is its error. */
 #include "find/period.h"
 
-#include <complex.h>
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include "base/fft.h"
 #include "map/map.h"
 
@@ -23,138 +20,44 @@
 #define LEAST 0.15
 #define SIGMAS 5.5
 
-/* --- the autocorrelation -----------------------------------------------------------------------
- *
- * Two real samples are one complex one, and these stand in rows and columns: FFTs of all columns, a twist,
- * and FFTs of all rows leave term r + rows c in row r and column c.  Back they need not be put in order, as
- * a magnitude needs only its own term and the mirrored one.  So no FFT, and no table of FFTW's, is longer
- * than about the root of the record. */
-
-typedef struct grid {
-    size_t rows, columns;
-    double complex *z;          /* row by row */
-} grid;
-
 /* Has n no prime factor above 5, so that its FFT is fast? */
 static int
 is_smooth(size_t n)
 {
-    static const size_t prime[] = { 2, 3, 5 };
-    for (int i = 0; i < 3; i++)
-        while (n % prime[i] == 0)
-            n /= prime[i];
+    for (size_t prime = 2; prime <= 5; prime++)
+        while (n % prime == 0)
+            n /= prime;
     return n == 1;
 }
 
-/* The least grid of more than n places, about a square.  Columns are an odd number of cache lines apart: in a
- * power of two, terms of one column would all take the same places of the cache. */
-static void
-choose_size(size_t n, size_t *rows, size_t *columns)
-{
-    enum { LINE = 4 };          /* complex numbers in a line */
-    const size_t root = (size_t)sqrt((double)n);
-    size_t least = SIZE_MAX;
-    *rows = *columns = 0;
-    for (size_t lines = root / (2 * LINE) | 1; lines <= root / LINE * 2 + 1; lines += 2) {
-        size_t down = n / (LINE * lines) + 1;
-        if (!is_smooth(lines))
-            continue;
-        while (!is_smooth(down))
-            down++;
-        if (down * LINE * lines < least) {
-            *rows = down;
-            *columns = LINE * lines;
-            least = *rows * *columns;
-        }
-    }
-}
-
-/* exp(-2 pi i k / n). */
-static double complex
-turn(double k, double n)
-{
-    return cexp(-2 * M_PI * I * k / n);
-}
-
-static void
-twist(const grid *g, int back)
-{
-    for (size_t r = 1; r < g->rows; r++) {
-        double complex step = turn((double)r, (double)(g->rows * g->columns)), at = 1;
-        double complex *z = g->z + r * g->columns;
-        step = back ? conj(step) : step;
-        for (size_t c = 0; c < g->columns; c++, at *= step)
-            z[c] *= at;
-    }
-}
-
-/* Replace two terms of the complex samples, one mirrored, by those of the samples that the magnitudes of
- * the terms of the real ones are of; turned: exp(-2 pi i k / n) of the first. */
-static void
-compress(double complex *a, double complex *b, double complex turned)
-{
-    double complex even = (*a + conj(*b)) / 2, odd = (*a - conj(*b)) * (-0.5 * I) * turned;
-    double complex sum = even + odd, rest = even - odd;
-    double p = magnitude_of((double[]){ creal(sum), cimag(sum) });
-    double q = magnitude_of((double[]){ creal(rest), cimag(rest) });
-    *a = (p + q) / 2 + (p - q) / 2 * I * conj(turned);
-    *b = (p + q) / 2 + (p - q) / 2 * I * turned;
-}
-
-static void
-compress_all(const grid *g)
-{
-    const double n = 2 * (double)(g->rows * g->columns);
-    double complex step = turn((double)g->rows, n);
-    for (size_t r = 0; 2 * r <= g->rows; r++) {
-        size_t mirrored = r > 0 ? g->rows - r : 0;
-        double complex *z = g->z + r * g->columns, *other = g->z + mirrored * g->columns;
-        double complex turned = turn((double)r, n);
-        for (size_t c = 0; c < g->columns; c++, turned *= step) {
-            size_t to = r > 0 ? g->columns - 1 - c : (g->columns - c) % g->columns;
-            if (other + to >= z + c)
-                compress(z + c, other + to, turned);
-        }
-    }
-}
-
-/* x to its autocorrelation, compressed, at lags 0 ... n - 1, 1 at 0.  x has n samples less
- * their mean, then zeros up to 2 rows columns. */
+/* The autocorrelation of n samples, compressed, at lags 0 ... n - 1, 1 at 0: r->x, to be freed with r. */
 static ss_status
-autocorrelation(double *x, size_t n, size_t rows, size_t columns)
-{
-    grid g = { rows, columns, (double complex *)x };
-    ss_status st = ss_complex_fft(g.z, rows, columns, columns, 0);
-    twist(&g, 0);
-    if (st == SS_OK)
-        st = ss_complex_fft(g.z, columns, rows, 1, 0);
-    compress_all(&g);
-    if (st == SS_OK)
-        st = ss_complex_fft(g.z, columns, rows, 1, 1);
-    twist(&g, 1);
-    if (st == SS_OK)
-        st = ss_complex_fft(g.z, rows, columns, columns, 1);
-    double factor = x[0] > 0 ? (double)n / x[0] : 0;
-    for (size_t i = 0; st == SS_OK && i < n; i++)
-        x[i] *= factor / (double)(n - i);
-    return st;
-}
-
-/* x less its mean, over its largest |value|, then zeros up to size. */
-static double *
-centred(const double *x, size_t n, size_t size)
+autocorrelation(real_fft *r, const double *x, size_t n)
 {
     double mean = 0, largest = 0;
-    double *r = calloc(size, sizeof *r);
-    if (r == NULL)
-        return NULL;
+    size_t size = 2 * n;        /* the compressed samples are a circle: so that the ends of the record do not meet */
+    while (!is_smooth(size))
+        size += 2;
+    if (ss_real_fft_new(r, size, 0) != SS_OK)
+        return SS_ENOMEM;
     for (size_t i = 0; i < n; i++) {
         mean += x[i] / (double)n;
         largest = fmax(largest, fabs(x[i]));
     }
+    for (size_t i = 0; i < size; i++)
+        r->x[i] = i < n && largest > 0 ? (x[i] - mean) / largest : 0;
+    ss_real_fft_run(r);
+    for (size_t i = 0; i < size + 2; i += 2) {
+        r->x[i] = magnitude_of(r->x + i);
+        r->x[i + 1] = 0;
+    }
+    if (ss_real_fft_turn(r, size) != SS_OK)
+        return SS_ENOMEM;
+    ss_real_fft_run(r);
+    double factor = r->x[0] > 0 ? (double)n / r->x[0] : 0;
     for (size_t i = 0; i < n; i++)
-        r[i] = largest > 0 ? (x[i] - mean) / largest : 0;
-    return r;
+        r->x[i] *= factor / (double)(n - i);
+    return SS_OK;
 }
 
 static int
@@ -229,20 +132,15 @@ first_peak(const double *r, size_t last, double least)
 ss_status
 ss_period_find(const double *x, size_t n, ss_value *period)
 {
-    size_t rows, columns;
+    real_fft r = { 0 };
     double height;
     *period = (ss_value){ NAN, NAN };
     if (n < 8)
         return SS_OK;
-    if (n > SIZE_MAX / 8 / sizeof *x)
-        return SS_ENOMEM;
-    choose_size(n + n / 4, &rows, &columns);    /* the compressed samples are a circle, whose ends meet where
-                                                   they are low */
-    double *r = centred(x, n, 2 * rows * columns);
-    ss_status st = r != NULL ? autocorrelation(r, n, rows, columns) : SS_ENOMEM;
-    size_t peak = st != SS_OK ? 0 : first_peak(r, n / 2, fmax(LEAST, SIGMAS / sqrt((double)n)));
+    ss_status st = autocorrelation(&r, x, n);
+    size_t peak = st != SS_OK ? 0 : first_peak(r.x, n / 2, fmax(LEAST, SIGMAS / sqrt((double)n)));
     if (peak > 0)
-        period->value = follow(r, peak, 0.75 * (double)n, INFINITY, &height, &period->error);
-    free(r);
+        period->value = follow(r.x, peak, 0.75 * (double)n, INFINITY, &height, &period->error);
+    ss_real_fft_free(&r);
     return st;
 }
