@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define PI 3.141592653589793238462643383279502884L
 
@@ -92,9 +93,9 @@ guard(const ss_scene *s, const oracle_piece *p, long double t)
         return p->mode * (q[1] - s->surface_velocity);
     if (p->at_rest != 0)
         return most_in_stick(s) - fabsl(load(s, t, q[0] + p->belt * (t - p->t0)));
-    long double force = s->contact_stiffness * q[0];
-    if (s->release == SS_RELEASE_TOTAL)
-        force += s->contact_damping * q[1];
+    long double force = ss_scene_get(s, "contact_stiffness") * q[0];
+    if (strcmp(ss_scene_word(s, "release"), "total") == 0)
+        force += ss_scene_get(s, "contact_damping") * q[1];
     return most_in_stick(s) - fabsl(force);
 }
 
@@ -166,7 +167,7 @@ stop_from(const ss_scene *s, long double t, long double x, long double y, int di
 {
     oracle_piece p = { .t0 = t, .kind = SS_STICK, .direction = direction, .k = s->stiffness,
                        .belt = s->surface_velocity };
-    if (s->model == SS_COULOMB) {
+    if (s->model == ss_model_named("coulomb")) {
         long double force = load(s, t, x);
         if (fabsl(force) > most_in_stick(s)) {
             p = slip_from(s, t, x, s->surface_velocity, force > 0 ? 1 : -1);
@@ -177,8 +178,8 @@ stop_from(const ss_scene *s, long double t, long double x, long double y, int di
         p.at_rest = 1;
         return p;
     }
-    p.k += s->contact_stiffness;
-    p.c = (long double)s->contact_damping + s->damping;
+    p.k += ss_scene_get(s, "contact_stiffness");
+    p.c = (long double)ss_scene_get(s, "contact_damping") + s->damping;
     p.x_ref = x - y;
     p.ramp = (long double)s->stiffness * ((long double)s->base_velocity - s->surface_velocity);
     p.f0 = s->stiffness * (p.x_ref - s->base_velocity * t)
@@ -197,7 +198,7 @@ after(const ss_scene *s, const oracle_piece *p, long double t)
         long double way = p->at_rest != 0 ? load(s, t, x) : q[1];
         return slip_from(s, t, x, q[1] + p->belt, way > 0 ? 1 : -1);
     }
-    long double limit = s->model == SS_COMPLIANT ? s->friction / s->contact_stiffness : 0;
+    long double limit = s->model == ss_model_named("compliant") ? s->friction / ss_scene_get(s, "contact_stiffness") : 0;
     return stop_from(s, t, x, p->mode * limit, p->mode);
 }
 
@@ -243,7 +244,7 @@ rates(const ss_scene *s, long double t, const long double q[], long double dqdt[
     long double spring = swing(s, t) + s->stiffness * (s->base_velocity * t - q[0]);
     long double speed = q[1] - s->surface_velocity;
     dqdt[1] = (spring - s->damping * q[1] - q[2]) / s->mass;
-    dqdt[2] = -(long double)s->gamma * (q[2] - s->friction * tanhl(s->alpha * speed));
+    dqdt[2] = -(long double)ss_scene_get(s, "gamma") * (q[2] - s->friction * tanhl(ss_scene_get(s, "alpha") * speed));
 }
 
 /* n steps by the midpoint rule, whose error is a series in (h / n)^2. */

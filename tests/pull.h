@@ -17,6 +17,7 @@ static inline ss_scene
 pull_draw(double (*uniform)(void *from), void *from)
 {
     ss_scene s = ss_scene_defaults;
+    s.model = ss_model_named("coulomb");
     s.mass = pull_between(uniform(from), .01, 100);
     double w = 2 * M_PI * pull_between(uniform(from), 2, 200), q = pull_between(uniform(from), 1.5, 30);
     s.stiffness = s.mass * w * w;

@@ -26,8 +26,8 @@ static inline double
 draw(rng *r, const char *name)
 {
     const ss_scene_range *range = NULL;
-    for (ss_model m = SS_COULOMB; range == NULL; m++)
-        for (size_t i = 0; (range = ss_model_range(m, i)) != NULL && strcmp(range->name, name) != 0;)
+    for (size_t m = 0; range == NULL; m++)
+        for (size_t i = 0; (range = ss_model_range(ss_model_at(m), i)) != NULL && strcmp(range->name, name) != 0;)
             i++;
     double u = uniform(r), zero = uniform(r);
     return range->zero && zero < 0.125 ? 0 : range->from * pow(range->to / range->from, u);
@@ -39,7 +39,7 @@ random_scene(uint64_t number)
     rng r = { number * UINT64_C(0xd1342543de82ef95) + 1 };
     ss_scene s = ss_scene_defaults;
     double omega = 2 * M_PI * draw(&r, "omega_n/(2 pi)"), X = draw(&r, "X");
-    s.model = (ss_model)(3 * uniform(&r));
+    s.model = ss_model_at((size_t)(3 * uniform(&r)));
     s.mass = draw(&r, "m");
     s.stiffness = s.mass * omega * omega;
     double base = draw(&r, "Omega/omega_n"), start = uniform(&r), angle = 2 * M_PI * uniform(&r);
@@ -58,15 +58,15 @@ random_scene(uint64_t number)
     }
     s.friction = draw(&r, "f_k/(k X)") * s.stiffness * X;
     double fastest = fmax(1, base);
-    if (s.model == SS_COMPLIANT) {
-        s.contact_stiffness = draw(&r, "K_y/k") * s.stiffness;
-        double k = s.stiffness + s.contact_stiffness, zeta = draw(&r, "c/(2 sqrt((k + K_y) m))");
-        s.contact_damping = zeta * 2 * sqrt(k) * sqrt(s.mass);
-        s.release = uniform(&r) < 0.5 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+    if (s.model == ss_model_named("compliant")) {
+        ss_scene_set(&s, "contact_stiffness", draw(&r, "K_y/k") * s.stiffness, NULL);
+        double k = s.stiffness + ss_scene_get(&s, "contact_stiffness"), zeta = draw(&r, "c/(2 sqrt((k + K_y) m))");
+        ss_scene_set(&s, "contact_damping", zeta * 2 * sqrt(k) * sqrt(s.mass), NULL);
+        ss_scene_set_text(&s, "release", uniform(&r) < 0.5 ? "spring" : "total", NULL);
         fastest = fmax(fastest, sqrt(k / s.stiffness) * (zeta + sqrt(fmax(1, zeta * zeta))));
-    } else if (s.model == SS_STATE_VARIABLE) {
-        s.alpha = draw(&r, "alpha X omega_n") / (X > 0 ? X * omega : 1);
-        s.gamma = draw(&r, "gamma/omega_n") * omega;
+    } else if (s.model == ss_model_named("state-variable")) {
+        ss_scene_set(&s, "alpha", draw(&r, "alpha X omega_n") / (X > 0 ? X * omega : 1), NULL);
+        ss_scene_set(&s, "gamma", draw(&r, "gamma/omega_n") * omega, NULL);
     }
     /* ten of the slowest periods, or RANDOM_STEPS of the longest steps if that is less */
     double slow = base > 0 ? fmin(1, base) : 1;
@@ -98,7 +98,7 @@ random_rig(uint64_t number)
     rng r = { number * UINT64_C(0xd1342543de82ef95) + 7 };
     ss_scene s = ss_scene_defaults;
     double omega = between(&r, 1, 100), X = between(&r, 1e-6, 1e-2), fastest = 1, zeta;
-    s.model = uniform(&r) < .5 ? SS_COULOMB : SS_COMPLIANT;
+    s.model = ss_model_named(uniform(&r) < .5 ? "coulomb" : "compliant");
     s.mass = between(&r, 1e-3, 1e3);
     s.stiffness = s.mass * omega * omega;
     s.friction = between(&r, .01, 2) * s.stiffness * X;
@@ -123,12 +123,12 @@ random_rig(uint64_t number)
     } else {
         s.v0 = uniform(&r) < .5 ? s.surface_velocity : 0;
     }
-    if (s.model == SS_COMPLIANT) {
-        s.contact_stiffness = between(&r, .5, 300) * s.stiffness;
-        double k = s.stiffness + s.contact_stiffness, c = between(&r, 1e-3, 2);
-        s.contact_damping = c * 2 * sqrt(k * s.mass);
-        s.release = uniform(&r) < .5 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
-        double all = (s.contact_damping + s.damping) / (2 * sqrt(k * s.mass));
+    if (s.model == ss_model_named("compliant")) {
+        ss_scene_set(&s, "contact_stiffness", between(&r, .5, 300) * s.stiffness, NULL);
+        double k = s.stiffness + ss_scene_get(&s, "contact_stiffness"), c = between(&r, 1e-3, 2);
+        ss_scene_set(&s, "contact_damping", c * 2 * sqrt(k * s.mass), NULL);
+        ss_scene_set_text(&s, "release", uniform(&r) < .5 ? "spring" : "total", NULL);
+        double all = (ss_scene_get(&s, "contact_damping") + s.damping) / (2 * sqrt(k * s.mass));
         fastest = fmax(fastest, sqrt(k / s.stiffness) * (all + sqrt(fmax(1, all * all) - 1)));
         fastest = fmax(fastest, sqrt(k / s.stiffness));
     }

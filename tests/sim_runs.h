@@ -48,6 +48,7 @@ static inline ss_scene
 unit_oscillator(double friction, double amplitude, double r)
 {
     ss_scene s = ss_scene_defaults;
+    s.model = ss_model_named("coulomb");
     s.mass = s.stiffness = 1;
     s.friction = friction;
     s.base_amplitude = amplitude;

@@ -51,7 +51,7 @@ score_scene_make(score_scene *s, const char *name, double rate, double duration,
     s->scene.rate = rate;
     s->scene.duration = duration;
     if (damping > 0)
-        s->scene.contact_damping = damping;
+        ss_scene_set(&s->scene, "contact_damping", damping, NULL);
     opts.events = score_keep;
     opts.user = s;
     if (ss_sim_run(&s->scene, &opts, NULL, NULL) != SS_OK

@@ -8,8 +8,8 @@
 
 #include "unit.h"
 
-static const ss_scene scene = { .model = SS_COMPLIANT, .mass = 1, .stiffness = 1, .friction = 1,
-    .base_amplitude = 1, .base_frequency = 1, .contact_stiffness = 1, .duration = 1, .rate = 8 };
+static ss_scene scene = { .mass = 1, .stiffness = 1, .friction = 1, .base_amplitude = 1,
+    .base_frequency = 1, .duration = 1, .rate = 8 };
 
 /* Refused, with a text where there is room for one. */
 static void
@@ -208,9 +208,20 @@ simulations_refuse_null(void **state)
     static const ss_sample sample;
     double row = 7;
     (void)state;
-    assert_null(ss_scene_number(NULL, "mass", NULL, &e));
-    assert_null(ss_scene_number(&copy, NULL, NULL, &e));
+    assert_int_equal(ss_scene_set(NULL, "mass", 1, &e), SS_EINVAL);
+    assert_int_equal(ss_scene_set(&copy, NULL, 1, &e), SS_EINVAL);
+    assert_int_equal(ss_scene_set(&copy, "release", 1, &e), SS_EINVAL);
+    assert_int_equal(ss_scene_set_text(&copy, "release", "totally", &e), SS_EINVAL);
+    assert_int_equal(ss_scene_set_text(&copy, "model", "?", &e), SS_EINVAL);
+    assert_true(isnan(ss_scene_get(NULL, "mass")) && isnan(ss_scene_get(&scene, NULL))
+                && isnan(ss_scene_get(&scene, "release")) && isnan(ss_scene_get(&scene, "alpha")));
+    assert_null(ss_scene_unit(NULL, "mass"));
+    assert_null(ss_scene_unit(&scene, "model"));
+    assert_null(ss_scene_word(NULL, "release"));
+    assert_null(ss_scene_word(&scene, "law"));
     e.text[0] = '\0';
+    assert_refused(ss_scene_set_text(NULL, "mass", "1", &e), &e);
+    assert_refused(ss_scene_set_text(&copy, "mass", NULL, &e), &e);
     assert_refused(ss_scene_supported(NULL, &e), &e);
     assert_int_equal(ss_scene_samples(NULL), 0);
     assert_refused(ss_sim_run(NULL, &opts, NULL, &e), &e);
@@ -685,14 +696,15 @@ refuses_what_is_no_known_choice(void **state)
         ss_signal *made;
         ss_ranking *ranking;
         ss_fit fit;
-        copy.model = (ss_model)k;
+        copy.model = NULL;
         norm.norm = (ss_norm)k;
         detrend.detrend = (ss_detrend)k;
         engine.engine = (ss_engine)k;
         rank.quantity = (ss_quantity)k;
         assert_int_equal(ss_scene_check(&copy, NULL), SS_EINVAL);
         assert_int_equal(ss_scene_write(&copy, in), SS_EINVAL);
-        assert_null(ss_scene_number(&copy, "mass", NULL, NULL));
+        assert_true(isnan(ss_scene_get(&copy, "mass")));
+        assert_null(ss_model_at((size_t)k));
         assert_int_equal(ss_scene_supported(&copy, NULL), SS_EINVAL);
         assert_null(ss_sim_method_for(&copy, NULL));
         assert_int_equal(ss_steady_check(&ss_steady_defaults, &copy, NULL), SS_EINVAL);
@@ -713,10 +725,10 @@ refuses_what_is_no_known_choice(void **state)
                          SS_EINVAL);
         assert_int_equal(ss_ranking_new(&ranking, signal, 0, &scene, 1, &rank, NULL), SS_EINVAL);
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &scene, &rank, NULL), SS_EINVAL);
-        assert_string_equal(ss_model_name((ss_model)k), "?");
-        assert_null(ss_model_range((ss_model)k, 0));
-        assert_int_equal(ss_model_has_events((ss_model)k), 0);
-        assert_int_equal(ss_model_is_linear((ss_model)k), 0);
+        assert_string_equal(ss_model_name(NULL), "?");
+        assert_null(ss_model_range(NULL, 0));
+        assert_int_equal(ss_model_has_events(NULL), 0);
+        assert_int_equal(ss_model_is_linear(NULL), 0);
         assert_string_equal(ss_event_kind_name((ss_event_kind)k), "?");
         assert_string_equal(ss_spike_kind_name((ss_spike_kind)k), "?");
         assert_null(ss_measure_label((ss_measure)k));
@@ -806,5 +818,7 @@ main(void)
         cmocka_unit_test(every_status_has_words_of_its_own),
         cmocka_unit_test(nothing_is_freed_without_complaint),
     };
+    ss_scene_set_text(&scene, "model", "compliant", NULL);
+    ss_scene_set(&scene, "contact_stiffness", 1, NULL);
     return cmocka_run_group_tests_name("arguments", tests, NULL, NULL);
 }

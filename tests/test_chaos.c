@@ -111,9 +111,9 @@ contacts_have_their_multipliers_by_all_ways(void **state)
         ss_scene s = rig(r);
         ss_steady_opts opts = ss_steady_defaults;
         ss_steady at[3];
-        s.model = SS_COMPLIANT;
-        s.contact_stiffness = 300;
-        s.contact_damping = 0.02;
+        ss_scene_set_text(&s, "model", "compliant", NULL);
+        ss_scene_set(&s, "contact_stiffness", 300, NULL);
+        ss_scene_set(&s, "contact_damping", 0.02, NULL);
         opts.measures = BIT(SS_LYAPUNOV) | BIT(SS_FLOQUET) | BIT(SS_FLOQUET_ANGLE);
         for (int i = 0; i < 3; i++) {
             opts.method = method[i];

@@ -143,15 +143,15 @@ static void
 moves_as_coulomb(const row *r, const ss_scene *s, const run *got)
 {
     ss_scene rigid = *s;
-    rigid.model = SS_COULOMB;
+    ss_scene_set_text(&rigid, "model", "coulomb", NULL);
     run truth = run_with(&rigid, "exact", 1e-12, 0);
     double max_v = 0, allow = r->allow;
     for (size_t i = 0; i < truth.n; i++)
         max_v = fmax(max_v, fabs(truth.sample[i].v));
-    if (s->model == SS_COMPLIANT) {
-        double period = 2 * M_PI * sqrt(s->mass / s->contact_stiffness);
+    if (s->model == ss_model_named("compliant")) {
+        double period = 2 * M_PI * sqrt(s->mass / ss_scene_get(s, "contact_stiffness"));
         allow += period * (max_v + s->friction / (4 * sqrt(s->mass * s->stiffness)))
-            + 4 * s->friction / s->contact_stiffness;
+            + 4 * s->friction / ss_scene_get(s, "contact_stiffness");
     }
     is_near(r, got, "x, against Coulomb friction, at worst", difference(got, &truth, 1), 0, allow);
     run_free(&truth);
@@ -180,7 +180,7 @@ scales(const row *r, const ss_scene *s, const run *got)
     t.friction *= unit;
     t.x0 *= unit;
     t.v0 *= unit;
-    t.alpha /= unit;
+    ss_scene_set(&t, "alpha", ss_scene_get(&t, "alpha") / unit, NULL);
     run b = run_with(&t, r->method, 1e-12, 0);
     is_near(r, got, "number of events", (double)got->n_events, (double)b.n_events, 0);
     is_near(r, got, "x, against the same in a usual unit, at worst", difference(got, &b, 1 / unit), 0,

@@ -143,7 +143,8 @@ __wrap_free(void *p)
 /* --- what is called ------------------------------------------------------------------------ */
 
 /* Made before, with all the memory that it takes. */
-static ss_scene scene[3];               /* one a model */
+enum { COULOMB, STATE_VARIABLE, COMPLIANT };    /* as in the list of models */
+static ss_scene scene[3];
 static ss_signal *signal, *cycles;      /* a tenth of a second; some slips in noise */
 static ss_signal *pulled;               /* a few slips of a pulled mass */
 static ss_scene pull;
@@ -314,7 +315,7 @@ closed_forms(int variant)
 {
     ss_sim_opts opts = ss_sim_defaults;
     opts.method = "exact";
-    return ss_sim_run(&scene[variant == 0 ? SS_COULOMB : SS_COMPLIANT], &opts, NULL, &err);
+    return ss_sim_run(&scene[variant == 0 ? COULOMB : COMPLIANT], &opts, NULL, &err);
 }
 
 static ss_status
@@ -323,7 +324,7 @@ trades(int variant)
     ss_trade *made = NULL;
     ss_trade_opts opts = ss_trade_defaults;
     ss_sim_opts chosen = ss_sim_defaults;
-    ss_scene brief = scene[SS_COULOMB];     /* as every allocation repeats what came before */
+    ss_scene brief = scene[COULOMB];     /* as every allocation repeats what came before */
     opts.budget = 1e-3;
     chosen.method = NULL;
     brief.duration = 0.003;
@@ -337,7 +338,7 @@ static ss_status
 model_trades(int variant)
 {
     ss_models *made = NULL;
-    ss_scene brief = scene[SS_COMPLIANT];
+    ss_scene brief = scene[COMPLIANT];
     const ss_need need = { 0, 0.1 };
     char *sentence = NULL;
     (void)variant;
@@ -536,7 +537,7 @@ rankings(int variant)
 {
     ss_ranking *made = NULL;
     (void)variant;
-    ss_status st = ss_ranking_new(&made, cycles, 2, &scene[SS_COULOMB], 1, NULL, &err);
+    ss_status st = ss_ranking_new(&made, cycles, 2, &scene[COULOMB], 1, NULL, &err);
     ss_ranking_free(made);
     return st;
 }
@@ -546,7 +547,7 @@ fits(int variant)
 {
     ss_fit fit;
     (void)variant;
-    return ss_scene_fit(&fit, cycles, 2, &scene[SS_COMPLIANT], NULL, &err);
+    return ss_scene_fit(&fit, cycles, 2, &scene[COMPLIANT], NULL, &err);
 }
 
 static int
@@ -567,7 +568,7 @@ sweeps(int variant)
     opts.steady.search = variant / 2 == 1 ? SS_SEARCH_SHOOT : SS_SEARCH_AUTO;
     if (variant / 2 == 2)
         opts.steady.method = "rk8pd";
-    return ss_sweep_run(&scene[SS_COMPLIANT], &opts, &err);
+    return ss_sweep_run(&scene[COMPLIANT], &opts, &err);
 }
 
 static ss_status
@@ -760,17 +761,20 @@ static const struct row {
 static int
 set_up(void **state)
 {
+    static const struct { const char *key; double value; } own[] = {
+        { "alpha", 3000 }, { "gamma", 100 }, { "contact_stiffness", 209900 }, { "contact_damping", 25 } };
     ss_morlet_opts opts = ss_morlet_defaults;
     (void)state;
     gsl_set_error_handler_off();
     for (int m = 0; m < 3; m++) {
-        scene[m] = (ss_scene){ .model = (ss_model)m, .mass = 2.42, .stiffness = 2310,
-            .friction = 1.28, .base_amplitude = 6e-4, .base_frequency = 2.5, .alpha = 3000, .gamma = 100,
-            .contact_stiffness = 209900, .contact_damping = 25, .duration = 0.1, .rate = 1000 };
+        scene[m] = (ss_scene){ .model = ss_model_at((size_t)m), .mass = 2.42, .stiffness = 2310,
+            .friction = 1.28, .base_amplitude = 6e-4, .base_frequency = 2.5, .duration = 0.1, .rate = 1000 };
+        for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+            ss_scene_set(&scene[m], own[i].key, own[i].value, NULL);    /* if the model has the key */
     }
-    ss_scene slips = scene[SS_COMPLIANT];
+    ss_scene slips = scene[COMPLIANT];
     ss_trade_opts brief = { .budget = 1e-3 };
-    pull = scene[SS_COULOMB];
+    pull = scene[COULOMB];
     pull.base_amplitude = 0;
     pull.base_velocity = 1e-3;
     pull.static_friction = 1.5;
@@ -783,13 +787,13 @@ set_up(void **state)
     opts.voices = 2;
     opts.force = 1;
     if (fd < 0 || close(fd) != 0 || (scrap = tmpfile()) == NULL
-        || ss_sim_signal(&signal, &scene[SS_COMPLIANT], NULL) != SS_OK
+        || ss_sim_signal(&signal, &scene[COMPLIANT], NULL) != SS_OK
         || ss_sim_signal(&cycles, &slips, NULL) != SS_OK
         || ss_sim_signal(&pulled, &pull, NULL) != SS_OK
         || ss_noise_add_once(cycles->values + 2 * cycles->n, cycles->n, 1e-3, 1, NULL) != SS_OK
         || ss_header_note(signal->head, "key", "value") != SS_OK
         || ss_morlet_transform(&coefficients, signal, 2, &opts, NULL) != SS_OK
-        || ss_trade_measure(&trade, &scene[SS_COULOMB], &brief, NULL) != SS_OK)
+        || ss_trade_measure(&trade, &scene[COULOMB], &brief, NULL) != SS_OK)
         return -1;
     for (int i = 0; i < 2; i++) {
         FILE *out = fmemopen(text[i], sizeof text[i], "w");

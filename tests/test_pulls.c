@@ -43,6 +43,7 @@ static ss_scene
 scene_of(const rig *r)
 {
     ss_scene s = ss_scene_defaults;
+    s.model = ss_model_named("coulomb");
     double period = length_of_slip(r) + length_of_stick(r), loading = r->stiffness * r->speed;
     s.mass = r->mass;
     s.stiffness = r->stiffness;
@@ -715,8 +716,8 @@ falling_friction_is_not_named(void **state)
         ss_scene s = pull_draw(draw, &seed), truth = s;
         double w = sqrt(s.stiffness / s.mass), q = (s.static_friction - s.friction) * w
                                                    / (s.stiffness * s.base_velocity);
-        truth.model = SS_STRIBECK;
-        truth.stribeck_velocity = s.base_velocity * (1 + sqrt(1 + q * q)) / 2;
+        ss_scene_set_text(&truth, "model", "stribeck", NULL);
+        ss_scene_set(&truth, "stribeck_velocity", s.base_velocity * (1 + sqrt(1 + q * q)) / 2, NULL);
         record t = record_by(&truth, "rk8pd", 40, i + 1, 1);
         ss_pull *p = fit(t.signal, &s);
         fitted += p->verdict == SS_NAMED;
@@ -740,11 +741,12 @@ with_law(const ss_scene *pull, int law, unsigned long long *seed)
     ss_scene s = *pull;
     double w = sqrt(s.stiffness / s.mass), loading = s.stiffness * s.base_velocity;
     double q = (s.static_friction - s.friction) * w / loading;
-    s.model = law == STRIBECK ? SS_STRIBECK : law == COMPLIANT ? SS_COMPLIANT : SS_COULOMB;
+    ss_scene_set_text(&s, "model", law == STRIBECK ? "stribeck" : law == COMPLIANT ? "compliant" : "coulomb", NULL);
     s.damping = law == DAMPED ? 2 * s.mass * w * between(seed, .1, .5) : 0;
-    s.stribeck_velocity = s.base_velocity * sqrt(1 + q * q) * between(seed, .1, 1);
-    s.contact_stiffness = s.stiffness * between(seed, 10, 50);
-    s.contact_damping = 2 * sqrt(s.contact_stiffness * s.mass) * between(seed, .05, .5);
+    double K_y, speed = s.base_velocity * sqrt(1 + q * q) * between(seed, .1, 1);
+    ss_scene_set(&s, "stribeck_velocity", speed, NULL);     /* each only if the model has it */
+    ss_scene_set(&s, "contact_stiffness", K_y = s.stiffness * between(seed, 10, 50), NULL);
+    ss_scene_set(&s, "contact_damping", 2 * sqrt(K_y * s.mass) * between(seed, .05, .5), NULL);
     return s;
 }
 
@@ -826,10 +828,10 @@ static ss_scene
 neighbour(const ss_scene *scene, unsigned long long *seed)
 {
     ss_scene s = *scene;
-    double *const number[] = { &s.mass, &s.stiffness, &s.base_velocity, &s.damping, &s.stribeck_velocity,
-                               &s.contact_stiffness, &s.contact_damping };
+    static const char *const number[] = { "mass", "stiffness", "base_velocity", "damping", "stribeck_velocity",
+                                          "contact_stiffness", "contact_damping" };
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)
-        *number[i] *= between(seed, .9, 1.1);
+        ss_scene_set(&s, number[i], ss_scene_get(&s, number[i]) * between(seed, .9, 1.1), NULL);
     return s;
 }
 
@@ -864,7 +866,7 @@ check_keys(const ss_signal *signal, const ss_scene *truth, const ss_scene *start
     size_t found = p->verdict == SS_NAMED;
     for (size_t i = 0; found && i < p->n_keys; i++) {
         const ss_fitted *k = &p->key[i];
-        const double errors = fabs(k->found.value - *ss_scene_number(&of, k->name, NULL, NULL)) / k->found.error;
+        const double errors = fabs(k->found.value - ss_scene_get(&of, k->name)) / k->found.error;
         if (!(errors <= 5))
             fail_msg("%s: %g errors", k->name, errors);
         is_there |= strcmp(k->name, own) == 0;
@@ -914,10 +916,10 @@ scenes_that_do_not_pull_stand_aside(void **state)
     ss_ranking *r = NULL;
     ss_rank_opts opts = ss_rank_defaults;
     (void)state;
-    candidate[0].model = SS_STATE_VARIABLE;
+    ss_scene_set_text(&candidate[0], "model", "state-variable", NULL);
     candidate[0].static_friction = 0;
-    candidate[0].alpha = 100 / pull.base_velocity;
-    candidate[0].gamma = 1000;
+    ss_scene_set(&candidate[0], "alpha", 100 / pull.base_velocity, NULL);
+    ss_scene_set(&candidate[0], "gamma", 1000, NULL);
     candidate[1].base_velocity = 0;
     candidate[1].static_friction = 0;
     candidate[1].base_frequency = 1;

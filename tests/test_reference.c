@@ -136,9 +136,9 @@ compare(const char *name, const char *method, double tol, double allow_t, double
         worst_v = fmax(worst_v, fabs(s->v - truth->v));
         worst_a = fmax(worst_a, fabs(s->a - truth->a));
     }
-    double k = ref.scene.stiffness + ref.scene.contact_stiffness, m = ref.scene.mass;
+    double k = ref.scene.stiffness + fmax(0, ss_scene_get(&ref.scene, "contact_stiffness")), m = ref.scene.mass;
     double omega = sqrt(k / m), allow_x = allow * max_x, allow_v = omega * allow_x;
-    double allow_a = (k * allow_x + ref.scene.contact_damping * allow_v) / m
+    double allow_a = (k * allow_x + fmax(0, ss_scene_get(&ref.scene, "contact_damping")) * allow_v) / m
         + 8 * DBL_EPSILON * max_a;
     print_message("%s, %s: t %.1e s, x %.1e, v %.1e, a %.1e of what is allowed\n", method, name,
                   worst_t, worst_x / allow_x, worst_v / allow_v, worst_a / allow_a);

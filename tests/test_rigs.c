@@ -163,9 +163,9 @@ a_falling_friction_cycles_as_published(void **state)
     (void)state;
     for (int i = 0; i < 8; i++) {
         ss_scene s = ss_scene_defaults;
-        s.model = SS_STRIBECK;
+        s.model = ss_model_named("stribeck");
         s.mass = s.stiffness = s.static_friction = 1;
-        s.stribeck_velocity = 1. / 3;
+        ss_scene_set(&s, "stribeck_velocity", 1. / 3, NULL);
         s.surface_velocity = s.v0 = i < 4 ? .2 : 0;
         s.base_velocity = i < 4 ? 0 : -.2;
         s.settle = 40;
@@ -194,9 +194,9 @@ a_falling_friction_is_coulombs_at_its_ends(void **state)
         s.damping = 2;
         s.base_velocity = 1e-3;
         law = s;
-        law.model = SS_STRIBECK;
+        ss_scene_set_text(&law, "model", "stribeck", NULL);
         law.friction = 1.1;
-        law.stribeck_velocity = i % 2 == 0 ? 1e8 : 1e-11;
+        ss_scene_set(&law, "stribeck_velocity", i % 2 == 0 ? 1e8 : 1e-11, NULL);
         run a = run_by(&s, "exact"), b = run_by(&law, i < 2 ? "rk8pd" : "taylor");
         assert_int_equal(a.n_events, b.n_events);
         near("x", difference(&a, &b, 1), 0, 1e-8 * max_x(&a));
@@ -250,9 +250,9 @@ a_base_that_was_measured_as_a_line_pulls(void **state)
     for (int model = 0; model < 2; model++)
         for (int i = 1; i < METHODS; i++) {
             ss_scene s = slider(42e-6, 0), measured;
-            s.model = model == 0 ? SS_COULOMB : SS_COMPLIANT;
-            s.contact_stiffness = 30 * s.stiffness;
-            s.contact_damping = .02;
+            s.model = ss_model_named(model == 0 ? "coulomb" : "compliant");
+            ss_scene_set(&s, "contact_stiffness", 30 * s.stiffness, NULL);
+            ss_scene_set(&s, "contact_damping", .02, NULL);
             measured = s;
             measured.base_velocity = 0;
             measured.base = base;

@@ -30,7 +30,7 @@ reads_what_is_given_and_defaults_the_rest(void **state)
     (void)state;
     assert_int_equal(read_text(&s, "", NULL, 0, &err), SS_EDATA);
     assert_int_equal(read_text(&s, coulomb, NULL, 0, &err), SS_OK);
-    assert_int_equal(s.model, SS_COULOMB);
+    assert_ptr_equal(s.model, ss_model_named("coulomb"));
     assert_true(s.mass == 2 && s.stiffness == 50 && s.friction == 1 && s.base_amplitude == .1);
     assert_true(s.settle == 0 && s.duration == 10 && s.rate == 2000);
     assert_true(s.x0 == 0 && s.v0 == 0 && s.phase == 0);
@@ -228,17 +228,21 @@ checks_scenes_made_by_hand(void **state)
     ss_error err = { 0 };
     (void)state;
     assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
+    assert_string_equal(err.text, "the scene has no model");
+    assert_int_equal(ss_scene_set_text(&s, "model", "coulomb", &err), SS_OK);
+    assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
     assert_string_equal(err.text, "mass = 0 is out of range, it must be > 0");
     s.mass = s.stiffness = 1;
-    s.alpha = NAN;                      /* not a parameter of this model */
+    assert_int_equal(ss_scene_set(&s, "alpha", 1, &err), SS_EINVAL);
+    assert_string_equal(err.text, "model coulomb has no key 'alpha'");
     assert_int_equal(ss_scene_check(&s, &err), SS_OK);
     strcpy(s.base_file, "z\nmass = 2");
     assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
     assert_string_equal(err.text, "base_file has a control character or a '#'");
     s.base_file[0] = '\0';
-    s.model = (ss_model)7;
+    s.model = NULL;
     assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
-    s.model = SS_STATE_VARIABLE;
+    ss_scene_set_text(&s, "model", "state-variable", NULL);
     assert_int_equal(ss_scene_check(&s, NULL), SS_EINVAL);
 }
 
@@ -246,10 +250,8 @@ checks_scenes_made_by_hand(void **state)
 static void
 models_do_what_their_tables_say(void **state)
 {
-    static const struct { ss_model model; const char *name, *shipped; } row[] = {
-        { SS_COULOMB, "coulomb", "coulomb" },
-        { SS_STATE_VARIABLE, "state-variable", "state-variable" },
-        { SS_COMPLIANT, "compliant", "compliant-heavy" },
+    static const struct { const char *name, *shipped; } row[] = {
+        { "coulomb", "coulomb" }, { "state-variable", "state-variable" }, { "compliant", "compliant-heavy" },
     };
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
@@ -257,7 +259,7 @@ models_do_what_their_tables_say(void **state)
         ss_sim_opts opts = ss_sim_defaults;
         ss_sim_stats stats;
         assert_int_equal(ss_scene_load(&s, row[i].shipped, NULL, 0, NULL), SS_OK);
-        assert_int_equal(s.model, row[i].model);
+        assert_ptr_equal(s.model, ss_model_named(row[i].name));
         assert_string_equal(ss_model_name(s.model), row[i].name);
         opts.method = "rk8pd";
         assert_int_equal(ss_sim_run(&s, &opts, &stats, NULL), SS_OK);

@@ -27,11 +27,11 @@ finds_every_event_once(void **state)
             assert_int_equal(r.n_events, in_10_s[i]);
             run_free(&r);
         }
-        s.release = SS_RELEASE_TOTAL;
+        ss_scene_set_text(&s, "release", "total", NULL);
         run r = run_of(&s);
         assert_int_equal(r.n_events, in_10_s[i]);
         run_free(&r);
-        s.release = SS_RELEASE_SPRING;
+        ss_scene_set_text(&s, "release", "spring", NULL);
         s.duration = 1000;
         s.rate = 1;
         r = run_of(&s);
@@ -49,12 +49,13 @@ loses_no_pair_of_events_within_a_step(void **state)
 {
     static const struct { const char *method; double allow; } how[] = {
         { "exact", 1e-14 }, { "taylor", 1e-10 }, { "rk8pd", 1e-10 } };
-    ss_scene s = { .model = SS_COMPLIANT, .mass = 39.962297470418015, .stiffness = 1210590.7683860338,
+    ss_scene s = { .model = ss_model_named("compliant"), .mass = 39.962297470418015, .stiffness = 1210590.7683860338,
                    .friction = 6424.5387020796, .base_amplitude = .0053703860382076155,
-                   .base_frequency = 21.398368727045753, .contact_stiffness = 82309189578.27042,
+                   .base_frequency = 21.398368727045753,
                    .x0 = -.00030267041130123407, .v0 = 1.115255409262061, .duration = .8608,
                    .rate = 4907 };
     (void)state;
+    ss_scene_set(&s, "contact_stiffness", 82309189578.27042, NULL);
     oracle *o = oracle_new(&s, s.duration);
     for (size_t i = 0; i < sizeof how / sizeof *how; i++) {
         run r = run_by(&s, how[i].method, ss_sim_defaults.tol);
@@ -78,20 +79,20 @@ loses_no_pair_of_events_within_a_step(void **state)
 /* Times after a multiple of the period, as SCIENCE prints them: to the digits given there. */
 static const struct settled {
     const char *scene;
-    ss_release release;
+    const char *release;            /* NULL: the model has none */
     double settle, period, digits, t[4];
     ss_event_kind kind[4];
 } settled[] = {
-    { "coulomb", SS_RELEASE_SPRING, 40, 0.4, 1e-12,
+    { "coulomb", NULL, 40, 0.4, 1e-12,
       { 0.044012760662, 0.120289695385, 0.244012760662, 0.320289695385 },
       { SS_STICK, SS_SLIP, SS_STICK, SS_SLIP } },
-    { "compliant-heavy", SS_RELEASE_SPRING, 40, 0.2, 1e-6,
+    { "compliant-heavy", "spring", 40, 0.2, 1e-6,
       { 0.047167, 0.119186, 0.126924, 0.132404 }, { SS_STICK, SS_SLIP, SS_STICK, SS_SLIP } },
-    { "compliant-light", SS_RELEASE_SPRING, 40, 0.2, 1e-6,
+    { "compliant-light", "spring", 40, 0.2, 1e-6,
       { 0.048363, 0.100862, 0.102022, 0.119228 }, { SS_STICK, SS_SLIP, SS_STICK, SS_SLIP } },
-    { "compliant-heavy", SS_RELEASE_TOTAL, 40, 0.2, 1e-6,
+    { "compliant-heavy", "total", 40, 0.2, 1e-6,
       { 0.047173, 0.118797, 0.127028, 0.131983 }, { SS_STICK, SS_SLIP, SS_STICK, SS_SLIP } },
-    { "compliant-light", SS_RELEASE_TOTAL, 40, 0.2, 1e-6,
+    { "compliant-light", "total", 40, 0.2, 1e-6,
       { 0.048365, 0.100741, 0.102024, 0.119110 }, { SS_STICK, SS_SLIP, SS_STICK, SS_SLIP } },
 };
 
@@ -103,7 +104,8 @@ settles_into_the_known_cycle(void **state)
         const struct settled *row = &settled[i];
         ss_scene s = scene_named(row->scene, 0.4, 100);
         s.settle = row->settle;
-        s.release = row->release;
+        if (row->release != NULL)
+            ss_scene_set_text(&s, "release", row->release, NULL);
         run r = run_of(&s);
         size_t a_period = 4;
         assert_int_equal(r.n_events, row->period == 0.4 ? 4 : 8);
@@ -203,7 +205,7 @@ state_variable_oscillates_instead_of_sticking(void **state)
     assert_int_equal(extrema, 6);
     assert_true(fabs((last[5] - last[2]) / 3 - 8.3e-3) < 0.1e-3);
 
-    literal.law = SS_LAW_LITERAL;                       /* settles at +-1 N: a weaker oscillation */
+    ss_scene_set_text(&literal, "law", "literal", NULL);                       /* settles at +-1 N: a weaker oscillation */
     run weak = run_of(&literal);
     double max_f = 0;
     for (size_t i = 160000; i < 200000; i++)
@@ -219,11 +221,11 @@ methods_agree_on_the_state_variable(void **state)
     /* three methods of different kinds, over 2 s; each within 1e3 of its local tolerance */
     static const struct { const char *method; double tol, allow; } how[] = {
         { "rkf45", 1e-10, 1e-7 }, { "msbdf", 1e-7, 1e-4 }, { "bsimp", 1e-8, 1e-5 } };
-    static const ss_law law[] = { SS_LAW_SCALED, SS_LAW_LITERAL };
+    static const char *const law[] = { "scaled", "literal" };
     (void)state;
     for (int l = 0; l < 2; l++) {
         ss_scene s = scene_named("state-variable", 2, 500);
-        s.law = law[l];
+        ss_scene_set_text(&s, "law", law[l], NULL);
         run truth = run_of(&s);
         double max = max_of(&truth, 0, truth.n);
         for (size_t k = 0; k < sizeof how / sizeof *how; k++) {

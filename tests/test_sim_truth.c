@@ -16,7 +16,7 @@ compare_with_closed_form(const char *method, double allow_t, double allow_x, dou
 {
     for (int i = 0; i < 6; i++) {
         ss_scene s = scene_named(with_events[i % 3], 10, 2000);
-        s.release = i < 3 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+        ss_scene_set_text(&s, "release", i < 3 ? "spring" : "total", NULL);
         oracle *o = oracle_new(&s, 10);
         run r = run_by(&s, method, ss_sim_defaults.tol);
         size_t first = o->starts_with_event ? 0 : 1, piece = 0;
@@ -275,11 +275,12 @@ touching_the_limit_is_no_release(void **state)
     static const ss_event_kind kind[] = { SS_SLIP, SS_STICK, SS_SLIP, SS_STICK };
     ss_scene s = scene_named("compliant-light", 10, 20);
     (void)state;
-    s.base_amplitude = s.contact_damping = 0;
+    s.base_amplitude = 0;
+    ss_scene_set(&s, "contact_damping", 0, NULL);
     s.x0 = 0.002;
     for (int release = 0; release < 2; release++)
         for (size_t i = 0; i < sizeof how / sizeof *how; i++) {
-            s.release = release == 0 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+            ss_scene_set_text(&s, "release", release == 0 ? "spring" : "total", NULL);
             run r = run_by(&s, how[i].method, how[i].tol);
             if (r.n_events != 4)
                 fail_msg("%s at %g: %zu events", how[i].method, how[i].tol, r.n_events);
@@ -377,8 +378,8 @@ does_not_depend_on_the_unit_of_force(void **state)
     scaled.mass *= 0x1p40;
     scaled.stiffness *= 0x1p40;
     scaled.friction *= 0x1p40;
-    scaled.contact_stiffness *= 0x1p40;
-    scaled.contact_damping *= 0x1p40;
+    ss_scene_set(&scaled, "contact_stiffness", ss_scene_get(&scaled, "contact_stiffness") * 0x1p40, NULL);
+    ss_scene_set(&scaled, "contact_damping", ss_scene_get(&scaled, "contact_damping") * 0x1p40, NULL);
     run a = run_of(&s), b = run_of(&scaled);
     assert_int_equal(a.n_events, b.n_events);
     for (size_t i = 0; i < a.n; i++)

@@ -18,6 +18,7 @@ static ss_scene
 den_hartog(double r, double beta)
 {
     ss_scene s = ss_scene_defaults;
+    s.model = ss_model_named("coulomb");
     s.mass = 1 / (4 * M_PI * M_PI);
     s.stiffness = s.base_amplitude = 1;
     s.base_frequency = r;
@@ -306,9 +307,9 @@ shooting_finds_a_resonance_that_simulation_needs_10000_cycles_for(void **state)
     ss_steady_opts opts = ss_steady_defaults;
     ss_steady at, truth;
     (void)state;
-    s.model = SS_STRIBECK;
+    ss_scene_set_text(&s, "model", "stribeck", NULL);
     s.static_friction = 1.3;
-    s.stribeck_velocity = 0.01;
+    ss_scene_set(&s, "stribeck_velocity", 0.01, NULL);
     s.friction = 0.1;
     s.base_frequency = 93. / 19;
     opts.measures = BIT(SS_X_PHASE) | BIT(SS_V_PHASE) | BIT(SS_PERIOD);
@@ -330,10 +331,11 @@ a_linear_friction_has_its_multipliers(void **state)
     ss_scene s = read_shipped_named("state-variable");
     const double T = 1 / s.base_frequency, c = 5;
     (void)state;
-    for (s.gamma = 10; s.gamma < 2e4; s.gamma *= 10) {
-        double g = s.gamma, m = s.mass, k = s.stiffness, real = -g;
-        s.alpha = 1e-6;
-        s.friction = c / s.alpha;
+    for (double g = 10; g < 2e4; g *= 10) {
+        double m = s.mass, k = s.stiffness, real = -g;
+        ss_scene_set(&s, "gamma", g, NULL);
+        ss_scene_set(&s, "alpha", 1e-6, NULL);
+        s.friction = c / ss_scene_get(&s, "alpha");
         for (int i = 0; i < 50; i++)
             real -= (((real + g) * real + (k + g * c) / m) * real + g * k / m)
                 / ((3 * real + 2 * g) * real + (k + g * c) / m);
@@ -357,8 +359,8 @@ series_have_the_multipliers_of_differences(void **state)
     ss_scene s[2] = { read_shipped_named("state-variable"), read_shipped_named("coulomb") };
     int n = 0;
     (void)state;
-    s[1].model = SS_STRIBECK;
-    s[1].stribeck_velocity = 0.02;
+    ss_scene_set_text(&s[1], "model", "stribeck", NULL);
+    ss_scene_set(&s[1], "stribeck_velocity", 0.02, NULL);
     for (int k = 0; k < 2; k++)
         for (double f = 0.2; f < 1; f += 0.25)
             for (double r = 2.1; r < 8; r += 0.9) {
@@ -500,10 +502,10 @@ a_falling_friction_has_its_published_period(void **state)
     (void)state;
     for (int pull = 0; pull < 2; pull++) {
         ss_scene s = ss_scene_defaults;
-        s.model = SS_STRIBECK;
+        s.model = ss_model_named("stribeck");
         s.mass = s.stiffness = s.static_friction = 1;
         s.friction = 0;
-        s.stribeck_velocity = 1. / 3;
+        ss_scene_set(&s, "stribeck_velocity", 1. / 3, NULL);
         s.surface_velocity = pull ? 0 : .2;
         s.base_velocity = pull ? -.2 : 0;
         for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
@@ -576,8 +578,8 @@ a_true_stick_forgets_every_difference(void **state)
     (void)state;
     for (int i = 0; i < 8; i++) {
         ss_scene s = read_slider(i & 1 ? 0 : 1e-3, i & 1 ? -1e-3 : 0);
-        s.model = i & 2 ? SS_STRIBECK : SS_COULOMB;
-        s.stribeck_velocity = .01;
+        s.model = ss_model_named(i & 2 ? "stribeck" : "coulomb");
+        ss_scene_set(&s, "stribeck_velocity", .01, NULL);
         s.damping = i & 4 ? .1 : 0;
         onsets first = onsets_of(s, 4);
         for (int start = 0; start < 3; start++) {
@@ -617,9 +619,9 @@ a_slider_on_a_contact_comes_nearer_by_its_multiplier(void **state)
     for (size_t i = 0; i < 3; i++)
         for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
             ss_scene s = read_slider(row[i].U, 0);
-            s.model = SS_COMPLIANT;
-            s.contact_stiffness = 20000;
-            s.contact_damping = row[i].damping;
+            ss_scene_set_text(&s, "model", "compliant", NULL);
+            ss_scene_set(&s, "contact_stiffness", 20000, NULL);
+            ss_scene_set(&s, "contact_damping", row[i].damping, NULL);
             ss_steady at = steady_by(row[i].method, &s, BIT(SS_CYCLE_TIME) | BIT(SS_FLOQUET)
                                      | BIT(SS_FLOQUET_2) | BIT(SS_FLOQUET_ANGLE) | BIT(SS_X_PHASE)
                                      | BIT(SS_PERIOD), way);
@@ -683,8 +685,8 @@ says_what_has_no_cycle(void **state)
     opts.method = "rk8pd";
     opts.search = SS_SEARCH_SHOOT;
     ss_scene slider = read_slider(.1, 0);
-    slider.model = SS_COMPLIANT;
-    slider.contact_stiffness = 20000;
+    ss_scene_set_text(&slider, "model", "compliant", NULL);
+    ss_scene_set(&slider, "contact_stiffness", 20000, NULL);
     assert_int_equal(ss_steady_find(&at, &slider, &opts, &err), SS_EINVAL);
     assert_string_equal(err.text, "base_frequency is 0: without forcing, shooting, multipliers and exponents of "
                         "model compliant need method exact or taylor");
@@ -725,8 +727,8 @@ hears_the_transition_frequency(void **state)
     (void)state;
     for (size_t i = 0; i < 2; i++) {
         ss_scene s = read_shipped_named(name[i]);
-        double decay = s.contact_damping / (2 * s.mass);
-        double f = sqrt((s.stiffness + s.contact_stiffness) / s.mass - decay * decay) / (2 * M_PI);
+        double decay = ss_scene_get(&s, "contact_damping") / (2 * s.mass);
+        double f = sqrt((s.stiffness + ss_scene_get(&s, "contact_stiffness")) / s.mass - decay * decay) / (2 * M_PI);
         ss_steady at = steady_of(&s, BIT(SS_TRANSITION), 0);
         is_near(at.value[SS_TRANSITION] / f, 1, 2e-4, name[i]);
     }
@@ -735,7 +737,7 @@ hears_the_transition_frequency(void **state)
     ss_steady at;
     ss_error err = { 0 };
     opts.measures = BIT(SS_TRANSITION);
-    s.contact_damping = 3000;                   /* beyond critical: nothing rings */
+    ss_scene_set(&s, "contact_damping", 3000, NULL);                   /* beyond critical: nothing rings */
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EDATA);
     assert_string_equal(err.text, "transition: no oscillation, a has no three extrema in one");
     assert_true(isnan(at.value[SS_TRANSITION]));
@@ -762,10 +764,10 @@ every_value_is_there_or_the_status_says_why(void **state)
                     ss_steady_opts opts = { .measures = BIT(SS_PERIOD) * 2 - 1, .tol = 1e-6,
                         .max_period = 4, .max_cycles = 100,
                         .search = way, .max_steps = 5000 };
-                    double *x = ss_scene_number(&s, key[k], NULL, NULL);
-                    if (x == NULL)
+                    double x = ss_scene_get(&s, key[k]);
+                    if (isnan(x))
                         continue;
-                    *x = (*x != 0 ? *x : 1e-3) * scale[j];
+                    ss_scene_set(&s, key[k], (x != 0 ? x : 1e-3) * scale[j], NULL);
                     ss_status st = ss_steady_find(&at, &s, &opts, &err);
                     for (int m = 0; m <= SS_PERIOD && st == SS_OK; m++)
                         if (!isfinite(at.value[m]))

@@ -28,8 +28,8 @@ random_scene(uint64_t *seed)
     s.friction = about(seed, s.friction, 5);
     s.base_amplitude = about(seed, s.base_amplitude, 5);
     s.base_frequency = about(seed, s.base_frequency, 5);
-    s.alpha = about(seed, s.alpha, 5);
-    s.gamma = about(seed, s.gamma, 5);
+    ss_scene_set(&s, "alpha", about(seed, ss_scene_get(&s, "alpha"), 5), NULL);
+    ss_scene_set(&s, "gamma", about(seed, ss_scene_get(&s, "gamma"), 5), NULL);
     s.phase = 2 * M_PI * uniform(seed);
     s.settle = 0;
     s.duration = 2;
@@ -121,14 +121,14 @@ no_step_passes_over_the_front(void **state)
             s.settle = 0;
             s.duration = 1;
             s.rate = SAMPLES;
-            s.alpha = alpha[i];
+            ss_scene_set(&s, "alpha", alpha[i], NULL);
             s.friction = friction[j];
             s.v0 = 0.01;
             oracle_smooth(&s, SAMPLES, x);
             for (int k = 3; k <= 12; k += 3) {
                 double tol = pow(10, -k), error = error_of(&s, tol, x);
                 if (!(error <= 20 * tol))
-                    fail_msg("alpha %g, f_k %g: %.2g at %g", s.alpha, s.friction, error, tol);
+                    fail_msg("alpha %g, f_k %g: %.2g at %g", ss_scene_get(&s, "alpha"), s.friction, error, tol);
             }
         }
 }
@@ -143,7 +143,7 @@ events_are_those_of_the_closed_form(void **state)
             ss_scene s = read_shipped(&ss_shipped_scenes[i]);
             if (!ss_model_is_linear(s.model))
                 continue;
-            s.release = total ? SS_RELEASE_TOTAL : SS_RELEASE_SPRING;
+            ss_scene_set_text(&s, "release", total ? "total" : "spring", NULL);
             s.settle = 0;
             s.duration = 10;
             run exact = run_with(&s, "exact", 1e-14, 0);
@@ -174,10 +174,10 @@ events_of_a_falling_friction_are_those_of_rk8pd(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof front / sizeof *front; i++) {
         ss_scene s = read_shipped_named("coulomb");
-        s.model = SS_STRIBECK;
+        ss_scene_set_text(&s, "model", "stribeck", NULL);
         s.friction = 0.9;
         s.static_friction = 1.28;
-        s.stribeck_velocity = front[i];
+        ss_scene_set(&s, "stribeck_velocity", front[i], NULL);
         s.settle = 0;
         s.duration = 5;
         run other = run_with(&s, "rk8pd", 1e-14, 0);

@@ -44,9 +44,10 @@ make_own(void *user)
 {
     job *j = user;
     for (int i = 0; i < ROUNDS && j->status == SS_OK; i++) {
-        ss_scene scene = { .model = SS_COMPLIANT, .mass = 2.42, .stiffness = 2310, .friction = 1.28,
-            .base_amplitude = 6e-4, .base_frequency = 2.5, .contact_stiffness = 209900,
-            .contact_damping = 25, .duration = 0.5, .rate = 1000 };
+        ss_scene scene = { .model = ss_model_named("compliant"), .mass = 2.42, .stiffness = 2310,
+            .friction = 1.28, .base_amplitude = 6e-4, .base_frequency = 2.5, .duration = 0.5, .rate = 1000 };
+        ss_scene_set(&scene, "contact_stiffness", 209900, NULL);
+        ss_scene_set(&scene, "contact_damping", 25, NULL);
         ss_morlet_opts opts = ss_morlet_defaults;
         ss_signal *signal = NULL;
         ss_coefficients *c = NULL;

@@ -56,7 +56,7 @@ shipped(size_t i, double settle, double duration, double rate)
 static size_t
 truth(const ss_scene *s, run *r)
 {
-    if (s->model == SS_STATE_VARIABLE) {
+    if (s->model == ss_model_named("state-variable")) {
         assert_int_equal(run_scene(r, s, "rk8pd", 1e-14, 0, NULL), SS_OK);
         return 0;
     }
@@ -162,7 +162,7 @@ refuses(const ss_scene *s, size_t events, const char *method, double accuracy, c
     double error = error_of(&b, &a);
     if (!(error <= accuracy))
         fail_msg("%s: %s, tol %g: error %.3g, not %g", what, opts.method, opts.tol, error, accuracy);
-    if (s->model != SS_STATE_VARIABLE)
+    if (s->model != ss_model_named("state-variable"))
         assert_int_equal(b.stats.events, events);
     return 0;
 }
@@ -180,7 +180,7 @@ keeps_the_accuracy_on_shipped_scenes(void **state)
             assert_int_equal(refuses(&s, events, NULL, accuracies[k], ss_shipped_scenes[i].name), 0);
             for (size_t m = 0; ss_sim_method_name(m) != NULL; m++) {
                 const char *name = ss_sim_method_name(m);
-                if (strcmp(name, "exact") == 0 && s.model == SS_STATE_VARIABLE)
+                if (strcmp(name, "exact") == 0 && s.model == ss_model_named("state-variable"))
                     continue;
                 int no = refuses(&s, events, name, accuracies[k], ss_shipped_scenes[i].name);
                 int able = strstr("rk8pd bsimp exact taylor", name) != NULL || (k <= 2 && strstr("rkf45 rkck", name) != NULL);
@@ -207,13 +207,13 @@ random_scene(uint64_t *seed, size_t i)
     s.friction = about(seed, s.friction);
     s.base_amplitude = about(seed, s.base_amplitude);
     s.base_frequency = about(seed, s.base_frequency);
-    if (s.model == SS_STATE_VARIABLE) {
-        s.alpha = about(seed, s.alpha);
-        s.gamma = about(seed, s.gamma);
-    } else if (s.model == SS_COMPLIANT) {
-        s.contact_stiffness = about(seed, s.contact_stiffness);
-        s.contact_damping = about(seed, s.contact_damping);
-        s.release = uniform(seed) < 0.5 ? SS_RELEASE_SPRING : SS_RELEASE_TOTAL;
+    if (s.model == ss_model_named("state-variable")) {
+        ss_scene_set(&s, "alpha", about(seed, ss_scene_get(&s, "alpha")), NULL);
+        ss_scene_set(&s, "gamma", about(seed, ss_scene_get(&s, "gamma")), NULL);
+    } else if (s.model == ss_model_named("compliant")) {
+        ss_scene_set(&s, "contact_stiffness", about(seed, ss_scene_get(&s, "contact_stiffness")), NULL);
+        ss_scene_set(&s, "contact_damping", about(seed, ss_scene_get(&s, "contact_damping")), NULL);
+        ss_scene_set_text(&s, "release", uniform(seed) < 0.5 ? "spring" : "total", NULL);
     }
     return s;
 }
@@ -292,7 +292,7 @@ the_closed_form_is_not_its_own_witness(void **state)
     static const char *const able[] = { NULL, "taylor", "bsimp", "rk8pd" };
     ss_scene s = ss_scene_defaults;
     (void)state;
-    s.model = SS_COULOMB;
+    ss_scene_set_text(&s, "model", "coulomb", NULL);
     s.mass = 359.58473788405769;
     s.stiffness = 70466.056145253664;
     s.friction = 103.54240707744015;
@@ -328,7 +328,7 @@ measures_every_method(void **state)
         ss_scene s = shipped(i, 0, 0.5, 4000);
         const ss_trade_opts opts = { .budget = 0.01 };
         ss_trade *trade = NULL;
-        int linear = s.model != SS_STATE_VARIABLE;
+        int linear = s.model != ss_model_named("state-variable");
         assert_int_equal(ss_trade_measure(&trade, &s, &opts, NULL), SS_OK);
         assert_int_equal(trade->n, 12 * 12 + linear);
         assert_int_equal(trade->samples, 2000);

@@ -14,28 +14,20 @@
 
 SS_BEGIN_DECLARATIONS
 
-typedef enum ss_model {
-    SS_COULOMB,             /* f = f_k sgn(v); sticks while |k (z - x)| <= f_k */
-    SS_STATE_VARIABLE,      /* f = theta, theta' = -gamma (theta - f_k tanh(alpha v)) */
-    SS_COMPLIANT,           /* Coulomb through a massless contact of stiffness K_y and damping c */
-    SS_STRIBECK             /* f falls from f_s to f_k as speed grows; sticks as SS_COULOMB does */
-} ss_model;
-
-typedef enum ss_law {
-    SS_LAW_SCALED,          /* theta' = -gamma (theta - f_k tanh(alpha v)) */
-    SS_LAW_LITERAL          /* theta' = -gamma f_k (theta - tanh(alpha v)), equation (9) as printed */
-} ss_law;
-
-typedef enum ss_release {
-    SS_RELEASE_SPRING,      /* a microstick ends when K_y |y| > f_k, as the paper writes */
-    SS_RELEASE_TOTAL        /* a microstick ends when |K_y y + c v| > f_k: friction is continuous */
-} ss_release;
+/* A friction model: its law, the keys of its own parameters, and what it can do.  Its name stands in
+ * scenes: "coulomb", "state-variable", "compliant", "stribeck". */
+typedef struct ss_model ss_model;
+const ss_model *ss_model_at(size_t i);              /* NULL after the last */
+const ss_model *ss_model_named(const char *name);   /* NULL: there is none */
+const char *ss_model_name(const ss_model *model);   /* "?" for NULL */
+int ss_model_has_events(const ss_model *model);     /* 1: it has events; 0: it is smooth, or NULL */
+int ss_model_is_linear(const ss_model *model);      /* 1: between events it has a closed form */
 
 typedef struct ss_base ss_base;     /* the measured displacement z(t) of a base */
-enum { SS_BASE_FILE = 256, SS_BASE_COLUMN = 64 };
+enum { SS_BASE_FILE = 256, SS_BASE_COLUMN = 64, SS_SCENE_OWN = 16 };
 
 typedef struct ss_scene {
-    ss_model model;
+    const ss_model *model;      /* NULL: none yet, which no function accepts */
     double mass;                /* m      [kg]     > 0 */
     double stiffness;           /* k      [N/m]    > 0 */
     double friction;            /* f_k    [N]     >= 0, kinetic friction */
@@ -46,15 +38,10 @@ typedef struct ss_scene {
     double damping;             /* d      [N s/m] >= 0, viscous damping of the mass */
     double base_velocity;       /* U      [m/s]: the spring's end moves at this speed */
     double surface_velocity;    /* S      [m/s]: the surface under the mass moves, as a belt does */
-    double static_friction;     /* f_s    [N]     >= f_k; 0: equal to f_k   not state-variable */
+    double static_friction;     /* f_s    [N]     >= f_k; 0: equal to f_k, or the model has none */
 
-    double alpha, gamma;        /* [s/m] > 0, [1/s] > 0        state-variable only */
-    ss_law law;                 /*                             state-variable only */
-    double contact_stiffness;   /* K_y    [N/m]    > 0         compliant only */
-    double contact_damping;     /* c      [N s/m] >= 0         compliant only */
-    ss_release release;         /*                             compliant only */
-
-    double stribeck_velocity;   /* v_s    [m/s]    > 0         stribeck only */
+    double own[SS_SCENE_OWN];   /* the model's own parameters, which ss_scene_get and ss_scene_set find
+                                   by their keys; for a word, its number */
 
     char base_file[SS_BASE_FILE];       /* the file of z(t), "": none; ss_scene_load_base reads it */
     char base_column[SS_BASE_COLUMN];   /* its column; "": the column z, or the only column */
@@ -66,7 +53,7 @@ typedef struct ss_scene {
     double rate;                /* [Hz] 1e-300 ... 1e300  samples per second */
 } ss_scene;
 
-/* duration 10 s, rate 2000 Hz, 0 elsewhere.  A caller copies it and then sets fields. */
+/* duration 10 s, rate 2000 Hz, 0 elsewhere.  A caller copies it, sets the model, and then fields and keys. */
 extern const ss_scene ss_scene_defaults;
 
 /* One sample of the motion.  A sample at the time of an event is the state after that event. */
@@ -122,9 +109,17 @@ ss_status ss_scene_write(const ss_scene *scene, FILE *out);
 ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
 void ss_base_free(ss_base *base);                   /* NULL is allowed */
 
-/* Returns the address of the number in scene that key names.  *unit, unless unit is NULL, becomes
- * its unit, a constant text.  NULL if the scene's model has no such number; err says so. */
-double *ss_scene_number(ss_scene *scene, const char *key, const char **unit, ss_error *err);
+/* The number that key names, of the scene or of its model.  NaN: the model has no such number. */
+double ss_scene_get(const ss_scene *scene, const char *key);
+const char *ss_scene_unit(const ss_scene *scene, const char *key);      /* its unit; NULL: no such number */
+/* Set this number.  It may be out of its range, as a field may: ss_scene_check tells.  SS_EINVAL: the
+ * model has no such number; err says what is wrong with the key. */
+ss_status ss_scene_set(ss_scene *scene, const char *key, double value, ss_error *err);
+/* Set a key from the text that a scene would have there, such as "release" from "total".  Another model
+ * keeps the values of the keys that both have; its others are 0.  SS_EINVAL: there is no such key, or no
+ * such value. */
+ss_status ss_scene_set_text(ss_scene *scene, const char *key, const char *value, ss_error *err);
+const char *ss_scene_word(const ss_scene *scene, const char *key);     /* of a word; NULL: no such key */
 
 /* A range in which scenes are supported: the tests verify results there.  A scene outside is
  * simulated too, without this promise. */
@@ -135,7 +130,7 @@ typedef struct ss_scene_range {
     double (*value)(const ss_scene *scene);     /* NaN where it has no meaning */
 } ss_scene_range;
 /* The i-th range of the scenes of a model; NULL after the last. */
-const ss_scene_range *ss_model_range(ss_model model, size_t i);
+const ss_scene_range *ss_model_range(const ss_model *model, size_t i);
 
 /* SS_OK if a scene that has passed ss_scene_check lies within these ranges, else SS_EINVAL. */
 ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
@@ -147,10 +142,6 @@ ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
  * NULL after the last. */
 const char *ss_scene_simpler(ss_scene *simpler, const ss_scene *scene, size_t i);
 
-/* Properties of a model.  For a number that is no model they are "?" and 0. */
-const char *ss_model_name(ss_model model);          /* "coulomb", "state-variable", ... */
-int ss_model_has_events(ss_model model);            /* 1: it has events; 0: it is smooth */
-int ss_model_is_linear(ss_model model);             /* 1: between events it has a closed form */
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX from 2^53 on */
 int ss_scene_is_pulled(const ss_scene *scene);      /* 1: U or S moves it, and no forcing does */
 

@@ -72,7 +72,7 @@ ss_candidate_check(const ss_scene *scene, ss_error *err)
 candidate
 ss_candidate_of(const ss_scene *scene, int pick, double factor)
 {
-    candidate c = { .model = ss_model_of(scene), .scene = *scene, .pick = pick, .budget = INFINITY };
+    candidate c = { .model = scene->model, .scene = *scene, .pick = pick, .budget = INFINITY };
     ss_scene *s = &c.scene;
     if (c.model->normalise != NULL)
         c.model->normalise(s);

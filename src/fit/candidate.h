@@ -23,7 +23,7 @@ typedef struct candidate_start {
  * lists.  The mass is not adjusted: no motion determines it, as only ratios to it count.  Damping of the
  * mass and f_s / f_k stay as they are given. */
 typedef struct candidate {
-    const struct model *model;
+    const ss_model *model;
     ss_scene scene;             /* as given, normalised */
     int pick;                   /* the compared quantity: an index of ss_sim_row's */
     size_t n;                   /* keys that the model has */

@@ -178,7 +178,7 @@ report(ss_fit *fit, const fitting *w)
     const match *m = &w->best;
     fit->scene = settled_scene(w);
     for (size_t i = 0; i < SS_FIT_KEYS; i++) {
-        double value = *ss_scene_number(&fit->scene, fitted[i].name, NULL, NULL);
+        double value = ss_scene_get(&fit->scene, fitted[i].name);
         fit->key[i].found = (ss_value){ value, value * error_of(m, i) };
     }
     fit->residual_started = sqrt(m->left / m->power);
@@ -228,7 +228,7 @@ find_longest_stick(double *periods, const ss_scene *scene)
     opts.events = time_stick;
     opts.user = &found;
     ss_status st = ss_sim_run(scene, &opts, NULL, NULL);
-    double stiffness = scene->stiffness + scene->contact_stiffness;
+    double stiffness = scene->stiffness + ss_scene_get(scene, "contact_stiffness");
     *periods = found.longest * sqrt(stiffness / scene->mass) / (2 * M_PI);
     return st == SS_ENOMEM ? st : SS_OK;
 }
@@ -309,11 +309,11 @@ judge(ss_fit *fit, const fitting *w)
 static void
 list_keys(ss_fit *fit, const ss_scene *start)
 {
-    ss_scene given = *start;
     for (size_t i = 0; i < SS_FIT_KEYS; i++) {
         ss_fitted *k = &fit->key[i];
         k->name = fitted[i].name;
-        k->given = *ss_scene_number(&given, k->name, &k->unit, NULL);
+        k->given = ss_scene_get(start, k->name);
+        k->unit = ss_scene_unit(start, k->name);
         k->found = (ss_value){ NAN, NAN };
     }
 }
@@ -381,7 +381,7 @@ static ss_status
 check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
       ss_error *err)
 {
-    if (ss_model_of(start) == NULL || !ss_model_of(start)->has_contact)
+    if (start->model == NULL || !start->model->has_contact)
         return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
                        ss_model_name(start->model));
     ss_status st = ss_column_check(signal, column, opts, err);

@@ -45,7 +45,7 @@ ss_pull_check(const ss_signal *signal, size_t column, const ss_scene *start, con
 static int
 is_plain(const ss_scene *scene)
 {
-    const struct model *model = ss_model_of(scene);
+    const ss_model *model = scene->model;
     return model->linear && !model->has_contact && scene->damping == 0;
 }
 
@@ -134,11 +134,11 @@ report(ss_pull *p, const falls *r, const pulled_fit *fit, const ss_scene *start,
     p->scene.duration = (double)signal->n / p->scene.rate;
     p->n_keys = fit->n_keys;
     for (size_t i = 0; i < fit->n_keys; i++) {
-        ss_scene found = fit->scene, given = *start;
         ss_fitted *k = &p->key[i];
         k->name = fit->key[i].name;
-        k->given = *ss_scene_number(&given, k->name, &k->unit, NULL);
-        k->found.value = *ss_scene_number(&found, k->name, NULL, NULL);
+        k->given = ss_scene_get(start, k->name);
+        k->unit = ss_scene_unit(start, k->name);
+        k->found.value = ss_scene_get(&fit->scene, k->name);
         k->found.error = fit->key[i].error * fabs(k->found.value);
     }
 }
@@ -192,7 +192,7 @@ ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scen
     if (opts == NULL)
         opts = &ss_rank_defaults;
     ss_status st = ss_pull_check(signal, column, start, opts, err);
-    if (st == SS_OK && ss_model_of(start)->has_contact)
+    if (st == SS_OK && start->model->has_contact)
         return ss_fail(err, SS_EINVAL, "an elastic contact is not fitted to a pull: many contacts explain "
                        "the same falls");
     if (st != SS_OK)

@@ -86,7 +86,8 @@ measure_change(trial *t, ss_rank_row *row, const ss_scene *scene, double known, 
     row->adjusted.x0 = 0;
     row->adjusted.stiffness *= exp(stiffer);
     for (size_t i = 0; i < t->fit.n_keys; i++)
-        *ss_scene_number(&row->adjusted, c[i].name, NULL, NULL) *= exp(c[i].power * stiffer);
+        ss_scene_set(&row->adjusted, c[i].name,
+                     ss_scene_get(&row->adjusted, c[i].name) * exp(c[i].power * stiffer), NULL);
 }
 
 /* Does the contact still ring, above the noise, when the next slip begins?  Then the next fall depends on the
@@ -96,9 +97,9 @@ static int
 rings_on(const ss_scene *s, const falls *r)
 {
     double stick = 2 * (s->static_friction - s->friction) / fabs(s->stiffness * pull_of(s));
-    double decay = (s->contact_damping + s->damping) / (2 * s->mass);
+    double decay = (ss_scene_get(s, "contact_damping") + s->damping) / (2 * s->mass);
     double noise = fmax(r->noise, RESIDUE_QUIET * r->power);
-    return ss_model_of(s)->has_contact && decay * stick < 0.5 * log(r->power / noise);
+    return s->model->has_contact && decay * stick < 0.5 * log(r->power / noise);
 }
 
 static ss_status

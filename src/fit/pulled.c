@@ -48,14 +48,14 @@ typedef struct problem {
 static void
 add_key(pulled_fit *out, const ss_scene *scene, size_t offset, int power, double own)
 {
-    const char *name = ss_key_of_field(ss_model_of(scene), offset)->name;
+    const char *name = ss_key_of_field(scene->model, offset)->name;
     out->key[out->n_keys++] = (pulled_key){ .name = name, .offset = offset, .power = power, .own = own };
 }
 
 static void
 list_keys(pulled_fit *out, const ss_scene *scene)
 {
-    const struct model *model = ss_model_of(scene);
+    const ss_model *model = scene->model;
     ss_scene s = *scene;
     size_t pull = s.base_velocity != 0 ? offsetof(ss_scene, base_velocity)
                                        : offsetof(ss_scene, surface_velocity);
@@ -130,7 +130,7 @@ find_fall(double *time, const ss_scene *scene, double *steps)
     const double reload = 2 * (scene->static_friction - scene->friction) / loading;
     ss_scene s = *scene;
     waiting w = { .least = SHORT * fmin(reload, period), .t = NAN,
-                  .settled = ss_model_of(scene)->has_contact ? SETTLED_CONTACT : SETTLED };
+                  .settled = scene->model->has_contact ? SETTLED_CONTACT : SETTLED };
     ss_sim_stats stats = { .steps = 0 };
     ss_sim_opts opts = ss_samples_opts(scene, SAMPLES_FINE);
     opts.events = wait_for_fall;
@@ -177,7 +177,7 @@ fall_rows(problem *f, size_t i, const double u[], double *row)
         return st == SS_ENOMEM ? st : SS_EDATA;
     /* the slips of another law than Coulomb's may begin and end elsewhere than the slope was read */
     const double error = hypot(r->slope.error, BENT * r->slope.value), direction = sign(pull_of(&s));
-    int is_straight = before >= 1 && before < (double)w->n && !ss_model_of(&s)->has_contact;
+    int is_straight = before >= 1 && before < (double)w->n && !s.model->has_contact;
     double slope = is_straight ? direction * (row[(size_t)before] - row[0]) / (before * step) : r->slope.value;
     row[w->n] = (slope - r->slope.value) / error * sqrt(r->noise / (double)r->n);
     for (size_t k = 0; k < w->n; k++)

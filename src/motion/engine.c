@@ -138,7 +138,7 @@ ends_by_curve(engine *e, double *s_event, int *unresolved)
 ss_status
 ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
 {
-    const struct model *model = e->m->now.model;
+    const ss_model *model = e->m->now.model;
     int unresolved = 0;
     *ends = 0;
     if (model->guard == NULL || e->clear)

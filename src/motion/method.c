@@ -45,20 +45,20 @@ ss_method_follower_names(void)
 static int
 has_closed_form(const ss_scene *scene)
 {
-    return ss_model_of(scene)->linear && scene->base == NULL;
+    return scene->model->linear && scene->base == NULL;
 }
 
 static int
 is_stiff(const ss_scene *scene)
 {
-    const struct model *model = ss_model_of(scene);
+    const ss_model *model = scene->model;
     return model->stiff != NULL && model->stiff(scene);
 }
 
 const struct method *
 ss_method_for(const ss_scene *scene, wish wanted)
 {
-    const struct model *model = ss_model_of(scene);
+    const ss_model *model = scene->model;
     if (wanted == BEST && has_closed_form(scene))
         return &list[EXACT];
     if (is_stiff(scene))
@@ -87,7 +87,7 @@ ss_method_pair(const ss_scene *scene, int pair, const char *name[2])
 ss_status
 ss_method_named(const struct method **how, const char *name, const ss_scene *scene, ss_error *err)
 {
-    const struct model *model = ss_model_of(scene);
+    const ss_model *model = scene->model;
     size_t i = 0;
     while (i < METHODS && strcmp(list[i].name, name) != 0)
         i++;
@@ -126,7 +126,7 @@ ss_sim_method_name(size_t i)
 const char *
 ss_sim_method_for(const ss_scene *scene, const char **why)
 {
-    if (scene == NULL || ss_model_of(scene) == NULL)
+    if (scene == NULL || scene->model == NULL)
         return NULL;
     if (why != NULL)
         *why = is_stiff(scene) ? "implicit, as the friction of this scene is stiff" : "the default";

@@ -281,7 +281,7 @@ run(sampler *r, engine *e, ss_error *err)
 {
     motion *m = e->m;
     const state *now = &m->now;
-    const struct model *model = now->model;
+    const ss_model *model = now->model;
     double lasted = 0;                      /* duration of the present mode */
     int in_a_row = 0;
 

@@ -6,35 +6,38 @@
  * would lose most of its digits. */
 #include "scene/model.h"
 
+enum { STIFFNESS, DAMPING, RELEASE };           /* K_y, c, and the force that ends a microstick */
+enum { SPRING, TOTAL };                         /* K_y |y|, as the paper writes; or |K_y y + c v| */
+
 static const char *
-release_word(int i)
+release_word(size_t i)
 {
-    static const char *const word[] = { "spring", "total", NULL };
+    static const char *const word[] = { [SPRING] = "spring", [TOTAL] = "total", NULL };
     return word[i];
 }
 
 static const scene_key keys[] = {
-    KEY_NUMBER(contact_stiffness, REQUIRED, POSITIVE, "N/m"),
-    KEY_NUMBER(contact_damping, REQUIRED, NOT_NEGATIVE, "N s/m"),
-    KEY_WORD(release, OPTIONAL, release_word),
+    OWN_NUMBER("contact_stiffness", STIFFNESS, REQUIRED, POSITIVE, "N/m"),
+    OWN_NUMBER("contact_damping", DAMPING, REQUIRED, NOT_NEGATIVE, "N s/m"),
+    OWN_WORD("release", RELEASE, release_word),
     KEY_STATIC_FRICTION,
 };
 
 static const vanishing vanishing_terms[] = {
-    { "contact_damping=0", offsetof(ss_scene, contact_damping) },
+    { "contact_damping=0", OWN_AT(DAMPING) },
 };
 
 static double
 stiffness_ratio(const ss_scene *s)
 {
-    return s->contact_stiffness / s->stiffness;
+    return s->own[STIFFNESS] / s->stiffness;
 }
 
 static double
 damping_ratio(const ss_scene *s)
 {
-    double k = s->stiffness + s->contact_stiffness;
-    return s->contact_damping / (2 * sqrt(k) * sqrt(s->mass));
+    double k = s->stiffness + s->own[STIFFNESS];
+    return s->own[DAMPING] / (2 * sqrt(k) * sqrt(s->mass));
 }
 
 static const ss_scene_range ranges[] = {
@@ -45,13 +48,13 @@ static const ss_scene_range ranges[] = {
 static double
 deflection_in_slip(const state *m)
 {
-    return m->scene->friction / m->scene->contact_stiffness;
+    return m->scene->friction / m->scene->own[STIFFNESS];
 }
 
 static double
 deflection_limit(const state *m)
 {
-    return static_friction(m->scene) / m->scene->contact_stiffness;
+    return static_friction(m->scene) / m->scene->own[STIFFNESS];
 }
 
 static void
@@ -59,8 +62,8 @@ microstick(state *m, double x, double y)
 {
     const ss_scene *s = m->scene;
     m->mode = 0;
-    m->k = s->stiffness + s->contact_stiffness;
-    m->c = s->contact_damping + s->damping;
+    m->k = s->stiffness + s->own[STIFFNESS];
+    m->c = s->own[DAMPING] + s->damping;
     m->x_ref = x - y;
     m->f0 = s->stiffness * m->x_ref;
     m->slack = 0;
@@ -108,7 +111,7 @@ static double
 damper_ratio(const state *m)
 {
     const ss_scene *s = m->scene;
-    return s->release == SS_RELEASE_SPRING ? 0 : s->contact_damping / s->contact_stiffness;
+    return s->own[RELEASE] == SPRING ? 0 : s->own[DAMPING] / s->own[STIFFNESS];
 }
 
 /* Microstick lasts while the spring's force, or that of spring and damper, is within f_s. */
@@ -143,7 +146,7 @@ static int
 only_touches(state *m)
 {
     const ss_scene *s = m->scene;
-    if (s->release == SS_RELEASE_TOTAL && s->contact_damping > 0)
+    if (s->own[RELEASE] == TOTAL && s->own[DAMPING] > 0)
         return 0;
     double beyond = excess(m);
     if (!(beyond <= m->slack + m->graze))
@@ -190,7 +193,7 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
     s->a = dqdt[1];
     s->mode = m->mode;
     s->y = deflection(m, q);
-    s->f = m->mode == 0 ? m->scene->contact_stiffness * q[0] + m->scene->contact_damping * q[1]
+    s->f = m->mode == 0 ? m->scene->own[STIFFNESS] * q[0] + m->scene->own[DAMPING] * q[1]
         : m->f0;
 }
 
@@ -261,12 +264,12 @@ move(state *m, const double d[D_MOST])
 
 static const struct variation variation = { free_differences, cross, move };
 
-const struct model ss_compliant_model = {
+const ss_model ss_compliant_model = {
     .name = "compliant",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
-    .parameter = { { .offset = offsetof(ss_scene, contact_stiffness), .by_mass = 1 },
-                   { .offset = offsetof(ss_scene, contact_damping), .by_mass = 1 } },
+    .parameter = { { .offset = OWN_AT(STIFFNESS), .by_mass = 1 },
+                   { .offset = OWN_AT(DAMPING), .by_mass = 1 } },
     .n_parameters = 2,
     .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,
     .limit = ss_to_coulomb,

@@ -1,15 +1,10 @@
 /* coulomb.c -- f = f_k sgn(v) in slip; true stick (stick.c). */
+#include <string.h>
 #include "scene/model.h"
 
 static const scene_key keys[] = { KEY_STATIC_FRICTION };
 
-void
-ss_to_coulomb(ss_scene *scene)
-{
-    scene->model = SS_COULOMB;
-}
-
-const struct model ss_coulomb_model = {
+const ss_model ss_coulomb_model = {
     .name = "coulomb",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .dim = 2, .linear = 1,
@@ -20,3 +15,10 @@ const struct model ss_coulomb_model = {
     .sample = ss_stick_sample,
     .variation = &ss_stick_variation
 };
+
+void
+ss_to_coulomb(ss_scene *scene)
+{
+    scene->model = &ss_coulomb_model;
+    memset(scene->own, 0, sizeof scene->own);
+}

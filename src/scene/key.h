@@ -1,4 +1,4 @@
-/* key.h -- the keys of the fields of ss_scene, their ranges, and which of them a fit may vary. */
+/* key.h -- the keys of a scene: where the value of each stands, what it may be, and which a fit may vary. */
 #ifndef KEY_H
 #define KEY_H
 
@@ -16,11 +16,11 @@ typedef struct scene_key {
     const char *name;
     int required;
     int range;                      /* of a number */
-    size_t offset;                  /* in ss_scene, of a double or an enumeration: one key each */
+    size_t offset;                  /* in ss_scene, of a double, a text or the model */
     const char *unit;               /* of a number */
-    size_t room;                    /* of a text, with its NUL; 0 for a number or an enumeration */
-    /* Of an enumeration: its i-th word, from 0 to the first NULL.  NULL for a number. */
-    const char *(*word)(int i);
+    size_t room;                    /* of a text, with its NUL; 0 for others */
+    /* The i-th word that may stand there, from 0 to the first NULL; the value is i.  NULL: it is no word. */
+    const char *(*word)(size_t i);
 } scene_key;
 
 /* The number of a scene at an offset. */
@@ -33,7 +33,10 @@ number_at(ss_scene *scene, size_t offset)
 #define KEY_NUMBER(field, required, range, unit) \
     { #field, required, range, offsetof(ss_scene, field), unit, 0, NULL }
 #define KEY_STATIC_FRICTION KEY_NUMBER(static_friction, TERM, NOT_NEGATIVE, "N")
-#define KEY_WORD(field, required, word) { #field, required, 0, offsetof(ss_scene, field), "", 0, word }
+/* Those of a model, at a place in ss_scene.own. */
+#define OWN_AT(place) offsetof(ss_scene, own[place])
+#define OWN_NUMBER(name, place, required, range, unit) { name, required, range, OWN_AT(place), unit, 0, NULL }
+#define OWN_WORD(name, place, word) { name, OPTIONAL, ANY_NUMBER, OWN_AT(place), "", 0, word }
 #define KEY_TEXT(field, range) { #field, TERM, range, offsetof(ss_scene, field), "", \
                                  sizeof ((ss_scene *)0)->field, NULL }
 
@@ -46,17 +49,17 @@ typedef struct parameter {
 } parameter;
 enum { PARAMETERS = 2 };             /* the most that a model has */
 
-struct model;
 /* keys.c: the i-th key of a model, in the order in which scenes are written; NULL after the last. */
-const scene_key *ss_key_at(const struct model *model, size_t i);
+const scene_key *ss_key_at(const ss_model *model, size_t i);
 /* The key of this name, or of this field, that the model has; NULL if none. */
-const scene_key *ss_key_named(const struct model *model, const char *name);
-const scene_key *ss_key_of_field(const struct model *model, size_t offset);
+const scene_key *ss_key_named(const ss_model *model, const char *name);
+const scene_key *ss_key_of_field(const ss_model *model, size_t offset);
 /* The key of this name that some model has; NULL if none. */
 const scene_key *ss_key_of_any(const char *name);
 /* What is wrong with a name that no model has, with the key that is probably meant; returns text. */
 enum { KEY_UNKNOWN_ROOM = 160 };
 const char *ss_key_unknown(char text[KEY_UNKNOWN_ROOM], const char *name);
+int ss_key_is_own(const scene_key *k);             /* does its value stand in ss_scene.own? */
 int ss_key_is_named(const ss_scene *scene, const scene_key *k);    /* has it this TERM? */
 /* The first TERM that a scene has; NULL if none. */
 const char *ss_scene_term(const ss_scene *scene);

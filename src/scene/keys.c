@@ -6,14 +6,14 @@
 #include "scene/model.h"
 
 static const char *
-model_word(int i)
+model_word(size_t i)
 {
-    const struct model *model = ss_model_at((size_t)i);
+    const ss_model *model = ss_model_at(i);
     return model != NULL ? model->name : NULL;
 }
 
 static const scene_key of_motion[] = {
-    KEY_WORD(model, REQUIRED, model_word),
+    { "model", REQUIRED, 0, offsetof(ss_scene, model), "", 0, model_word },
     KEY_NUMBER(mass, REQUIRED, POSITIVE, "kg"),
     KEY_NUMBER(stiffness, REQUIRED, POSITIVE, "N/m"),
     KEY_NUMBER(friction, REQUIRED, NOT_NEGATIVE, "N"),
@@ -38,7 +38,7 @@ static const scene_key of_record[] = {
 enum { OF_RECORD = sizeof of_record / sizeof *of_record };
 
 const scene_key *
-ss_key_at(const struct model *model, size_t i)
+ss_key_at(const ss_model *model, size_t i)
 {
     if (i < OF_MOTION)
         return &of_motion[i];
@@ -50,7 +50,7 @@ ss_key_at(const struct model *model, size_t i)
 }
 
 const scene_key *
-ss_key_named(const struct model *model, const char *name)
+ss_key_named(const ss_model *model, const char *name)
 {
     const scene_key *k = NULL;
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL && strcmp(k->name, name) != 0; i++)
@@ -59,7 +59,7 @@ ss_key_named(const struct model *model, const char *name)
 }
 
 const scene_key *
-ss_key_of_field(const struct model *model, size_t offset)
+ss_key_of_field(const ss_model *model, size_t offset)
 {
     const scene_key *k = NULL;
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL && k->offset != offset; i++)
@@ -70,7 +70,7 @@ ss_key_of_field(const struct model *model, size_t offset)
 const char *
 ss_scene_term(const ss_scene *scene)
 {
-    const struct model *model = ss_model_of(scene);
+    const ss_model *model = scene->model;
     const scene_key *k;
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++)
         if (k->required == TERM && ss_key_is_named(scene, k))
@@ -83,6 +83,13 @@ ss_key_is_named(const ss_scene *scene, const scene_key *k)
 {
     const char *field = (const char *)scene + k->offset;
     return k->room > 0 ? *field != '\0' : *(const double *)(const void *)field != 0;
+}
+
+int
+ss_key_is_own(const scene_key *k)
+{
+    const size_t first = offsetof(ss_scene, own);
+    return k->offset >= first && k->offset < first + sizeof ((ss_scene *)0)->own;
 }
 
 int
@@ -100,7 +107,7 @@ const scene_key *
 ss_key_of_any(const char *name)
 {
     const scene_key *k = NULL;
-    const struct model *model;
+    const ss_model *model;
     for (size_t i = 0; k == NULL && (model = ss_model_at(i)) != NULL; i++)
         k = ss_key_named(model, name);
     return k;
@@ -135,7 +142,7 @@ distance(const char *a, const char *b)
 static const char *
 nearest_key(const char *name)
 {
-    const struct model *model;
+    const ss_model *model;
     const char *best = "model";
     for (size_t i = 0; (model = ss_model_at(i)) != NULL; i++) {
         const scene_key *k;

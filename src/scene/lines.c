@@ -32,66 +32,6 @@ fail_at(struct key_origin at, ss_error *err, const char *format, ...)
     return ss_fail(err, SS_EDATA, "%s:%ld: %s", at.name, at.line, text);
 }
 
-/* --- a value ------------------------------------------------------------------------------- */
-
-/* A scene may come from a stranger, so it may name only files in its own folder or below. */
-static int
-leaves_folder(const char *path)
-{
-    size_t length = strlen(path);
-    return path[0] == '/' || strncmp(path, "../", 3) == 0 || strstr(path, "/../") != NULL
-        || strcmp(path, "..") == 0 || (length > 2 && strcmp(path + length - 3, "/..") == 0);
-}
-
-static ss_status
-set_text(ss_scene *scene, const scene_key *k, const char *value, struct key_origin at,
-         ss_error *err)
-{
-    const char *wrong = *value == '\0' ? "is empty" : strlen(value) >= k->room ? "is too long"
-        : ss_value_no_text(value);
-    if (wrong == NULL && k->range == PATH && leaves_folder(value))
-        wrong = "leads out of the scene's folder; a file there or below is meant";
-    if (wrong != NULL)
-        return fail_at(at, err, "%s %s", k->name, wrong);
-    strcpy(text_of(scene, k), value);
-    return SS_OK;
-}
-
-static ss_status
-set_word(ss_scene *scene, const scene_key *k, const char *value, struct key_origin at, ss_error *err)
-{
-    char words[256] = "";
-    const char *word;
-    for (int i = 0; (word = k->word(i)) != NULL; i++) {
-        if (strcmp(value, word) == 0) {
-            *word_of(scene, k) = i;
-            return SS_OK;
-        }
-        size_t length = strlen(words);
-        snprintf(words + length, sizeof words - length, "%s %s", i ? "," : "", word);
-    }
-    return fail_at(at, err, "%s is '%.64s', but must be one of%s", k->name, value, words);
-}
-
-static ss_status
-set_value(ss_scene *scene, const scene_key *k, const char *value, struct key_origin at,
-          ss_error *err)
-{
-    char *end;
-    if (k->word != NULL)
-        return set_word(scene, k, value, at, err);
-    if (k->room > 0)
-        return set_text(scene, k, value, at, err);
-    double x = ss_number_parse(value, &end);
-    if (end == value || *end != '\0')
-        return fail_at(at, err, "%s is '%.64s', but must be a number", k->name, value);
-    if (!ss_value_in_range(k, x))
-        return fail_at(at, err, "%s = %.64s is out of range, it must be %s", k->name, value,
-                       ss_value_range(k));
-    *number_at(scene, k->offset) = x;
-    return SS_OK;
-}
-
 /* --- a setting ----------------------------------------------------------------------------- */
 
 static char *
@@ -106,68 +46,103 @@ trim(char *text)
     return text;
 }
 
-/* The line of each key that has been read, indexed by the offset of its field in ss_scene. */
+/* The keys that have been read, each once.  Only the model, which may come last, says where the values of
+ * its own keys stand and what its words are. */
+enum { GIVEN_MOST = 128, WORD_ROOM = 68 };
+typedef struct given_key {
+    const scene_key *key;           /* of some model */
+    long line;
+    double value;                   /* of a number */
+    char word[WORD_ROOM];
+} given_key;
+
 typedef struct given {
-    long line[sizeof(ss_scene) / sizeof(int)];
+    size_t n;
+    given_key key[GIVEN_MOST];
 } given;
 
-static long *
-line_of(given *g, const scene_key *k)
+static given_key *
+find_given(given *g, const char *name)
 {
-    return &g->line[k->offset / sizeof(int)];
+    for (size_t i = 0; i < g->n; i++)
+        if (strcmp(g->key[i].key->name, name) == 0)
+            return &g->key[i];
+    return NULL;
+}
+
+static long
+line_of(given *g, const char *name)
+{
+    const given_key *found = find_given(g, name);
+    return found != NULL ? found->line : 0;
 }
 
 /* Read one "key = value"; the text is split in place. */
 static ss_status
 read_setting(ss_scene *scene, char *text, struct key_origin at, given *g, ss_error *err)
 {
-    char *equals = strchr(text, '=');
+    char *equals = strchr(text, '='), unknown[KEY_UNKNOWN_ROOM], wrong[WRONG_ROOM];
     if (equals == NULL)
         return fail_at(at, err, "expected 'key = value', found '%.64s'", trim(text));
     *equals = '\0';
-    char *name = trim(text);
+    char *name = trim(text), *value = trim(equals + 1);
     const scene_key *k = ss_key_of_any(name);
-    char unknown[KEY_UNKNOWN_ROOM];
     if (k == NULL)
         return fail_at(at, err, "%s", ss_key_unknown(unknown, name));
-    long *seen = line_of(g, k);
-    if (at.line < 0 && *seen > 0)
-        *seen = 0;                      /* a setting may replace a line of the file */
-    if (*seen < 0)
+    given_key *found = find_given(g, name);
+    if (found == NULL && g->n == GIVEN_MOST)
+        return fail_at(at, err, "too many keys");
+    if (found == NULL)
+        *(found = &g->key[g->n++]) = (given_key){ .key = k };
+    else if (found->line < 0)
         return fail_at(at, err, "repeated key '%s'", name);
-    if (*seen > 0)
-        return fail_at(at, err, "repeated key '%s', first given on line %ld", name, *seen);
-    *seen = at.line;
-    return set_value(scene, k, trim(equals + 1), at, err);
+    else if (at.line > 0)               /* a setting may replace a line of the file */
+        return fail_at(at, err, "repeated key '%s', first given on line %ld", name, found->line);
+    found->line = at.line;
+    if (ss_key_is_own(k) && k->word != NULL) {
+        snprintf(found->word, WORD_ROOM, "%s", value);
+        return SS_OK;
+    }
+    if (!ss_value_read(scene, k, value, wrong))
+        return fail_at(at, err, "%s", wrong);
+    if (ss_key_is_own(k))
+        found->value = *number_at(scene, k->offset);
+    return SS_OK;
 }
 
-/* SS_EDATA if the scene has a key that belongs only to other models. */
+/* Set the model's own keys.  SS_EDATA if the scene has a key that belongs only to other models. */
 static ss_status
-check_foreign(const struct model *model, given *g, struct key_origin last, ss_error *err)
+set_own(ss_scene *scene, given *g, struct key_origin last, ss_error *err)
 {
-    const struct model *other;
-    for (size_t i = 0; (other = ss_model_at(i)) != NULL; i++)
-        for (size_t j = 0; j < other->n_keys; j++) {
-            const scene_key *k = &other->keys[j];
-            struct key_origin at = { last.name, *line_of(g, k) };
-            if (at.line == 0 || ss_key_of_field(model, k->offset) != NULL)
-                continue;
-            /* if a setting chose the model, the setting is at fault, not the file */
-            if (*line_of(g, ss_key_of_any("model")) < 0)
-                at.line = -1;
-            return fail_at(at, err, "model %s has no key '%s'", model->name, k->name);
-        }
+    const ss_model *model = scene->model;
+    memset(scene->own, 0, sizeof scene->own);
+    for (size_t i = 0; i < g->n; i++) {
+        const given_key *one = &g->key[i];
+        const scene_key *k = ss_key_named(model, one->key->name);
+        struct key_origin at = { last.name, one->line };
+        char wrong[WRONG_ROOM];
+        if (k == NULL && line_of(g, "model") < 0)
+            at.line = -1;               /* the setting that chose the model is at fault, not the file */
+        if (k == NULL)
+            return fail_at(at, err, "model %s has no key '%s'", model->name, one->key->name);
+        if (!ss_key_is_own(k))
+            continue;
+        if (k->word == NULL)
+            *number_at(scene, k->offset) = one->value;
+        else if (!ss_value_read(scene, k, one->word, wrong))
+            return fail_at(at, err, "%s", wrong);
+    }
     return SS_OK;
 }
 
 /* The first key that the scene needs and lacks; NULL if it has all. */
 static const scene_key *
-missing_key(const struct model *model, given *g)
+missing_key(const ss_model *model, given *g)
 {
     const scene_key *k, *forcing = NULL;
     int forced = 0;
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++) {
-        int missing = *line_of(g, k) == 0;
+        int missing = line_of(g, k->name) == 0;
         if (missing && k->required == REQUIRED)
             return k;
         if (missing && k->required == FORCING)
@@ -179,33 +154,31 @@ missing_key(const struct model *model, given *g)
 
 /* Called after the last line: check that every key belongs to the model, and that none is missing. */
 static ss_status
-check_keys(const ss_scene *scene, given *g, struct key_origin last, ss_error *err)
+check_keys(ss_scene *scene, given *g, struct key_origin last, ss_error *err)
 {
-    const struct model *model = ss_model_of(scene);
-    if (*line_of(g, ss_key_of_any("model")) == 0)
+    if (scene->model == NULL)
         return fail_at(last, err, "missing key 'model'");
-    ss_status st = check_foreign(model, g, last, err);
+    ss_status st = set_own(scene, g, last, err);
     if (st != SS_OK)
         return st;
-    const scene_key *k = missing_key(model, g);
+    const scene_key *k = missing_key(scene->model, g);
     if (k != NULL && k->required == FORCING)
         return fail_at(last, err, "missing key '%s': the base moves by it", k->name);
     if (k != NULL)
-        return fail_at(last, err, "missing key '%s', which model %s needs", k->name, model->name);
-    long file = *line_of(g, ss_key_of_any("base_file"));
+        return fail_at(last, err, "missing key '%s', which model %s needs", k->name, scene->model->name);
+    long file = line_of(g, "base_file"), column = line_of(g, "base_column");
     if (file != 0 && scene->base_amplitude != 0)
         return fail_at((struct key_origin){ last.name, file }, err, TWO_BASES);
-    long column = *line_of(g, ss_key_of_any("base_column"));
     if (column != 0 && file == 0)
         return fail_at((struct key_origin){ last.name, column }, err,
                        "base_column is one of base_file, which is missing");
-    long s = *line_of(g, ss_key_of_any("static_friction")), f = *line_of(g, ss_key_of_any("friction"));
+    long s = line_of(g, "static_friction"), f = line_of(g, "friction");
     if (s != 0 && scene->static_friction < scene->friction)
         return fail_at((struct key_origin){ last.name, s < 0 || f < 0 ? -1 : s }, err,
                        STATIC_IS_LESS);
     if (ss_scene_samples(scene) == SIZE_MAX) {
-        long where = *line_of(g, ss_key_of_any("rate"));
-        struct key_origin at = { last.name, where != 0 ? where : *line_of(g, ss_key_of_any("duration")) };
+        long where = line_of(g, "rate");
+        struct key_origin at = { last.name, where != 0 ? where : line_of(g, "duration") };
         return fail_at(at, err, "duration x rate is more than 2^53 samples");
     }
     return SS_OK;
@@ -240,7 +213,7 @@ ss_scene_read_set(ss_scene *out, FILE *in, const char *name, const char *const s
                   size_t n, ss_error *err)
 {
     ss_scene scene = ss_scene_defaults;
-    given g = { 0 };
+    given g = { .n = 0 };
     struct key_origin at = { name, 0 };
     char line[1024];
     ss_status st = SS_OK;

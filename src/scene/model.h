@@ -1,8 +1,8 @@
 /* model.h -- a friction model is a table of properties and of functions that move its state.
  *
- * A new model needs a file like state_variable.c, a line in models.c, and fields in ss_scene for
- * its own parameters.  All other code reads the table.  NULL in the table means that the model
- * lacks the property.
+ * A new model is a file like state_variable.c and a line in models.c.  It names the keys of its own
+ * parameters, whose values stand in ss_scene.own at the places that its enumeration gives them.
+ * All other code reads the table.  NULL in the table means that the model lacks the property.
  *
  * A model is smooth within a mode (stick or microstick 0, slip +1, slip -1); it is not smooth only
  * where the mode changes.  Coulomb and compliant contact are linear within a mode and share one
@@ -34,7 +34,7 @@ struct ss_base {
 /* The mass, its contact and the base at one instant of a mode. */
 typedef struct state {
     const ss_scene *scene;
-    const struct model *model;
+    const ss_model *model;
     double omega;                   /* Omega [rad/s] */
     double drive;                   /* k Z_e [N] */
     double ramp;                    /* k (U - S) [N/s] */
@@ -92,7 +92,7 @@ typedef struct vanishing {
     size_t offset;                  /* in ss_scene */
 } vanishing;
 
-struct model {
+struct ss_model {
     const char *name;               /* in scenes */
     const scene_key *keys;          /* keys that not every scene has (keys.c has the others) */
     size_t n_keys;
@@ -167,9 +167,6 @@ struct model {
     /* NULL if the model cannot follow neighbouring states. */
     const struct variation *variation;
 };
-
-const struct model *ss_model_at(size_t i);          /* models.c; NULL after the last */
-const struct model *ss_model_of(const ss_scene *scene);
 
 void ss_to_coulomb(ss_scene *scene);                 /* coulomb.c: the limit of most models */
 

@@ -1,4 +1,5 @@
-/* models.c -- the friction models: one line each, in the order of ss_model. */
+/* models.c -- the friction models: one line each. */
+#include <string.h>
 #include "scene/model.h"
 
 #define MODELS(model) \
@@ -7,40 +8,40 @@
     model(ss_compliant_model) \
     model(ss_stribeck_model)
 
-#define DECLARE(name) extern const struct model name;
+#define DECLARE(name) extern const ss_model name;
 #define POINT_TO(name) &name,
 MODELS(DECLARE)
-static const struct model *const list[] = { MODELS(POINT_TO) };
+static const ss_model *const list[] = { MODELS(POINT_TO) };
 
-const struct model *
+const ss_model *
 ss_model_at(size_t i)
 {
     return i < sizeof list / sizeof *list ? list[i] : NULL;
 }
 
-const struct model *
-ss_model_of(const ss_scene *scene)
+const ss_model *
+ss_model_named(const char *name)
 {
-    return ss_model_at((unsigned)scene->model);
+    const ss_model *m = NULL;
+    for (size_t i = 0; name != NULL && (m = ss_model_at(i)) != NULL && strcmp(m->name, name) != 0; i++)
+        ;
+    return m;
 }
 
 const char *
-ss_model_name(ss_model model)
+ss_model_name(const ss_model *model)
 {
-    const struct model *m = ss_model_at((unsigned)model);
-    return m != NULL ? m->name : "?";
+    return model != NULL ? model->name : "?";
 }
 
 int
-ss_model_has_events(ss_model model)
+ss_model_has_events(const ss_model *model)
 {
-    const struct model *m = ss_model_at((unsigned)model);
-    return m != NULL && m->guard != NULL;
+    return model != NULL && model->guard != NULL;
 }
 
 int
-ss_model_is_linear(ss_model model)
+ss_model_is_linear(const ss_model *model)
 {
-    const struct model *m = ss_model_at((unsigned)model);
-    return m != NULL && m->linear;
+    return model != NULL && model->linear;
 }

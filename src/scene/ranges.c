@@ -76,9 +76,8 @@ static const ss_scene_range of_every[] = {
 enum { OF_EVERY = sizeof of_every / sizeof *of_every };
 
 const ss_scene_range *
-ss_model_range(ss_model model, size_t i)
+ss_model_range(const ss_model *m, size_t i)
 {
-    const struct model *m = ss_model_at((unsigned)model);
     if (m == NULL)
         return NULL;
     if (i < OF_EVERY)
@@ -91,7 +90,7 @@ ss_scene_supported(const ss_scene *scene, ss_error *err)
 {
     if (scene == NULL)
         return SS_FAIL_NULL(err);
-    if (ss_model_of(scene) == NULL)
+    if (scene->model == NULL)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
     const ss_scene_range *r;
     for (size_t i = 0; (r = ss_model_range(scene->model, i)) != NULL; i++) {

@@ -13,7 +13,7 @@ static int
 vanishes(ss_scene *scene, size_t offset)
 {
     double *number = number_at(scene, offset);
-    int there = *number != 0 && ss_key_of_field(ss_model_of(scene), offset) != NULL;
+    int there = *number != 0 && ss_key_of_field(scene->model, offset) != NULL;
     *number = 0;
     return there;
 }
@@ -21,7 +21,7 @@ vanishes(ss_scene *scene, size_t offset)
 static int
 reaches_limit(ss_scene *scene)
 {
-    const struct model *model = ss_model_of(scene);
+    const ss_model *model = scene->model;
     if (model->limit == NULL)
         return 0;
     model->limit(scene);
@@ -33,7 +33,7 @@ reaches_limit(ss_scene *scene)
 static const char *
 step(ss_scene *scene, size_t i)
 {
-    const struct model *model = ss_model_of(scene);
+    const ss_model *model = scene->model;
     if (i < OF_EVERY)
         return vanishes(scene, of_every[i].offset) ? of_every[i].name : "";
     i -= OF_EVERY;
@@ -52,7 +52,7 @@ step(ss_scene *scene, size_t i)
 const char *
 ss_scene_simpler(ss_scene *out, const ss_scene *scene, size_t i)
 {
-    if (out == NULL || scene == NULL || ss_model_of(scene) == NULL)
+    if (out == NULL || scene == NULL || scene->model == NULL)
         return NULL;
     for (size_t k = 0;; k++) {
         ss_scene simpler = *scene;

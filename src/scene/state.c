@@ -5,7 +5,7 @@ state
 ss_state_of(const ss_scene *scene, double tol)
 {
     double hold = static_friction(scene) / scene->stiffness;
-    state m = { .scene = scene, .model = ss_model_of(scene),
+    state m = { .scene = scene, .model = scene->model,
                 .omega = 2 * M_PI * scene->base_frequency,
                 .drive = scene->stiffness * scene->base_amplitude,
                 .ramp = scene->stiffness * pull_of(scene),

@@ -4,32 +4,36 @@
 
 #include <string.h>
 
+enum { ALPHA, GAMMA, LAW };
+/* theta' = -gamma (theta - f_k tanh(alpha v)), or -gamma f_k (theta - tanh(alpha v)), (9) as printed */
+enum { SCALED, LITERAL };
+
 static const char *
-law_word(int i)
+law_word(size_t i)
 {
-    static const char *const word[] = { "scaled", "literal", NULL };
+    static const char *const word[] = { [SCALED] = "scaled", [LITERAL] = "literal", NULL };
     return word[i];
 }
 
 static const scene_key keys[] = {
-    KEY_NUMBER(alpha, REQUIRED, POSITIVE, "s/m"),
-    KEY_NUMBER(gamma, REQUIRED, POSITIVE, "1/s"),
-    KEY_WORD(law, OPTIONAL, law_word),
+    OWN_NUMBER("alpha", ALPHA, REQUIRED, POSITIVE, "s/m"),
+    OWN_NUMBER("gamma", GAMMA, REQUIRED, POSITIVE, "1/s"),
+    OWN_WORD("law", LAW, law_word),
 };
 
 static double
 steepness(const ss_scene *s)
 {
     double X = amplitude_of(s);
-    return X > 0 ? s->alpha * X * own_frequency(s) : NAN;
+    return X > 0 ? s->own[ALPHA] * X * own_frequency(s) : NAN;
 }
 
 /* theta' = -rate (theta - goal tanh(alpha v)). */
 static void
 law(const ss_scene *s, double *rate, double *goal)
 {
-    int literal = s->law == SS_LAW_LITERAL;
-    *rate = literal ? s->gamma * s->friction : s->gamma;
+    int literal = s->own[LAW] == LITERAL;
+    *rate = literal ? s->own[GAMMA] * s->friction : s->own[GAMMA];
     *goal = literal ? 1 : s->friction;
 }
 
@@ -50,15 +54,15 @@ static const ss_scene_range ranges[] = {
 static void
 normalise(ss_scene *s)
 {
-    law(s, &s->gamma, &s->friction);
-    s->law = SS_LAW_SCALED;
+    law(s, &s->own[GAMMA], &s->friction);
+    s->own[LAW] = SCALED;
 }
 
 /* Replace the scene by its limit, the Coulomb friction to which the law settles. */
 static void
 limit(ss_scene *s)
 {
-    if (s->law == SS_LAW_LITERAL && s->friction > 0)
+    if (s->own[LAW] == LITERAL && s->friction > 0)
         s->friction = 1;
     s->static_friction = 0;
     ss_to_coulomb(s);
@@ -100,7 +104,7 @@ front_rate(const ss_scene *s, double *damping)
 {
     double g, goal;
     law(s, &g, &goal);
-    double swing = sqrt(g) * sqrt(goal * s->alpha / s->mass);
+    double swing = sqrt(g) * sqrt(goal * s->own[ALPHA] / s->mass);
     *damping = g / 2 / swing;
     return g / 2 > swing ? g / 2 + sqrt((g / 2 - swing) * (g / 2 + swing)) : swing;
 }
@@ -127,14 +131,14 @@ rates(const state *m, double drive, const double q[], double dqdt[])
     law(s, &rate, &goal);
     dqdt[0] = q[1];
     dqdt[1] = (drive - s->stiffness * q[0] - s->damping * q[1] - q[2]) / s->mass;
-    dqdt[2] = -rate * (q[2] - goal * tanh(s->alpha * q[1]));
+    dqdt[2] = -rate * (q[2] - goal * tanh(s->own[ALPHA] * q[1]));
 }
 
 static double
 sight(const state *m, const double dqdt[])
 {
     const ss_scene *s = m->scene;
-    return sight_of(m->q[1], 1 / s->alpha, dqdt[1],
+    return sight_of(m->q[1], 1 / s->own[ALPHA], dqdt[1],
                     (base_force_rate(m, m->u) - s->stiffness * dqdt[0] - s->damping * dqdt[1]
                      - dqdt[2]) / s->mass);
 }
@@ -143,12 +147,12 @@ static void
 jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[])
 {
     const ss_scene *s = m->scene;
-    double rate, goal, sech = 1 / cosh(s->alpha * q[1]);
+    double rate, goal, sech = 1 / cosh(s->own[ALPHA] * q[1]);
     law(s, &rate, &goal);
     const double row[9] = {
         0, 1, 0,
         -s->stiffness / s->mass, -s->damping / s->mass, -1 / s->mass,
-        0, rate * goal * s->alpha * sech * sech, -rate
+        0, rate * goal * s->own[ALPHA] * sech * sech, -rate
     };
     for (int i = 0; i < 9; i++)
         dfdq[i] = row[i];
@@ -190,7 +194,7 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
     const ss_scene *s = m->scene;
     double rate, goal, force[N], a[N], R[N], u[N], per_mass = 1 / s->mass;
     double x = m->q[0], v = m->q[1], theta = m->q[2];
-    double speed = s->alpha * fabs(v), e = exp(-2 * speed), tanh_v = copysign((1 - e) / (1 + e), v);
+    double speed = s->own[ALPHA] * fabs(v), e = exp(-2 * speed), tanh_v = copysign((1 - e) / (1 + e), v);
     law(s, &rate, &goal);
     base_force_series(m, step, order, force);
     memcpy(c[0], m->q, sizeof m->q);
@@ -212,7 +216,7 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
             R[n] = -uu - 2 * u[0] * u[n];
             Ra += R[n] * a[0];
         }
-        u[n + 1] = tanh_v = s->alpha * h * Ra;
+        u[n + 1] = tanh_v = s->own[ALPHA] * h * Ra;
     }
 }
 
@@ -221,14 +225,14 @@ static void
 slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], double out[])
 {
     enum { N = MOST_SERIES + 1 };
-    double rate, goal, u[N], e = exp(-2 * fabs(m->scene->alpha * m->q[1]));
+    double rate, goal, u[N], e = exp(-2 * fabs(m->scene->own[ALPHA] * m->q[1]));
     law(m->scene, &rate, &goal);
     memset(out, 0, (size_t)(order + 1) * sizeof *out);
-    if (goal == 0 || fabs(m->scene->alpha * m->q[1]) > SATURATED)
+    if (goal == 0 || fabs(m->scene->own[ALPHA] * m->q[1]) > SATURATED)
         return;
     for (int n = 0; n < order; n++)
         u[n] = (c[n + 1][2] / (step[n] * rate) + c[n][2]) / goal;
-    double scale = rate * goal * m->scene->alpha;
+    double scale = rate * goal * m->scene->own[ALPHA];
     out[0] = scale * 4 * e / ((1 + e) * (1 + e));
     for (int n = 1; n < order; n++)
         out[n] = -scale * (inner_products(u, u, n) + 2 * u[0] * u[n]);
@@ -242,7 +246,7 @@ static double
 reach(const state *m, double c[][SERIES_PARTS], double step)
 {
     enum { TERMS = 6 };
-    double most = WAY_TO_POLE * (fabs(m->q[1]) + M_PI / 2 / m->scene->alpha), way = INFINITY;
+    double most = WAY_TO_POLE * (fabs(m->q[1]) + M_PI / 2 / m->scene->own[ALPHA]), way = INFINITY;
     for (; way > most; step *= 0.9) {
         way = 0;
         for (int n = TERMS; n > 0; n--)
@@ -274,7 +278,7 @@ memory(const state *m, double *unit)
 static int
 in_transition(const state *m, double v)
 {
-    return fabs(m->scene->alpha * v) < 1;
+    return fabs(m->scene->own[ALPHA] * v) < 1;
 }
 
 static void
@@ -295,12 +299,12 @@ move(state *m, const double d[D_MOST])
 
 static const struct variation variation = { .free = all_free, .move = move };
 
-const struct model ss_state_variable_model = {
+const ss_model ss_state_variable_model = {
     .name = "state-variable",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
-    .parameter = { { .offset = offsetof(ss_scene, gamma) },
-                   { .offset = offsetof(ss_scene, alpha), .by_speed = 1 } },
+    .parameter = { { .offset = OWN_AT(GAMMA) },
+                   { .offset = OWN_AT(ALPHA), .by_speed = 1 } },
     .n_parameters = 2, .normalise = normalise, .limit = limit,
     .dim = 3, .force_varies = IN_STICK | IN_SLIP,
     .start = start, .fastest = fastest, .quickest = quickest, .sight = sight, .stiff = stiff,

@@ -2,16 +2,18 @@
  * slip; true stick (stick.c). */
 #include "scene/model.h"
 
+enum { SPEED };                 /* v_s */
+
 static const scene_key keys[] = {
     KEY_STATIC_FRICTION,
-    KEY_NUMBER(stribeck_velocity, REQUIRED, POSITIVE, "m/s"),
+    OWN_NUMBER("stribeck_velocity", SPEED, REQUIRED, POSITIVE, "m/s"),
 };
 
 static double
 stribeck_speed(const ss_scene *s)
 {
     double X = amplitude_of(s);
-    return X > 0 ? s->stribeck_velocity / own_frequency(s) / X : NAN;
+    return X > 0 ? s->own[SPEED] / own_frequency(s) / X : NAN;
 }
 
 static const ss_scene_range ranges[] = {
@@ -22,7 +24,7 @@ static const ss_scene_range ranges[] = {
 static double
 part_at(const ss_scene *s, double v)
 {
-    return s->stribeck_velocity / (s->stribeck_velocity + fabs(v));
+    return s->own[SPEED] / (s->own[SPEED] + fabs(v));
 }
 
 /* The friction in slip.  Its direction is that of the mode even where a step goes past v = 0, the end of
@@ -40,14 +42,14 @@ slope_at(const state *m, double v)
 {
     const ss_scene *s = m->scene;
     double part = part_at(s, v), fall = static_friction(s) - s->friction;
-    return -m->mode * sign(v) * fall * part * part / s->stribeck_velocity;
+    return -m->mode * sign(v) * fall * part * part / s->own[SPEED];
 }
 
 /* The rate at which v grows where the friction falls with speed. */
 static double
 quickest(const ss_scene *s)
 {
-    return (static_friction(s) - s->friction) / s->stribeck_velocity / s->mass + own_frequency(s);
+    return (static_friction(s) - s->friction) / s->own[SPEED] / s->mass + own_frequency(s);
 }
 
 static void
@@ -67,7 +69,7 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
 static double
 sight(const state *m, const double dqdt[])
 {
-    double slope = slope_at(m, m->q[1]), front = m->scene->stribeck_velocity;
+    double slope = slope_at(m, m->q[1]), front = m->scene->own[SPEED];
     return sight_of(m->q[1], front, dqdt[1], (base_force_rate(m, m->u) - m->k * dqdt[0]
                                               - (m->c + slope) * dqdt[1]) / m->scene->mass);
 }
@@ -76,7 +78,7 @@ sight(const state *m, const double dqdt[])
 static void
 next_fall(const state *m, const double c[], int n, double p[], double w[])
 {
-    p[n] = m->mode / m->scene->stribeck_velocity * c[1] + (n == 0);
+    p[n] = m->mode / m->scene->own[SPEED] * c[1] + (n == 0);
     w[n] = n == 0 ? 1 / p[0] : -w[0] * (w[0] * p[n] + inner_products(w, p, n));
 }
 
@@ -106,7 +108,7 @@ slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], 
 {
     enum { N = MOST_SERIES + 1 };
     const ss_scene *s = m->scene;
-    double factor = (static_friction(s) - s->friction) / s->stribeck_velocity / s->mass, w[N], p[N];
+    double factor = (static_friction(s) - s->friction) / s->own[SPEED] / s->mass, w[N], p[N];
     (void)step;
     for (int n = 0; n <= order; n++) {
         next_fall(m, c[n], n, p, w);
@@ -123,11 +125,11 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
         s->f = friction_at(m, q[1]);
 }
 
-const struct model ss_stribeck_model = {
+const ss_model ss_stribeck_model = {
     .name = "stribeck",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
-    .parameter = { { .offset = offsetof(ss_scene, stribeck_velocity), .by_speed = -1 } },
+    .parameter = { { .offset = OWN_AT(SPEED), .by_speed = -1 } },
     .n_parameters = 1,
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight,

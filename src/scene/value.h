@@ -1,39 +1,18 @@
-/* value.h -- the value of a key: where it stands in a scene, and what it may be. */
+/* value.h -- the value of a key in a scene: as text, and what it may be. */
 #ifndef VALUE_H
 #define VALUE_H
 
+#include "base/number.h"
 #include "scene/key.h"
 
-/* All enumerations of a scene are read and written through int. */
-_Static_assert(sizeof(ss_model) == sizeof(int) && sizeof(ss_law) == sizeof(int)
-               && sizeof(ss_release) == sizeof(int), "enumerations have the size of int");
-
-static inline int *
-word_of(ss_scene *scene, const scene_key *k)
-{
-    return (int *)(void *)((char *)scene + k->offset);
-}
-
-static inline char *
-text_of(ss_scene *scene, const scene_key *k)
-{
-    return (char *)scene + k->offset;
-}
-
-static inline int
-is_number(const scene_key *k)
-{
-    return k->word == NULL && k->room == 0;
-}
-
-/* 1 if a number, or the word of an enumeration, is one that the key may have. */
-int ss_value_in_range(const scene_key *k, double x);
-int ss_value_is_word(const scene_key *k, int word);
-/* The range of a number as messages show it. */
-const char *ss_value_range(const scene_key *k);
-/* The reason why a text cannot stand in a scene: it would not read back as it is written, or it drives a
- * terminal.  NULL: it can. */
-const char *ss_value_no_text(const char *text);
+enum { WRONG_ROOM = 256 };
+/* Set a key that the scene's model has from text.  Returns 0, and says in `wrong` what is wrong, if it may
+ * not have this value. */
+int ss_value_read(ss_scene *scene, const scene_key *k, const char *text, char wrong[WRONG_ROOM]);
+/* The value as text, which stands in `room`, in the scene or in a constant. */
+const char *ss_value_text(const ss_scene *scene, const scene_key *k, char room[SS_NUMBER_MAX]);
+/* Returns 0, and says what is wrong, if a key may not have its value. */
+int ss_value_check(const ss_scene *scene, const scene_key *k, char wrong[WRONG_ROOM]);
 
 /* Contradictions of two keys. */
 #define TWO_BASES "base_file and base_amplitude exclude each other: the base moves by one of them"

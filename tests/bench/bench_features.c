@@ -44,8 +44,8 @@ features_of(const ss_signal *clean, double snr, unsigned long seed, const ss_sce
 static void
 count(tally *t, const ss_features *f, const ss_scene *scene)
 {
-    double total = scene->stiffness + scene->contact_stiffness;
-    double ratio = scene->contact_damping / (2 * sqrt(total * scene->mass));
+    double total = scene->stiffness + ss_scene_get(scene, "contact_stiffness");
+    double ratio = ss_scene_get(scene, "contact_damping") / (2 * sqrt(total * scene->mass));
     ss_number got[2] = { f->number[SS_TOTAL_STIFFNESS], f->number[SS_DAMPING_RATIO] };
     double truth[2] = { total, ratio };
     t->n++;
@@ -96,8 +96,8 @@ probe(const ss_scene *scene)
     ss_signal *signal = NULL;
     stick_times sticks = { .began = NAN };
     ss_sim_opts opts = ss_sim_defaults;
-    double total = scene->stiffness + scene->contact_stiffness;
-    double ratio = scene->contact_damping / (2 * sqrt(total * scene->mass));
+    double total = scene->stiffness + ss_scene_get(scene, "contact_stiffness");
+    double ratio = ss_scene_get(scene, "contact_damping") / (2 * sqrt(total * scene->mass));
     int errors = 0;
     opts.events = watch;
     opts.user = &sticks;
@@ -112,7 +112,7 @@ probe(const ss_scene *scene)
         double in_K = fabs(K) * total / f->number[SS_TOTAL_STIFFNESS].error;
         double in_z = fabs(z) * ratio / f->number[SS_DAMPING_RATIO].error;
         errors += k == 0 && (in_K > 10 || in_z > 10);   /* misfit that all share is known of, about */
-        printf("%.4g\t%.4f\t%g\t%g\t%g\t%.2f\t%.4f\t%.3f\t%.1f\t%.1f\n", scene->contact_stiffness,
+        printf("%.4g\t%.4f\t%g\t%g\t%g\t%.2f\t%.4f\t%.3f\t%.1f\t%.1f\n", ss_scene_get(scene, "contact_stiffness"),
                ratio, scene->base_frequency, scene->friction, snr_of[k], longest, 100 * K, 100 * z,
                in_K, in_z);
         fflush(stdout);
@@ -130,9 +130,9 @@ stiff_and_soft(void)
     for (int i = 0; i < 7; i++)
         for (int j = 0; j < 5; j++) {
             ss_scene scene = shipped("compliant-light");
-            scene.contact_stiffness = 2e4 * pow(10, i / 2.);
-            double total = scene.stiffness + scene.contact_stiffness;
-            scene.contact_damping = ratios[j] * 2 * sqrt(total * scene.mass);
+            ss_scene_set(&scene, "contact_stiffness", 2e4 * pow(10, i / 2.), NULL);
+            double total = scene.stiffness + ss_scene_get(&scene, "contact_stiffness");
+            ss_scene_set(&scene, "contact_damping", ratios[j] * 2 * sqrt(total * scene.mass), NULL);
             errors += probe(&scene);
         }
     return errors;
@@ -149,7 +149,7 @@ short_sticks(void)
         ss_scene scene = shipped("compliant-light");
         scene.base_frequency = base[i / 9];
         scene.friction = friction[i / 3 % 3];
-        scene.contact_stiffness = K_y[i % 3];
+        ss_scene_set(&scene, "contact_stiffness", K_y[i % 3], NULL);
         errors += probe(&scene);
     }
     return errors;
@@ -167,7 +167,7 @@ shipped_scenes(unsigned long seeds)
         ss_scene scene = shipped(scenes[i / 2]);
         ss_signal *signal = NULL;
         char name[64];
-        scene.release = (ss_release)(i % 2);
+        ss_scene_set_text(&scene, "release", i % 2 ? "total" : "spring", NULL);
         snprintf(name, sizeof name, "%s\t%s", scenes[i / 2], i % 2 ? "total" : "spring");
         if (ss_sim_signal(&signal, &scene, NULL) != SS_OK)
             exit(1);

@@ -30,8 +30,8 @@ draw(gsl_rng *rng, const ss_scene *shipped)
     s.mass = foreign_scale(rng, 0.01, 1000);
     s.base_frequency = contact / ratio;
     s.stiffness = s.mass * pow(2 * M_PI * s.base_frequency * foreign_scale(rng, 1.2, 4), 2);
-    s.contact_stiffness = s.mass * omega * omega - s.stiffness;
-    s.contact_damping = 2 * damping * s.mass * omega;
+    ss_scene_set(&s, "contact_stiffness", s.mass * omega * omega - s.stiffness, NULL);
+    ss_scene_set(&s, "contact_damping", 2 * damping * s.mass * omega, NULL);
     s.base_amplitude = foreign_scale(rng, 1e-5, 1e-2);
     s.friction = s.stiffness * s.base_amplitude * foreign_between(rng, 0.5, 0.97);
     s.phase = foreign_between(rng, -M_PI, M_PI);
@@ -48,7 +48,7 @@ count(tally *t, const ss_fit *fit, const ss_scene *truth)
     t->conclusive += fit->conclusive;
     for (int i = 0; fit->conclusive && i < SS_FIT_KEYS; i++) {
         const ss_fitted *k = &fit->key[i];
-        double off = fabs(k->found.value - *ss_scene_number(&of, k->name, NULL, NULL)) / k->found.error;
+        double off = fabs(k->found.value - ss_scene_get(&of, k->name)) / k->found.error;
         t->within_one += off <= 1;
         t->within_two += off <= 2;
         t->beyond_five += !(off <= 5);
@@ -77,7 +77,7 @@ sensed_column(const ss_scene *scene, double cut_off, double snr, unsigned long s
 static ss_signal *
 signal_of(const ss_scene *truth, int has_sensor, double snr, gsl_rng *rng)
 {
-    const double contact = sqrt((truth->stiffness + truth->contact_stiffness) / truth->mass) / (2 * M_PI);
+    const double contact = sqrt((truth->stiffness + ss_scene_get(truth, "contact_stiffness")) / truth->mass) / (2 * M_PI);
     if (!has_sensor)
         return bench_noisy_column(truth, SS_ACCELERATION, snr, gsl_rng_get(rng));
     return sensed_column(truth, contact * foreign_scale(rng, 1, 30), snr, gsl_rng_get(rng));
@@ -91,8 +91,8 @@ one_fit(tally *t, gsl_rng *rng, const ss_scene *shipped, int has_sensor, double 
     ss_fit fit;
     ss_error err;
     double began = bench_seconds();
-    start.contact_stiffness *= foreign_scale(rng, 1 / 3., 3);
-    start.contact_damping *= foreign_scale(rng, 1 / 3., 3);
+    ss_scene_set(&start, "contact_stiffness", ss_scene_get(&start, "contact_stiffness") * foreign_scale(rng, 1 / 3., 3), NULL);
+    ss_scene_set(&start, "contact_damping", ss_scene_get(&start, "contact_damping") * foreign_scale(rng, 1 / 3., 3), NULL);
     start.phase = 0;
     if (ss_scene_fit(&fit, g, 0, &start, NULL, &err) == SS_OK) {
         count(t, &fit, &truth);

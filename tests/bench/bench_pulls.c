@@ -56,7 +56,7 @@ static ss_scene
 scene_of(const ss_scene *pull, const numbers *n, int kind)
 {
     ss_scene s = *pull;
-    s.model = kind == STRIBECK ? SS_STRIBECK : kind == COMPLIANT ? SS_COMPLIANT : SS_COULOMB;
+    s.model = ss_model_named(kind == STRIBECK ? "stribeck" : kind == COMPLIANT ? "compliant" : "coulomb");
     if (kind == DAMPED || kind == ON_BELT)
         s.damping = n->damping;
     if (kind == ON_BELT) {
@@ -64,9 +64,9 @@ scene_of(const ss_scene *pull, const numbers *n, int kind)
         s.base_velocity = 0;
         s.v0 = s.surface_velocity;
     }
-    s.stribeck_velocity = n->stribeck_velocity;
-    s.contact_stiffness = n->contact_stiffness;
-    s.contact_damping = n->contact_damping;
+    ss_scene_set(&s, "stribeck_velocity", n->stribeck_velocity, NULL);
+    ss_scene_set(&s, "contact_stiffness", n->contact_stiffness, NULL);
+    ss_scene_set(&s, "contact_damping", n->contact_damping, NULL);
     return s;
 }
 
@@ -88,9 +88,9 @@ near(gsl_rng *rng, const ss_scene *scene)
     s.friction *= friction;
     s.static_friction *= friction;
     s.damping = vary(rng, s.damping);
-    s.stribeck_velocity = vary(rng, s.stribeck_velocity);
-    s.contact_stiffness = vary(rng, s.contact_stiffness);
-    s.contact_damping = vary(rng, s.contact_damping);
+    ss_scene_set(&s, "stribeck_velocity", vary(rng, ss_scene_get(&s, "stribeck_velocity")), NULL);
+    ss_scene_set(&s, "contact_stiffness", vary(rng, ss_scene_get(&s, "contact_stiffness")), NULL);
+    ss_scene_set(&s, "contact_damping", vary(rng, ss_scene_get(&s, "contact_damping")), NULL);
     return s;
 }
 
@@ -177,7 +177,7 @@ fit(tally *t, const ss_signal *g, const ss_scene *start, const ss_scene *truth)
         count(t, p->friction.value, p->friction.error, truth->friction);
         for (size_t i = 0; i < p->n_keys; i++)
             count(t, p->key[i].found.value, p->key[i].found.error,
-                  *ss_scene_number(&of, p->key[i].name, NULL, NULL));
+                  ss_scene_get(&of, p->key[i].name));
         if (p->n_keys == 0)
             count(t, p->features->number[SS_K_OVER_M].value, p->features->number[SS_K_OVER_M].error,
                   truth->stiffness / truth->mass);

@@ -40,10 +40,10 @@ draw(gsl_rng *rng, const ss_scene *shipped, int wide)
     s.base_amplitude = vary(rng, s.base_amplitude, wide);
     s.base_frequency = vary(rng, s.base_frequency, wide);
     s.friction = ratio * s.stiffness * s.base_amplitude;
-    s.contact_stiffness = vary(rng, s.contact_stiffness, wide);
-    s.contact_damping = vary(rng, s.contact_damping, wide);
-    s.alpha = vary(rng, s.alpha, wide);
-    s.gamma = vary(rng, s.gamma, wide);
+    ss_scene_set(&s, "contact_stiffness", vary(rng, ss_scene_get(&s, "contact_stiffness"), wide), NULL);
+    ss_scene_set(&s, "contact_damping", vary(rng, ss_scene_get(&s, "contact_damping"), wide), NULL);
+    ss_scene_set(&s, "alpha", vary(rng, ss_scene_get(&s, "alpha"), wide), NULL);
+    ss_scene_set(&s, "gamma", vary(rng, ss_scene_get(&s, "gamma"), wide), NULL);
     return s;
 }
 

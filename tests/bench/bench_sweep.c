@@ -57,7 +57,7 @@ sweep(const grid *g, double tol, ss_search search, int threads, kept *out)
     opts.steady.tol = tol;
     opts.steady.search = search;
     opts.steady.measures = 1u << SS_X_PHASE | 1u << SS_AMPLITUDE | 1u << SS_PERIOD;
-    if (g->scene.model != SS_STATE_VARIABLE)
+    if (g->scene.model != ss_model_named("state-variable"))
         opts.steady.measures |= 1u << SS_STOPS | 1u << SS_STICK_FRACTION;
     if (search == SS_SEARCH_SIMULATE)
         opts.steady.measures |= 1u << SS_CYCLES;
@@ -82,7 +82,7 @@ compare(const char *name, const grid *g, const double *tol, size_t n_tol)
 {
     static const char *const word[] = { "both", "simulation", "shooting" };
     static kept truth, k;
-    int bad = 0, smooth = g->scene.model == SS_STATE_VARIABLE;
+    int bad = 0, smooth = g->scene.model == ss_model_named("state-variable");
     sweep(g, smooth ? 1e-11 : 1e-13, smooth ? SS_SEARCH_SIMULATE : SS_SEARCH_SHOOT, 1, &truth);
     for (size_t i = 0; i < n_tol; i++)
         for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
@@ -170,7 +170,7 @@ main(void)
         if (i > 3)
             compare(row[i].scene, &g, tol + 2, 1);  /* shooting may find another of several states */
         else
-            bad |= compare(row[i].scene, &g, tol, g.scene.model == SS_STATE_VARIABLE ? 3 : 4);
+            bad |= compare(row[i].scene, &g, tol, g.scene.model == ss_model_named("state-variable") ? 3 : 4);
         if (i == 0)
             gain_of_threads(&g);
     }

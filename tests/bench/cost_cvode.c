@@ -17,6 +17,7 @@
 
 typedef struct motion {
     const ss_scene *s;
+    double alpha, gamma, K_y, c;    /* of its model */
     int mode;                   /* 0 stick or microstick, else the sign of the slip */
     double x_stop, y_stop;      /* microstick: y = y_stop + x - x_stop */
 } motion;
@@ -32,7 +33,7 @@ friction(const motion *m, double x, double v)
 {
     if (m->mode != 0)
         return m->mode * m->s->friction;
-    return m->s->contact_stiffness * (m->y_stop + x - m->x_stop) + m->s->contact_damping * v;
+    return m->K_y * (m->y_stop + x - m->x_stop) + m->c * v;
 }
 
 static int
@@ -43,10 +44,10 @@ rhs(double t, N_Vector state, N_Vector rate, void *user)
     const double *q = NV_DATA_S(state);
     double *d = NV_DATA_S(rate);
     d[0] = q[1];
-    if (s->model == SS_STATE_VARIABLE) {
+    if (s->model == ss_model_named("state-variable")) {
         d[1] = (drive(s, t) - s->stiffness * q[0] - q[2]) / s->mass;
-        d[2] = -s->gamma * (q[2] - s->friction * tanh(s->alpha * q[1]));
-    } else if (s->model == SS_COULOMB && m->mode == 0) {
+        d[2] = -m->gamma * (q[2] - s->friction * tanh(m->alpha * q[1]));
+    } else if (s->model == ss_model_named("coulomb") && m->mode == 0) {
         d[0] = d[1] = 0;
     } else {
         d[1] = (drive(s, t) - s->stiffness * q[0] - friction(m, q[0], q[1])) / s->mass;
@@ -61,18 +62,18 @@ jacobian(double t, N_Vector state, N_Vector rate, SUNMatrix J, void *user, N_Vec
     const motion *m = user;
     const ss_scene *s = m->s;
     (void)t, (void)rate, (void)a, (void)b, (void)c;     /* J is zero on entry */
-    if (s->model == SS_COULOMB && m->mode == 0)
+    if (s->model == ss_model_named("coulomb") && m->mode == 0)
         return 0;
     SM_ELEMENT_D(J, 0, 1) = 1;
     SM_ELEMENT_D(J, 1, 0) = -s->stiffness / s->mass;
-    if (s->model == SS_STATE_VARIABLE) {
-        double sech = 1 / cosh(s->alpha * NV_DATA_S(state)[1]);
+    if (s->model == ss_model_named("state-variable")) {
+        double sech = 1 / cosh(m->alpha * NV_DATA_S(state)[1]);
         SM_ELEMENT_D(J, 1, 2) = -1 / s->mass;
-        SM_ELEMENT_D(J, 2, 1) = s->gamma * s->friction * s->alpha * sech * sech;
-        SM_ELEMENT_D(J, 2, 2) = -s->gamma;
+        SM_ELEMENT_D(J, 2, 1) = m->gamma * s->friction * m->alpha * sech * sech;
+        SM_ELEMENT_D(J, 2, 2) = -m->gamma;
     } else if (m->mode == 0) {
-        SM_ELEMENT_D(J, 1, 0) -= s->contact_stiffness / s->mass;
-        SM_ELEMENT_D(J, 1, 1) = -s->contact_damping / s->mass;
+        SM_ELEMENT_D(J, 1, 0) -= m->K_y / s->mass;
+        SM_ELEMENT_D(J, 1, 1) = -m->c / s->mass;
     }
     return 0;
 }
@@ -86,10 +87,10 @@ guard(double t, N_Vector state, double *g, void *user)
     const double *q = NV_DATA_S(state);
     if (m->mode != 0)
         *g = m->mode * q[1];
-    else if (s->model == SS_COULOMB)
+    else if (s->model == ss_model_named("coulomb"))
         *g = s->friction - fabs(drive(s, t) - s->stiffness * q[0]);
     else
-        *g = s->friction - s->contact_stiffness * fabs(m->y_stop + q[0] - m->x_stop);
+        *g = s->friction - m->K_y * fabs(m->y_stop + q[0] - m->x_stop);
     return 0;
 }
 
@@ -99,7 +100,7 @@ next_mode(motion *m, double t, double *q)
 {
     const ss_scene *s = m->s;
     double force = drive(s, t) - s->stiffness * q[0];
-    if (s->model == SS_COULOMB) {
+    if (s->model == ss_model_named("coulomb")) {
         int stuck = m->mode == 0 && !isnan(m->x_stop);
         m->mode = !stuck && fabs(force) <= s->friction ? 0 : force > 0 ? 1 : -1;
         q[1] = 0;
@@ -107,7 +108,7 @@ next_mode(motion *m, double t, double *q)
     } else if (m->mode == 0 && !isnan(m->x_stop)) {
         m->mode = q[1] > 0 ? 1 : -1;
     } else {
-        m->y_stop = m->mode * s->friction / s->contact_stiffness;
+        m->y_stop = m->mode * s->friction / m->K_y;
         m->x_stop = q[0];
         m->mode = 0;
         q[1] = 0;
@@ -119,8 +120,10 @@ static int
 simulate(const ss_scene *s, int lmm, double tol, double *x, size_t *events)
 {
     SUNContext context;
-    size_t n = ss_scene_samples(s), dim = s->model == SS_STATE_VARIABLE ? 3 : 2;
-    motion m = { .s = s, .x_stop = NAN };
+    size_t n = ss_scene_samples(s), dim = s->model == ss_model_named("state-variable") ? 3 : 2;
+    motion m = { .s = s, .x_stop = NAN,
+                 .alpha = ss_scene_get(s, "alpha"), .gamma = ss_scene_get(s, "gamma"),
+                 .K_y = ss_scene_get(s, "contact_stiffness"), .c = ss_scene_get(s, "contact_damping") };
     int direction = -1, failed = 0;
     double z = s->base_amplitude, omega = 2 * M_PI * s->base_frequency, t = 0;
     const double scale[3] = { z, z * omega, s->friction };
@@ -136,7 +139,7 @@ simulate(const ss_scene *s, int lmm, double tol, double *x, size_t *events)
         NV_DATA_S(q)[i] = 0;
         NV_DATA_S(abstol)[i] = tol * scale[i];
     }
-    if (s->model != SS_STATE_VARIABLE) {
+    if (s->model != ss_model_named("state-variable")) {
         next_mode(&m, 0, NV_DATA_S(q));
         *events += m.mode != 0;
     }
@@ -150,7 +153,7 @@ simulate(const ss_scene *s, int lmm, double tol, double *x, size_t *events)
         failed |= CVodeSetLinearSolver(cvode, linear, J);
         failed |= CVodeSetJacFn(cvode, jacobian);
     }
-    if (s->model != SS_STATE_VARIABLE) {
+    if (s->model != ss_model_named("state-variable")) {
         failed |= CVodeRootInit(cvode, 1, guard);
         failed |= CVodeSetRootDirection(cvode, &direction);
         failed |= CVodeSetNoInactiveRootWarn(cvode);
@@ -163,7 +166,7 @@ simulate(const ss_scene *s, int lmm, double tol, double *x, size_t *events)
             next_mode(&m, t, NV_DATA_S(q));
             ++*events;
             failed |= CVodeReInit(cvode, t, q);
-            failed |= CVodeSetMaxStep(cvode, s->model == SS_COULOMB && m.mode == 0
+            failed |= CVodeSetMaxStep(cvode, s->model == ss_model_named("coulomb") && m.mode == 0
                                       ? 2 * M_PI / omega / 40 : 0);
         }
         failed |= status < 0;

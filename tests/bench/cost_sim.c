@@ -49,11 +49,11 @@ static ss_scene
 falling(void)
 {
     ss_scene scene = read_shipped_named("coulomb");
-    scene.model = SS_STRIBECK;
+    ss_scene_set_text(&scene, "model", "stribeck", NULL);
     scene.settle = 0;
     scene.friction = 0.9;
     scene.static_friction = 1.28;
-    scene.stribeck_velocity = 1e-3;
+    ss_scene_set(&scene, "stribeck_velocity", 1e-3, NULL);
     return scene;
 }
 
@@ -145,8 +145,8 @@ cost_of_stiffness(void)
             ss_scene s = scene_named("compliant-light");
             ss_sim_stats stats;
             ss_error err = { 0 };
-            s.contact_damping *= sqrt(K / s.contact_stiffness);
-            s.contact_stiffness = K;
+            ss_scene_set(&s, "contact_damping", ss_scene_get(&s, "contact_damping") * sqrt(K / ss_scene_get(&s, "contact_stiffness")), NULL);
+            ss_scene_set(&s, "contact_stiffness", K, NULL);
             double seconds = time_to(discard, NULL, &s, path[i], 10000000, &stats, &err);
             if (isfinite(seconds))
                 printf("%.0e\t%s\t%.3g\t%lu\t%lu\n", K, path[i], 1e3 * seconds, stats.steps,

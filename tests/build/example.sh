@@ -42,7 +42,7 @@ cat > events.cc <<'C'
 int main()
 {
     ss_scene scene = ss_scene_defaults;
-    scene.model = SS_COULOMB;
+    scene.model = ss_model_named("coulomb");
     std::printf("C++: %zu samples\n", ss_scene_samples(&scene));
 }
 C

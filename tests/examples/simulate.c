@@ -37,7 +37,7 @@ main(void)
     ss_error err = { 0 };
     summary sum = { 0, 0 };
     ss_scene scene = ss_scene_defaults;
-    scene.model = SS_COULOMB;
+    scene.model = ss_model_named("coulomb");
     scene.mass = 2.42;
     scene.stiffness = 2310;
     scene.friction = 1.28;

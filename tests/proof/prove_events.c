@@ -115,9 +115,9 @@ rig_of(const ss_scene *s)
     r.W = mul(scale(2, turn), number(s->base_frequency));
     r.slip = linear_of(&r, r.damping, r.k);
     r.contact = r.damper = r.deflection = number(0);
-    if (s->model == SS_COMPLIANT) {
-        r.contact = number(s->contact_stiffness);
-        r.damper = number(s->contact_damping);
+    if (s->model == ss_model_named("compliant")) {
+        r.contact = number(ss_scene_get(s, "contact_stiffness"));
+        r.damper = number(ss_scene_get(s, "contact_damping"));
         r.deflection = quotient(r.kinetic, r.contact);
         r.stop = linear_of(&r, add(r.damping, r.damper), add(r.k, r.contact));
     }
@@ -200,7 +200,7 @@ static num
 contact_force(const rig *r, num q, num v)
 {
     num force = mul(r->contact, q);
-    return r->scene->release == SS_RELEASE_TOTAL ? add(force, mul(r->damper, v)) : force;
+    return strcmp(ss_scene_word(r->scene, "release"), "total") == 0 ? add(force, mul(r->damper, v)) : force;
 }
 
 /* What friction has to hold of a mass that moves with the surface, and its first three derivatives. */
@@ -403,7 +403,8 @@ slip_from(const rig *r, vary t, vary x, vary v, int direction, int flat)
 static mode
 microstick_from(const rig *r, vary t, vary x, int y)
 {
-    int total = r->scene->release == SS_RELEASE_TOTAL && r->scene->contact_damping > 0;
+    const char *release = ss_scene_word(r->scene, "release");
+    int total = release != NULL && strcmp(release, "total") == 0 && ss_scene_get(r->scene, "contact_damping") > 0;
     int at_limit = y != 0 && r->scene->static_friction <= r->scene->friction;
     vary start = constant(scale(y, r->deflection)), x_ref = sum(x, constant(minus(start.value)));
     vary f0 = { add(mul(r->k, sub(x_ref.value, mul(r->belt, t.value))), mul(r->damping, r->belt)), { 0 } };
@@ -420,7 +421,7 @@ stop_from(const rig *r, mode *p, vary t, vary x, int y)
 {
     vary zero = constant(number(0)), belt = constant(r->belt);
     num force[4];
-    if (r->scene->model == SS_COMPLIANT) {
+    if (r->scene->model == ss_model_named("compliant")) {
         *p = microstick_from(r, t, x, y);
         return 1;
     }

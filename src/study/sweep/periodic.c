@@ -462,7 +462,7 @@ enum { APPROACH = 4 };
 int
 ss_periodic_can_shoot(const ss_scene *scene, const struct method *how)
 {
-    const struct model *model = ss_model_of(scene);
+    const ss_model *model = scene->model;
     return model->variation != NULL
         && (scene->base_frequency > 0 || model->still != NULL || ss_method_follows(how));
 }

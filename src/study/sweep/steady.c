@@ -17,7 +17,7 @@ const ss_steady_opts ss_steady_defaults = { .tol = 1e-9, .max_period = 8, .max_c
 enum { STICKS = 1, RINGS = 2, DIFFERS = 4, LIMIT = 8 };
 
 static unsigned
-what_has(const struct model *m)
+what_has(const ss_model *m)
 {
     return (m->guard != NULL ? STICKS : 0u) | (m->in_transition != NULL ? RINGS : 0u)
         | (m->variation != NULL ? DIFFERS : 0u) | (m->limit != NULL ? LIMIT : 0u);
@@ -78,7 +78,7 @@ ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err
     const struct method *given;
     if (opts == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
-    const struct model *m = ss_model_of(scene);
+    const ss_model *m = scene->model;
     if (m == NULL)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
     for (int i = 0; i < SS_MEASURES; i++)
@@ -132,7 +132,7 @@ compare_with_limit(const finder *f)
     ss_scene scene = *f->c.scene;
     ss_steady_opts opts = *f->c.opts;
     ss_steady limit;
-    ss_model_of(&scene)->limit(&scene);
+    scene.model->limit(&scene);
     opts.measures = MODEL_ERRORS;
     finder g = { .c = { .scene = &scene, .opts = &opts, .err = err, .how = method_of(&opts, &scene) },
                  .out = &limit };
@@ -185,7 +185,7 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, const struct meth
                        "double precision");
     if (scene->base != NULL)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
-    if (!(what_has(ss_model_of(scene)) & STICKS))
+    if (!(what_has(scene->model) & STICKS))
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle, and no stick with "
                        "which one could begin");
     if (scene->base_velocity == scene->surface_velocity)
@@ -197,7 +197,7 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, const struct meth
         return SS_OK;
     return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting, multipliers and "
                    "exponents of model %s need method %s",
-                   ss_model_of(scene)->name, ss_method_follower_names());
+                   scene->model->name, ss_method_follower_names());
 }
 
 ss_status

@@ -101,7 +101,7 @@ ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
         st = ss_sweep_points(opts, &all, err);
     for (size_t i = 0; st == SS_OK && i < opts->n_axes; i++) {
         const char *key = opts->axis[i].key;
-        if (ss_scene_number(&copy, key, NULL, err) == NULL)
+        if (ss_scene_set(&copy, key, ss_axis_value(&opts->axis[i], 0), err) != SS_OK)
             return SS_EINVAL;
         if (ss_key_is_of_record(key))
             return ss_fail(err, SS_EINVAL, "%s belongs to the record, which no measure sees", key);
@@ -144,7 +144,7 @@ work_out(size_t i, void *result, void *user)
     for (size_t k = opts->n_axes; k-- > 0; index /= opts->axis[k].n)
         p->values[k] = ss_axis_value(&opts->axis[k], index % opts->axis[k].n);
     for (size_t k = 0; k < opts->n_axes; k++)
-        *ss_scene_number(&here, opts->axis[k].key, NULL, NULL) = p->values[k];
+        ss_scene_set(&here, opts->axis[k].key, p->values[k], NULL);
     p->row.steady.strobe = opts->steady.strobe > 0 ? (ss_strobe *)(p->values + opts->n_axes) : NULL;
     p->row.status = ss_steady_find(&p->row.steady, &here, &opts->steady, &p->reason);
     if (p->row.status == SS_OK)

@@ -72,11 +72,9 @@ write_options(struct rows *rows, const ss_steady_opts *s, const ss_scene *scene)
 static void
 write_row(struct rows *rows, const ss_sweep_text *sweep, const ss_sweep_row *row, const ss_strobe *strobe)
 {
-    ss_scene scene = *sweep->scene;
     ss_rows_count(rows, "index", row->index);
     for (size_t i = 0; i < sweep->opts->n_axes; i++) {
-        const char *key = sweep->opts->axis[i].key, *unit = "";
-        ss_scene_number(&scene, key, &unit, NULL);
+        const char *key = sweep->opts->axis[i].key, *unit = ss_scene_unit(sweep->scene, key);
         ss_rows_number(rows, key, unit, row->vary != NULL ? row->vary[i] : NAN);
     }
     for (size_t i = 0; i < sweep->n_measures; i++) {
@@ -103,9 +101,8 @@ is_complete(const ss_sweep_text *sweep)
     for (size_t i = 0; i < sweep->n_measures; i++)
         if ((unsigned)sweep->measure[i] >= SS_MEASURES)
             return 0;
-    ss_scene scene = *sweep->scene;
     for (size_t i = 0; i < sweep->opts->n_axes; i++)
-        if (ss_scene_number(&scene, sweep->opts->axis[i].key, NULL, NULL) == NULL)
+        if (ss_scene_unit(sweep->scene, sweep->opts->axis[i].key) == NULL)
             return 0;
     return 1;
 }
