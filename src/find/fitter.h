@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stickslip/features.h>
+#include "find/ringdown.h"
 #include "find/varpro.h"
 
 /* Lengths in periods of the oscillation. */
@@ -20,13 +21,10 @@ enum { FIT_FEW = 4 };           /* windows that a jackknife needs */
 
 typedef struct fitter {
     varpro fit;
-    size_t n;                   /* samples */
+    const ringdown *of;
+    ss_window *window;          /* of each anchor */
+    size_t n;                   /* anchors */
     double noise;               /* variance */
-    double *limit;              /* see ss_sticks_belong; 0: not known yet */
-    double *median;             /* of chi-square, by its degrees of freedom; 0: not known yet */
-    size_t n_gaps;
-    const ss_window *gap;
-    int is_train;               /* the last fit was to a train of micro-slips, see ss_slips_recur */
 } fitter;
 
 /* The samples in so many periods. */
@@ -39,56 +37,55 @@ periods(const fitter *k, double n)
 /* --- sticks.c: where a stick begins and ends, as the w, s and noise at hand show it ----------- */
 
 /* Find the variance of the noise in the windows. */
-ss_status ss_sticks_noise(fitter *k, const ss_window *window, size_t n);
+ss_status ss_sticks_noise(fitter *k);
 
-int ss_sticks_has_gap(const fitter *k, ss_window win);
+int ss_sticks_is_barred(const fitter *k, ss_window win);
 
 /* The window of so many periods about an anchor in which the line and the oscillation leave least, among the
  * places that have at least a quarter of the largest oscillation. */
 ss_window ss_sticks_place(fitter *k, size_t anchor, double size_in_periods);
 
 /* Do the q samples that raise the sum of squares by rise belong to the stick? */
-int ss_sticks_belong(fitter *k, double rise, size_t q);
+int ss_sticks_belong(const fitter *k, double rise, size_t q);
 
-/* Grow windows about one of every so many of n cores, up to limit samples. */
-void ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t every,
-                    size_t limit);
+/* Grow windows about one of every so many cores, up to limit samples. */
+void ss_sticks_grow(fitter *k, const ss_window *core, size_t every, size_t limit);
 
 /* Cut all windows in two, so many samples behind their starts or before their ends, and keep the parts that
  * are longer in all, trimmed at that place; 0: too little would be left, and they stay as they were. */
-int ss_sticks_split(const fitter *k, ss_window *window, size_t n, size_t at, int from_end);
+int ss_sticks_split(fitter *k, size_t at, int from_end);
 
 /* Trim both ends as growth found them; empty: the rest is shorter than the least length. */
 ss_window ss_sticks_trim(const fitter *k, ss_window win);
 
-/* What a chi-squared of two degrees of freedom exceeds with this chance. */
+/* --- slips.c: micro-slips too weak for any one window, and what rings behind the windows ------ */
+
+/* What a chi-square of two degrees of freedom exceeds with this chance. */
 static inline double
 ss_chisq2(double chance)
 {
     return -2 * log(chance);
 }
 
-/* --- slips.c: micro-slips too weak for any one window, and what rings behind the windows ------ */
-
 /* Find where the gain changes most, so many samples behind the starts of the windows, or before their ends;
  * *at becomes 0 if it does not change. */
-ss_status ss_slips_find(fitter *k, const ss_window *window, size_t n, int from_end, size_t *at);
+ss_status ss_slips_find(fitter *k, int from_end, size_t *at);
 
 /* Does the gain change once a period, as in a train of micro-slips? */
-int ss_slips_recur(fitter *k, const ss_window *window, size_t n);
+int ss_slips_recur(fitter *k);
 
 /* Empty the windows whose own gains change most at a place: one window of up to 31. */
-ss_status ss_slips_drop_worst(fitter *k, ss_window *window, size_t n, size_t at, int from_end);
+ss_status ss_slips_drop_worst(fitter *k, size_t at, int from_end);
 
 /* *is becomes 1 if it rings on behind the windows, or hums. */
-ss_status ss_slips_ring_on(fitter *k, const ss_window *window, size_t n, int *is);
+ss_status ss_slips_ring_on(fitter *k, int *is);
 
 /* --- errors.c: standard errors ---------------------------------------------------------------- */
 
-/* The errors of the w and s of k, fitted to n windows; white: the rms of the white noise. */
-ss_status ss_errors_find(fitter *k, const ss_window *window, size_t n, double white, ss_value value[2]);
+/* The errors of the w and s of k, fitted to its windows. */
+ss_status ss_errors_find(fitter *k, ss_value value[2]);
 
-/* The errors of a fit to one window alone, from its curvature. */
-void ss_errors_of_one(const fitter *k, const linear *fit, ss_value value[2]);
+/* The errors of a fit from its curvature: those of white noise that leaves what it leaves. */
+void ss_errors_by_curvature(const fitter *k, const linear *fit, ss_value value[2]);
 
 #endif

@@ -262,7 +262,8 @@ read_loading(const search *s, const double *y, const ss_drop *drop, const fall *
         l.power = slip->power * s->largest * s->largest;
         l.n = slip->n;
     }
-    if (!is_first && ss_gaps_near(s->gap, s->n_gaps, 0.5 * (drop->t + drop[-1].t), 0.5 * (drop->t - drop[-1].t)))
+    if (!is_first && ss_gaps_near(s->gap, s->n_gaps, 0.5 * (drop->t + drop[-1].t),
+                                  0.5 * (drop->t - drop[-1].t)))
         return l;
     if (ss_window_length(f->stick) > 0 && rises.bend <= MOST_BENT) {
         l.slope = times(slope_of(y, NULL, f, rises), s->rate * s->largest);

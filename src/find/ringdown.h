@@ -6,27 +6,34 @@
 #include <stickslip/features.h>
 #include "find/window.h"
 
-/* Fit exp(-s t) (cos w t, sin w t) plus a line to a window about each of the n_anchors samples
- * given, w and s shared, starting from w. Where the forcing's omega per sample is known and that is
- * better, a constant and a sinusoid take the place of the line; 0: it is not. window[i] is that of
- * anchor i on return, empty (end = first) where less than two periods could be fitted. value gets w
- * and s, per sample, with standard errors; each[2 i], each[2 i + 1] those of window i alone. All are
- * NaN if no window is left; errors are infinite where micro-slips recur once a period, which passes
- * for damping. white is the rms of the white noise: what is left beyond it adds to the
- * errors.  No window has a sample of the gaps in it, which are in time order. */
-ss_status ss_ringdown_fit(const double *x, size_t n, const size_t *anchor, size_t n_anchors,
-                          double w, double forcing, double white, const ss_window *gap,
-                          size_t n_gaps, ss_window *window, ss_value value[2], ss_value *each);
+typedef struct ringdown {
+    /* given: */
+    const double *x;            /* n samples */
+    size_t n;
+    const size_t *anchor;       /* n_anchors samples, in time order */
+    size_t n_anchors;
+    const ss_window *bar;       /* n_bars, in time order: no window crosses them */
+    size_t n_bars;
+    double w;                   /* per sample: where the search starts */
+    double forcing;             /* per sample; 0: it is not known */
+    double white;               /* the rms of the white noise: what is left beyond it adds to the errors */
+    /* found, with room for n_anchors: */
+    ss_window *window;          /* of each anchor; empty, end = first: two periods could not be fitted */
+    ss_value (*each)[2];        /* w and s of each window alone, per sample, with standard errors */
+    ss_value all[2];            /* w and s of all; NaN: no window is left */
+    int is_train;               /* micro-slips recur once a period, which passes for damping */
+} ringdown;
 
-/* The same for windows of two periods that begin up to two before an anchor or one behind it, each
- * fitted by itself beside a line and kept if nine tenths of what is left of the line are the
- * oscillation's: value is the median of these, its error from their scatter; NaN for under four. */
-ss_status ss_ringdown_fit_each(const double *x, size_t n, const size_t *anchor, size_t n_anchors,
-                               double w, const ss_window *gap, size_t n_gaps, ss_window *window,
-                               ss_value value[2], ss_value *each);
+/* Fit exp(-s t) (cos w t, sin w t) plus a line to a window about each anchor, w and s shared.  Where the
+ * forcing is known and that is better, a constant and a sinusoid take the place of the line. */
+ss_status ss_ringdown_fit(ringdown *r);
+
+/* The same for windows of two periods that begin up to two before an anchor or one behind it, each fitted by
+ * itself beside a line and kept if nine tenths of what is left of the line are the oscillation's: all is the
+ * median of these, its error from their scatter, *scatter; NaN for under four. */
+ss_status ss_ringdown_fit_each(ringdown *r, double *scatter);
 
 /* Make the windows empty, and the values unknown, as before a fit. */
-void ss_ringdown_clear(const size_t *anchor, size_t n, ss_window *window, ss_value value[2],
-                       ss_value *each);
+void ss_ringdown_clear(ringdown *r);
 
 #endif

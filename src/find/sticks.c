@@ -6,33 +6,43 @@
  * window stops growing when they raise it by more. */
 #include "find/fitter.h"
 
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
 #include <stdlib.h>
 
-#define TRIM_START 0.1          /* periods at the ends found that are left out: a misfit not seen yet may
-                                   hide there */
+#define TRIM_START 0.1          /* periods at the start found that are left out, as at the end */
 enum { PLACES = 16, MOST_PLACES = 4 * PLACES };         /* places in the core, which is a period; in all */
+
+static size_t
+least_of(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* What a chi-square of q degrees of freedom exceeds as a Gaussian exceeds so many standard deviations, within
+ * 3 % (Wilson and Hilferty 1931). */
+static double
+chi_square(double q, double deviations)
+{
+    double v = 2 / (9 * q);
+    return q * pow(1 - v + deviations * sqrt(v), 3);
+}
 
 /* The noise, by the median over the windows, as some may contain more than the oscillation; it is at least
  * the misfit that is allowed. */
 ss_status
-ss_sticks_noise(fitter *k, const ss_window *window, size_t n)
+ss_sticks_noise(fitter *k)
 {
-    double *variance = malloc(2 * n * sizeof *variance);
+    double *variance = malloc(2 * k->n * sizeof *variance), *ring = variance + k->n;
     size_t used = 0, columns = ss_varpro_columns(&k->fit);
     if (variance == NULL)
         return SS_ENOMEM;
-    double *ring = variance + n;
-    for (size_t i = 0; i < n; i++) {
-        if (ss_window_length(window[i]) <= columns)
+    for (size_t i = 0; i < k->n; i++) {
+        size_t length = ss_window_length(k->window[i]);
+        if (length <= columns)
             continue;
-        linear fitted = ss_varpro_project(&k->fit, window[i]);
-        size_t freedom = ss_window_length(window[i]) - columns;
-        if (!(k->median[freedom] > 0))
-            k->median[freedom] = gsl_cdf_chisq_Pinv(0.5, (double)freedom);
-        variance[used] = fitted.rss / k->median[freedom];
-        ring[used++] = fitted.ring / (double)ss_window_length(window[i]);
+        linear fitted = ss_varpro_project(&k->fit, k->window[i]);
+        variance[used] = fitted.rss / chi_square((double)(length - columns), 0);
+        ring[used++] = fitted.ring / (double)length;
     }
     if (used > 0)
         k->noise = fmax(gsl_stats_select(variance, 1, used, used / 2),
@@ -41,14 +51,14 @@ ss_sticks_noise(fitter *k, const ss_window *window, size_t n)
     return SS_OK;
 }
 
-/* The number of gaps that begin before sample i. */
+/* The number of bars that begin before sample i. */
 static size_t
-gaps_before(const fitter *k, size_t i)
+bars_before(const fitter *k, size_t i)
 {
-    size_t lo = 0, hi = k->n_gaps;
+    size_t lo = 0, hi = k->of->n_bars;
     while (lo < hi) {
         size_t mid = lo + (hi - lo) / 2;
-        if (k->gap[mid].first < i)
+        if (k->of->bar[mid].first < i)
             lo = mid + 1;
         else
             hi = mid;
@@ -57,27 +67,26 @@ gaps_before(const fitter *k, size_t i)
 }
 
 int
-ss_sticks_has_gap(const fitter *k, ss_window win)
+ss_sticks_is_barred(const fitter *k, ss_window win)
 {
-    size_t g = gaps_before(k, win.end);
-    return g > 0 && k->gap[g - 1].end > win.first;
+    size_t b = bars_before(k, win.end);
+    return b > 0 && k->of->bar[b - 1].end > win.first;
 }
 
 ss_window
 ss_sticks_place(fitter *k, size_t anchor, double size_in_periods)
 {
     size_t size = periods(k, size_in_periods), step = 1 + periods(k, 1) / PLACES;
-    size_t before = periods(k, 2), after = periods(k, 1);
-    size_t fewest = ss_varpro_columns(&k->fit) + 2;
-    size = size > fewest ? size : fewest;
+    size_t before = periods(k, 2), after = periods(k, 1), fewest = ss_varpro_columns(&k->fit) + 2;
     linear fitted[MOST_PLACES];
     ss_window place[MOST_PLACES], best = { 0, 0 };
     double most = 0, least = INFINITY;
     size_t n = 0;
+    size = size > fewest ? size : fewest;
     for (size_t first = anchor > before ? anchor - before : 0;
-         first <= anchor + after && first + size <= k->n && n < MOST_PLACES; first += step) {
+         first <= anchor + after && first + size <= k->of->n && n < MOST_PLACES; first += step) {
         place[n] = (ss_window){ first, first + size };
-        if (ss_sticks_has_gap(k, place[n]))
+        if (ss_sticks_is_barred(k, place[n]))
             continue;
         fitted[n] = ss_varpro_project(&k->fit, place[n]);
         most = fmax(most, fitted[n++].ring);
@@ -91,62 +100,65 @@ ss_sticks_place(fitter *k, size_t anchor, double size_in_periods)
 }
 
 int
-ss_sticks_belong(fitter *k, double rise, size_t q)
+ss_sticks_belong(const fitter *k, double rise, size_t q)
 {
-    if (!(k->limit[q] > 0))
-        k->limit[q] = gsl_cdf_chisq_Qinv(FIT_CHANCE, (double)q);
-    return rise <= k->noise * k->limit[q];
+    const double deviations = 3.0902;           /* a Gaussian exceeds so many with FIT_CHANCE */
+    return rise <= k->noise * chi_square((double)q, deviations);
 }
 
-/* Move one end of the window outwards, by at most room samples, in steps down to one sample.  sums are
- * those of the window. */
+/* Grow a window about a core to at most `longest` samples within room, backwards and then forwards, in steps
+ * down to one sample.  Empty: the core itself is no oscillation. */
 static ss_window
-grow(fitter *k, ss_window win, varpro_sums *sums, size_t room, int backwards)
+grow(fitter *k, ss_window core, ss_window room, size_t longest)
 {
-    double start = ss_varpro_left(sums), rss = start;
-    size_t added = 0;
-    for (size_t step = periods(k, FIT_BLOCK); step > 0; step /= 2)
-        while (added + step <= room) {
-            varpro_sums more = *sums;
-            ss_window block = { win.end, win.end + step };
-            if (backwards)
-                block = (ss_window){ win.first - step, win.first };
-            ss_varpro_sums_add(&k->fit, block, &more);
-            double now = ss_varpro_left(&more);
-            if (!ss_sticks_belong(k, now - rss, step)
-                || !ss_sticks_belong(k, now - start, added + step))
-                break;
-            *sums = more;
-            if (backwards)
-                win.first -= step;
-            else
-                win.end += step;
-            rss = now;
-            added += step;
-        }
+    ss_window win = core;
+    size_t length = ss_window_length(core);
+    if (length == 0 || length >= longest)
+        return core;
+    size_t left = least_of(core.first - room.first, longest - length);
+    varpro_sums sums;
+    ss_varpro_sums_start(&k->fit, core.first - left, &sums);
+    ss_varpro_sums_add(&k->fit, core, &sums);
+    if (!ss_sticks_belong(k, ss_varpro_left(&sums), length - ss_varpro_columns(&k->fit)))
+        return (ss_window){ 0, 0 };
+    for (int backwards = 1; backwards >= 0; backwards--) {
+        double start = ss_varpro_left(&sums), rss = start;
+        size_t most = backwards ? left : least_of(room.end - win.end, longest - ss_window_length(win)), added = 0;
+        for (size_t step = periods(k, FIT_BLOCK); step > 0; step /= 2)
+            while (added + step <= most) {
+                varpro_sums more = sums;
+                ss_window block = { backwards ? win.first - step : win.end,
+                                    backwards ? win.first : win.end + step };
+                ss_varpro_sums_add(&k->fit, block, &more);
+                double now = ss_varpro_left(&more);
+                if (!ss_sticks_belong(k, now - rss, step) || !ss_sticks_belong(k, now - start, added + step))
+                    break;
+                win = (ss_window){ backwards ? block.first : win.first, backwards ? win.end : block.end };
+                sums = more;
+                rss = now;
+                added += step;
+            }
+    }
     return win;
 }
 
-static ss_window
-grow_both(fitter *k, ss_window core, size_t low, size_t high, size_t longest)
+void
+ss_sticks_grow(fitter *k, const ss_window *core, size_t every, size_t limit)
 {
-    if (ss_window_length(core) >= longest)
-        return core;
-    size_t most = longest - ss_window_length(core), left = core.first - low;
-    varpro_sums sums;
-    if (ss_window_length(core) == 0)
-        return (ss_window){ 0, 0 };
-    left = left < most ? left : most;
-    ss_varpro_sums_start(&k->fit, core.first - left, &sums);
-    ss_varpro_sums_add(&k->fit, core, &sums);
-    if (!ss_sticks_belong(k, ss_varpro_left(&sums),
-                          ss_window_length(core) - ss_varpro_columns(&k->fit)))
-        return (ss_window){ 0, 0 };
-    ss_window win = grow(k, core, &sums, left, 1);
-    size_t right = high - win.end;
-    most = longest - ss_window_length(win);
-    return grow(k, win, &sums, right < most ? right : most, 0);
+    for (size_t i = 0; i < k->n; i += every) {
+        ss_window room = { i > 0 ? core[i - 1].end : 0, i + 1 < k->n ? core[i + 1].first : k->of->n };
+        size_t b = bars_before(k, core[i].end);
+        if (b > 0 && k->of->bar[b - 1].end > room.first)
+            room.first = k->of->bar[b - 1].end;
+        if (b < k->of->n_bars && k->of->bar[b].first < room.end)
+            room.end = k->of->bar[b].first;
+        room.first = least_of(room.first, core[i].first);
+        room.end = room.end > core[i].end ? room.end : core[i].end;
+        k->window[i] = grow(k, core[i], room, limit);
+    }
 }
+
+/* --- cutting windows ------------------------------------------------------------------------- */
 
 /* The window without the ends that are cut off; empty: it is shorter than the least length. */
 static ss_window
@@ -162,55 +174,35 @@ keep_off(const fitter *k, ss_window win, size_t start, size_t end)
 static ss_window
 part(const fitter *k, ss_window win, size_t at, int from_end, int behind)
 {
-    size_t least = periods(k, FIT_LEAST), off = periods(k, FIT_TRIM_END), length = ss_window_length(win);
+    size_t least = periods(k, FIT_LEAST), length = ss_window_length(win);
     if (at >= length)
         return behind != from_end ? (ss_window){ win.first, win.first } : win;
-    size_t kept = behind != from_end ? length - at : at;
-    size_t spare = kept > least ? kept - least : 0;
-    off = length - kept + (off < spare ? off : spare);
+    size_t kept = behind != from_end ? length - at : at, spare = kept > least ? kept - least : 0;
+    size_t off = length - kept + least_of(periods(k, FIT_TRIM_END), spare);
     return behind ? keep_off(k, win, off, 0) : keep_off(k, win, 0, off);
 }
 
 int
-ss_sticks_split(const fitter *k, ss_window *window, size_t n, size_t at, int from_end)
+ss_sticks_split(fitter *k, size_t at, int from_end)
 {
     size_t all = 0, left[2] = { 0, 0 };
-    for (size_t i = 0; i < n; i++) {
-        all += ss_window_length(window[i]);
+    for (size_t i = 0; i < k->n; i++) {
+        all += ss_window_length(k->window[i]);
         for (int behind = 0; behind < 2; behind++)
-            left[behind] += ss_window_length(part(k, window[i], at, from_end, behind));
+            left[behind] += ss_window_length(part(k, k->window[i], at, from_end, behind));
     }
     int behind = left[1] > left[0];
     if (3 * left[behind] < all)
         return 0;
-    for (size_t i = 0; i < n; i++)
-        window[i] = part(k, window[i], at, from_end, behind);
+    for (size_t i = 0; i < k->n; i++)
+        k->window[i] = part(k, k->window[i], at, from_end, behind);
     return 1;
 }
 
 ss_window
 ss_sticks_trim(const fitter *k, ss_window win)
 {
-    size_t least = periods(k, FIT_LEAST), start = periods(k, TRIM_START), end = periods(k, FIT_TRIM_END);
-    size_t spare = ss_window_length(win) > least ? ss_window_length(win) - least : 0;
-    end = end < spare ? end : spare;
-    start = start < spare - end ? start : spare - end;
-    return keep_off(k, win, start, end);
+    size_t least = periods(k, FIT_LEAST), length = ss_window_length(win);
+    size_t spare = length > least ? length - least : 0, end = least_of(periods(k, FIT_TRIM_END), spare);
+    return keep_off(k, win, least_of(periods(k, TRIM_START), spare - end), end);
 }
-
-void
-ss_sticks_find(fitter *k, const ss_window *core, ss_window *window, size_t n, size_t every, size_t limit)
-{
-    for (size_t i = 0; i < n; i += every) {
-        size_t low = i > 0 ? core[i - 1].end : 0, high = i + 1 < n ? core[i + 1].first : k->n;
-        size_t g = gaps_before(k, core[i].end);
-        if (g > 0 && k->gap[g - 1].end > low)
-            low = k->gap[g - 1].end;
-        if (g < k->n_gaps && k->gap[g].first < high)
-            high = k->gap[g].first;
-        low = low < core[i].first ? low : core[i].first;
-        high = high > core[i].end ? high : core[i].end;
-        window[i] = grow_both(k, core[i], low, high, limit);
-    }
-}
-

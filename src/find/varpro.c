@@ -1,11 +1,10 @@
 /* varpro.c -- a damped oscillation fitted to windows of a signal; its linear parameters are
  * projected out.
  *
- * The signal of a window is A exp(-s t) cos(w t) + B exp(-s t) sin(w t), a slow part of two to
- * four columns, and a steady line if asked for.  The amplitudes are its own; w and s are those of all
- * windows.  So the amplitudes are projected out of each window (variable projection, Golub and Pereyra
- * 1973, with Kaufman's Jacobian), and two numbers are left to fit to all windows at once, by
- * Levenberg-Marquardt.
+ * The signal of a window is A exp(-s t) cos(w t) + B exp(-s t) sin(w t) and a slow part of two to
+ * four columns.  The amplitudes are its own; w and s are those of all windows.  So the amplitudes are
+ * projected out of each window (variable projection, Golub and Pereyra 1973, with Kaufman's Jacobian),
+ * and two numbers are left to fit to all windows at once, by Levenberg-Marquardt.
  *
  * The fit of a window needs only the products of its samples with the columns: all windows of one
  * length share g, the products of the columns with each other.  The last two columns are the
@@ -22,13 +21,12 @@
 
 enum { COLUMNS = VARPRO_COLUMNS, OFTEN = 16, STEPS = 50 };
 #define DEPENDENT 1e-13         /* part of a column's square: less is rounding */
-#define FIRST_DAMPING 1e-3
 #define ROUNDING 1e-14          /* part of the sum of squares by which it may rise at its minimum */
 
 ss_status
 ss_varpro_init(varpro *v, const double *x, size_t room)
 {
-    *v = (varpro){ .x = x, .room = room };
+    *v = (varpro){ .x = x };
     v->table.row = malloc(room * sizeof *v->table.row);
     v->table.sum = malloc((room / OFTEN + 1) * sizeof *v->table.sum);
     return v->table.row != NULL && v->table.sum != NULL ? SS_OK : SS_ENOMEM;
@@ -47,15 +45,12 @@ ss_varpro_start(varpro *v, double w, double s, double forcing)
     v->w = w, v->s = s;
     v->forcing = forcing;
     v->is_bent = 0;
-    v->line = 0;
 }
 
 size_t
 ss_varpro_columns(const varpro *v)
 {
-    enum { RING = 2, LINE = 2 };
-    size_t slow = (v->forcing > 0 ? 3 : 2) + (v->is_bent ? v->forcing > 0 ? 1 : 2 : 0);
-    return slow + RING + (v->line > 0 ? LINE : 0);
+    return 4 + (v->forcing > 0) + (v->is_bent ? v->forcing > 0 ? 1 : 2 : 0);
 }
 
 /* --- columns and their sums ------------------------------------------------------------------ */
@@ -79,75 +74,55 @@ turn(wave *z)
 static void
 make_row(const varpro_table *tab, double t, double row[COLUMNS])
 {
-    double phase = tab->forcing * t, *next = row;
+    double *next = row;
     memset(row, 0, COLUMNS * sizeof *row);
     *next++ = 1;
-    *next++ = tab->forcing > 0 ? tab->slow.sin : t;
-    if (tab->forcing > 0)
-        *next++ = 1 - tab->slow.cos;
-    else if (tab->is_bent)
-        *next++ = t * t;
-    if (tab->is_bent)
-        *next++ = tab->forcing > 0 ? phase - tab->slow.sin : t * t * t;
-    if (tab->line > 0)
-        *next++ = tab->steady.cos, *next++ = tab->steady.sin;
+    if (tab->forcing > 0) {
+        *next++ = tab->slow.sin, *next++ = 1 - tab->slow.cos;
+        if (tab->is_bent)
+            *next++ = tab->forcing * t - tab->slow.sin;
+    } else {
+        *next++ = t;
+        if (tab->is_bent)
+            *next++ = t * t, *next++ = t * t * t;
+    }
     *next++ = tab->ring.cos, *next++ = tab->ring.sin;
     *next++ = t * tab->ring.cos, *next++ = t * tab->ring.sin;
 }
 
-/* Add the products of n rows' columns, of which the first `width` are in use. */
-static inline void
-add_products_of(double (*restrict row)[COLUMNS], size_t n, double (*restrict g)[COLUMNS], int width)
-{
-    for (size_t i = 0; i < n; i++)
-        for (int j = 0; j < width; j++)
-            for (int k = 0; k < width; k++)
-                g[j][k] += row[i][j] * row[i][k];
-}
-
+/* Add the products of n rows' columns. */
 VERSIONS static void
-add_products(double (*restrict row)[COLUMNS], size_t n, double (*restrict g)[COLUMNS], size_t m)
+add_products(double (*restrict row)[COLUMNS], size_t n, double (*restrict g)[COLUMNS])
 {
-    if (m + 2 <= VARPRO_NARROW)
-        add_products_of(row, n, g, VARPRO_NARROW);
-    else
-        add_products_of(row, n, g, COLUMNS);
+    for (int j = 0; j < COLUMNS; j++) {
+        double sum[COLUMNS];
+        memcpy(sum, g[j], sizeof sum);
+        for (size_t i = 0; i < n; i++)
+            for (int k = 0; k < COLUMNS; k++)
+                sum[k] += row[i][j] * row[i][k];
+        memcpy(g[j], sum, sizeof sum);
+    }
 }
 
-/* Add the products of n rows with x less level. */
-static inline void
-add_samples_of(const double *restrict x, double level, double (*restrict row)[COLUMNS], size_t n,
-               double *restrict to, double *restrict xx, int width)
-{
-    double even[COLUMNS] = { 0 }, odd[COLUMNS] = { 0 }, squares[2] = { 0 };
-    size_t i = 0;
-    for (; i + 2 <= n; i += 2) {
-        double a = x[i] - level, b = x[i + 1] - level;
-        for (int k = 0; k < width; k++)
-            even[k] += a * row[i][k];
-        for (int k = 0; k < width; k++)
-            odd[k] += b * row[i + 1][k];
-        squares[0] += a * a, squares[1] += b * b;
-    }
-    if (i < n) {
-        double a = x[i] - level;
-        for (int k = 0; k < width; k++)
-            even[k] += a * row[i][k];
-        squares[0] += a * a;
-    }
-    for (int k = 0; k < width; k++)
-        to[k] += even[k] + odd[k];
-    *xx += squares[0] + squares[1];
-}
-
+/* Add the products of n rows with x less level, and the squares of that.  Two sums wait less for each other
+ * than one. */
 VERSIONS static void
 add_samples(const double *restrict x, double level, double (*restrict row)[COLUMNS], size_t n,
-            double *restrict to, double *restrict xx, size_t m)
+            double *restrict to, double *restrict xx)
 {
-    if (m + 2 <= VARPRO_NARROW)
-        add_samples_of(x, level, row, n, to, xx, VARPRO_NARROW);
-    else
-        add_samples_of(x, level, row, n, to, xx, COLUMNS);
+    double even[COLUMNS] = { 0 }, odd[COLUMNS] = { 0 }, squares[2] = { 0 };
+    for (size_t i = 0; i < n; i += 2) {
+        double a = x[i] - level, b = i + 1 < n ? x[i + 1] - level : 0;
+        const double *other = i + 1 < n ? row[i + 1] : row[i];
+        for (int k = 0; k < COLUMNS; k++)
+            even[k] += a * row[i][k];
+        for (int k = 0; k < COLUMNS; k++)
+            odd[k] += b * other[k];
+        squares[0] += a * a, squares[1] += b * b;
+    }
+    for (int k = 0; k < COLUMNS; k++)
+        to[k] += even[k] + odd[k];
+    *xx += squares[0] + squares[1];
 }
 
 /* The sums over the first n rows, whose last row may lack its sums so far. */
@@ -159,36 +134,24 @@ sum_rows(const varpro_table *tab, size_t n, double (*g)[COLUMNS])
         memcpy(g, tab->sum[known - 1], sizeof tab->sum[0]);
     else
         memset(g, 0, sizeof tab->sum[0]);
-    add_products(tab->row + known * OFTEN, n - known * OFTEN, g, tab->m);
+    add_products(tab->row + known * OFTEN, n - known * OFTEN, g);
 }
 
-/* Begin the columns again if w, s, forcing, is_bent or line have changed. */
-static void
-restart(varpro *v)
-{
-    varpro_table *tab = &v->table;
-    if (tab->w == v->w && tab->s == v->s && tab->forcing == v->forcing && tab->line == v->line
-        && tab->is_bent == v->is_bent)
-        return;
-    tab->w = v->w, tab->s = v->s, tab->forcing = v->forcing, tab->line = v->line;
-    tab->is_bent = v->is_bent;
-    tab->ring = wave_of(v->w, v->s);
-    tab->slow = wave_of(v->forcing, 0);
-    tab->steady = wave_of(v->line, 0);
-    tab->n = 0;
-    tab->m = ss_varpro_columns(v);
-    v->factored = 0;
-}
-
-/* Compute those of the first n rows that are not there yet. */
+/* Extend the table to n rows; begin again if w, s, forcing or is_bent have changed. */
 static void
 extend(varpro *v, size_t n)
 {
     varpro_table *tab = &v->table;
-    restart(v);
+    if (tab->w != v->w || tab->s != v->s || tab->forcing != v->forcing || tab->is_bent != v->is_bent) {
+        tab->w = v->w, tab->s = v->s, tab->forcing = v->forcing, tab->is_bent = v->is_bent;
+        tab->ring = wave_of(v->w, v->s);
+        tab->slow = wave_of(v->forcing, 0);
+        tab->n = 0;
+        v->factored = 0;
+    }
     for (; tab->n < n; tab->n++) {
         make_row(tab, (double)tab->n, tab->row[tab->n]);
-        turn(&tab->ring), turn(&tab->slow), turn(&tab->steady);
+        turn(&tab->ring), turn(&tab->slow);
         if ((tab->n + 1) % OFTEN == 0)
             sum_rows(tab, tab->n + 1, tab->sum[tab->n / OFTEN]);
     }
@@ -205,8 +168,8 @@ ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums)
 {
     size_t from = more.first - sums->origin, n = ss_window_length(more);
     extend(v, from + n);
-    add_products(v->table.row + from, n, sums->g, sums->m);
-    add_samples(v->x + more.first, sums->level, v->table.row + from, n, sums->x, &sums->xx, sums->m);
+    add_products(v->table.row + from, n, sums->g);
+    add_samples(v->x + more.first, sums->level, v->table.row + from, n, sums->x, &sums->xx);
 }
 
 /* --- projection ------------------------------------------------------------------------------ */
@@ -269,23 +232,6 @@ left_of(const varpro_factor *f, double xx)
     return fmax(xx, 0);
 }
 
-static linear
-linear_of(const varpro_factor *f, double xx)
-{
-    const size_t at_cos = f->m - 2, at_sin = f->m - 1;
-    const double *y = f->y, *left = y + f->m;
-    linear fit = { .whole = xx, .rss = left_of(f, xx) };
-    fit.ring = y[at_cos] * y[at_cos] + y[at_sin] * y[at_sin];
-    double c = f->l[at_cos][at_cos], s = f->l[at_sin][at_sin], w[2], d[2];
-    fit.b = s > 0 ? y[at_sin] / s : 0;
-    fit.a = c > 0 ? (y[at_cos] - f->l[at_sin][at_cos] * fit.b) / c : 0;
-    ss_varpro_derivatives(f, fit.a, fit.b, w, d);
-    fit.normal = (normal){ w[0] * w[0] + w[1] * w[1], w[0] * d[0] + w[1] * d[1],
-                           d[0] * d[0] + d[1] * d[1], w[0] * left[0] + w[1] * left[1],
-                           d[0] * left[0] + d[1] * left[1] };
-    return fit;
-}
-
 double
 ss_varpro_left(varpro_sums *sums)
 {
@@ -296,31 +242,31 @@ ss_varpro_left(varpro_sums *sums)
     return left_of(&f, sums->xx);
 }
 
-/* The factor for windows of n samples. */
-static void
-find_factor(varpro *v, size_t n)
-{
-    double g[COLUMNS][COLUMNS];
-    extend(v, n);
-    if (v->factored == n)
-        return;
-    sum_rows(&v->table, n, g);
-    v->factor.m = v->table.m;
-    factorise(g, v->factor.l, v->factor.m + 2);
-    v->factored = n;
-}
-
 linear
 ss_varpro_project(varpro *v, ss_window win)
 {
+    varpro_factor *f = &v->factor;
+    double g[COLUMNS][COLUMNS], x[COLUMNS] = { 0 }, xx = 0, w[2], d[2];
     size_t n = ss_window_length(win);
-    double x[COLUMNS] = { 0 }, xx = 0;
-    find_factor(v, n);
-    add_samples(v->x + win.first, v->x[win.first], v->table.row, n, x, &xx, v->table.m);
-    ss_varpro_substitute(&v->factor, x, v->factor.y);
-    linear fit = linear_of(&v->factor, xx);
-    fit.windows = 1;
-    fit.samples = n;
+    extend(v, n);
+    if (v->factored != n) {             /* windows of one length share their factor */
+        sum_rows(&v->table, n, g);
+        f->m = ss_varpro_columns(v);
+        factorise(g, f->l, f->m + 2);
+        v->factored = n;
+    }
+    add_samples(v->x + win.first, v->x[win.first], v->table.row, n, x, &xx);
+    ss_varpro_substitute(f, x, f->y);
+    const size_t at_cos = f->m - 2, at_sin = f->m - 1;
+    const double *y = f->y, *left = y + f->m, c = f->l[at_cos][at_cos], s = f->l[at_sin][at_sin];
+    linear fit = { .windows = 1, .samples = n, .whole = xx, .rss = left_of(f, xx),
+                   .ring = y[at_cos] * y[at_cos] + y[at_sin] * y[at_sin] };
+    fit.b = s > 0 ? y[at_sin] / s : 0;
+    fit.a = c > 0 ? (y[at_cos] - f->l[at_sin][at_cos] * fit.b) / c : 0;
+    ss_varpro_derivatives(f, fit.a, fit.b, w, d);
+    fit.normal = (normal){ w[0] * w[0] + w[1] * w[1], w[0] * d[0] + w[1] * d[1],
+                           d[0] * d[0] + d[1] * d[1], w[0] * left[0] + w[1] * left[1],
+                           d[0] * left[0] + d[1] * left[1] };
     return fit;
 }
 
@@ -343,50 +289,31 @@ ss_varpro_project_all(varpro *v, const ss_window *window, size_t n)
 
 /* --- the fit of w and s -------------------------------------------------------------------- */
 
-/* Fit all windows at this w and s. */
-static linear
-project_at(varpro *v, const ss_window *window, size_t n, const double at[2])
-{
-    v->w = at[0], v->s = at[1];
-    return ss_varpro_project_all(v, window, n);
-}
-
-/* The next w and s of Levenberg and Marquardt; 0: they are out of range. */
-static int
-next_place(const normal *h, double damping, const double at[2], double next[2])
-{
-    double ww = h->ww * (1 + damping), ss = h->ss * (1 + damping), det = ww * ss - h->ws * h->ws;
-    next[0] = at[0] + (h->ws * h->s - ss * h->w) / det;
-    next[1] = at[1] + (h->ws * h->w - ww * h->s) / det;
-    return next[0] > 0 && next[0] < M_PI && isfinite(next[1]);
-}
-
-static int
-is_near(const double a[2], const double b[2], double tol)
-{
-    return fabs(b[0] - a[0]) <= tol * (fabs(a[0]) + tol)
-        && fabs(b[1] - a[1]) <= tol * (fabs(a[1]) + tol);
-}
-
-/* A short step that does not lessen the residual ends the fit, too: it stands at the minimum already. */
+/* The normal equations of two unknowns are solved here and not by base/least.c: they are sums over windows,
+ * so that no residual of a sample is ever stored.  A short step that does not lessen the residual ends the
+ * fit, too: it stands at the minimum already. */
 int
 ss_varpro_fit(varpro *v, const ss_window *window, size_t n, double tol)
 {
-    double at[2] = { v->w, v->s }, next[2], damping = FIRST_DAMPING;
-    linear here = project_at(v, window, n, at), there;
+    double w = v->w, s = v->s, damping = 1e-3;
+    linear here = ss_varpro_project_all(v, window, n);
     int ended = 0;
     for (int i = 0; i < STEPS && !ended; i++) {
-        int is_place = next_place(&here.normal, damping, at, next);
-        if (is_place)
-            there = project_at(v, window, n, next);
-        ended = is_place && is_near(at, next, tol);
-        if (is_place && there.rss <= here.rss + ROUNDING * here.whole) {
-            memcpy(at, next, sizeof at);
+        const normal *h = &here.normal;
+        double ww = h->ww * (1 + damping), ss = h->ss * (1 + damping), det = ww * ss - h->ws * h->ws;
+        v->w = w + (h->ws * h->s - ss * h->w) / det;
+        v->s = s + (h->ws * h->w - ww * h->s) / det;
+        damping *= 10;
+        if (!(v->w > 0 && v->w < M_PI && isfinite(v->s)))
+            continue;
+        linear there = ss_varpro_project_all(v, window, n);
+        ended = fabs(v->w - w) <= tol * (w + tol) && fabs(v->s - s) <= tol * (fabs(s) + tol);
+        if (there.rss <= here.rss + ROUNDING * here.whole) {
+            w = v->w, s = v->s;
             here = there;
-            damping /= 10;
-        } else
-            damping *= 10;
+            damping /= 100;
+        }
     }
-    v->w = at[0], v->s = at[1];
+    v->w = w, v->s = s;
     return ended;
 }

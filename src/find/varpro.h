@@ -8,13 +8,9 @@
 #include "find/window.h"
 
 /* What a window consists of, t samples behind an origin: m columns, which are a slow part (1, t, t^2,
- * t^3, or the forcing), a steady line if there is one, exp(-s t) cos(w t) and exp(-s t) sin(w t); and t
- * times these two, the derivatives, behind them.  Columns behind these are 0. */
-enum {
-    VARPRO_MOST = 7,            /* the largest m */
-    VARPRO_NARROW = 8,          /* the usual number of columns, with the derivatives */
-    VARPRO_COLUMNS = 10         /* room for columns */
-};
+ * t^3, or the forcing), exp(-s t) cos(w t) and exp(-s t) sin(w t); and t times these two, the derivatives,
+ * behind them.  Columns behind these are 0. */
+enum { VARPRO_COLUMNS = 8 };    /* the largest m is 6 */
 
 /* Sums over samples of products: of columns with each other and with x, and of x with itself; x less
  * level. */
@@ -37,22 +33,20 @@ typedef struct wave {           /* its value now, and the factor by which a samp
 /* The first n rows of the columns, and, at regular places, the sums of products over all rows
  * before. */
 typedef struct varpro_table {
-    double w, s, forcing, line;
+    double w, s, forcing;
     int is_bent;
-    size_t n, m;
-    wave ring, slow, steady;
+    size_t n;
+    wave ring, slow;
     double (*row)[VARPRO_COLUMNS];
     double (*sum)[VARPRO_COLUMNS][VARPRO_COLUMNS];
 } varpro_table;
 
 typedef struct varpro {
     const double *x;
-    size_t room;                /* samples of the longest window */
     /* these may be changed at any time: */
     double w, s;                /* of the oscillation, per sample */
     double forcing;             /* per sample: 1, cos, sin are the slow part; 0: 1 and t */
     int is_bent;                /* t^2 and t^3, or t beside the forcing, are in the slow part, too */
-    double line;                /* per sample: a steady line in each window; 0: there is none */
     /* computed for them: */
     varpro_table table;
     size_t factored;            /* length of the window whose factor is known; 0: none */
@@ -77,10 +71,10 @@ typedef struct linear {         /* the fit of the amplitudes to one window, or t
 ss_status ss_varpro_init(varpro *v, const double *x, size_t room);
 void ss_varpro_free(varpro *v);
 
-/* Start from w and s with this slow part, which does not bend, and no line. */
+/* Start from w and s with this slow part, which does not bend. */
 void ss_varpro_start(varpro *v, double w, double s, double forcing);
 
-/* m: the number of columns of the slow part, the line and the oscillation. */
+/* m: the number of columns of the slow part and the oscillation. */
 size_t ss_varpro_columns(const varpro *v);
 
 /* Fit the amplitudes to a window of more samples than columns. */
