@@ -35,6 +35,22 @@ remove_dir(void **state)
     return rmdir(dir);
 }
 
+/* The path of a dataset in the file; "" or NULL: that of the file. */
+static inline const char *
+place(const char *dataset)
+{
+    static char text[sizeof path + 8192];
+    snprintf(text, sizeof text, "%s%s%s", path, dataset != NULL && *dataset != '\0' ? ":" : "",
+             dataset != NULL ? dataset : "");
+    return text;
+}
+
+static inline ss_status
+load_place(ss_signal **out, const char *dataset, const ss_read_opts *opts, ss_error *err)
+{
+    return ss_signal_load(out, place(dataset), opts, err);
+}
+
 static inline ss_signal *
 new_signal(size_t n)
 {

@@ -243,7 +243,7 @@ read_twice(int variant)
     FILE *in = fmemopen((void *)from, variant < 2 ? length[variant] : sizeof table - 1, "r");
     ss_status st = ss_reader_new(&reader, in, "in", variant < 2 ? NULL : &opts, &err);
     if (st == SS_OK)
-        st = ss_reader_keep(&reader, NULL, &err);
+        st = ss_reader_keep(reader, NULL, &err);
     for (int again = 0; st == SS_OK && again < 2; again++) {
         st = ss_reader_rows(reader, column, 4, &n, &err);
         if (st == SS_OK)
@@ -615,7 +615,7 @@ reductions(int variant)
     FILE *in = variant < 2 ? fmemopen(text[1], length[1], "r") : fmemopen(sound, sizeof sound, "r");
     ss_status st = ss_reader_new(&reader, in, "in", NULL, &err);
     if (st == SS_OK)
-        st = ss_reader_keep(&reader, NULL, &err);
+        st = ss_reader_keep(reader, NULL, &err);
     if (st == SS_OK)
         st = variant == 0 ? ss_plot_spectra(spectrum, &rows, reader, column, 1, 0, &ss_plot_defaults, &err)
             : ss_plot_path(&thin, &rows, reader, 0, 1, 0, &ss_plot_defaults, &err);

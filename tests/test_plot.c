@@ -134,7 +134,7 @@ read_thin(const ss_signal *signal, int xy, double start, ss_plot_opts *opts)
     rewind(file);
     assert_int_equal(ss_reader_new(&reader, file, "file", NULL, NULL), SS_OK);
     if (xy)
-        assert_int_equal(ss_reader_keep(&reader, NULL, NULL), SS_OK);
+        assert_int_equal(ss_reader_keep(reader, NULL, NULL), SS_OK);
     if ((xy ? ss_plot_path(&thin, &rows, reader, 0, 1, start, opts, &err)
          : ss_plot_envelope(&thin, &rows, reader, (size_t[]){ 0 }, 1, start, opts, &err)) != SS_OK)
         fail_msg("%s", err.text);

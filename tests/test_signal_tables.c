@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 #include "signal/gaps.h"
+#include "signal/source.h"
 #include "signal_text.h"
 
 /* Headers of LabVIEW's measurement files, with two channels. */
@@ -585,24 +586,60 @@ reads_a_file_as_it_was_at_first(void **state)
     }
 }
 
+enum { ROWS = 4 };
+
+/* A source whose rows are others when they are read again. */
+struct changing {
+    ss_source base;
+    const double *now, *again;
+    int ended;
+};
+
+static ss_status
+give_all(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
+{
+    struct changing *c = (struct changing *)s;
+    (void)err;
+    assert_true(max >= ROWS);
+    *n = c->ended ? 0 : ROWS;
+    memcpy(column[0], c->now, *n * sizeof *c->now);
+    c->ended = 1;
+    return SS_OK;
+}
+
+static ss_status
+change(ss_source *s, ss_error *err)
+{
+    struct changing *c = (struct changing *)s;
+    (void)err;
+    c->now = c->again;
+    c->ended = 0;
+    return SS_OK;
+}
+
 /* Rows that are read again may have changed, in HDF5, too. */
 static void
 refuses_a_gap_that_was_not_there(void **state)
 {
-    enum { ROWS = 4, READINGS = 4 };
-    double first[ROWS] = { 1, NAN, 3, 4 }, *column = first;
-    double again[READINGS][ROWS] = { { 1, NAN, 3, 4 }, { NAN, 2, 3, 4 }, { 1, NAN, NAN, 4 }, { 1, 2, 3, NAN } };
+    enum { READINGS = 4 };
+    static const struct source_calls calls = { .next = give_all, .rewind = change };
+    static const double first[ROWS] = { 1, NAN, 3, 4 };
+    static const double again[READINGS][ROWS] = { { 1, NAN, 3, 4 }, { NAN, 2, 3, 4 }, { 1, NAN, NAN, 4 },
+                                                  { 1, 2, 3, NAN } };
     (void)state;
     for (int k = 0; k < READINGS; k++) {
-        double *other = again[k];
-        ss_header *head = ss_header_new(10, 0);
-        gap_filler *g = ss_gaps_new(1, SS_GAPS_INTERPOLATE);
-        assert_true(head != NULL && g != NULL && ss_gaps_add(g, &column, ROWS));
-        assert_int_equal(ss_gaps_begin(g, head, "rows", NULL), SS_OK);
-        assert_int_equal(ss_gaps_fill(g, &other, ROWS), k == 0);
-        assert_true(k > 0 || again[k][1] == 2);
-        ss_gaps_free(g);
-        ss_header_free(head);
+        double value[ROWS], *column = value;
+        size_t n;
+        struct changing *c = ss_source_new(sizeof *c, &calls, "rows", NULL);
+        ss_source *s = &c->base;
+        c->now = first;
+        c->again = again[k];
+        s->head->rate = 10;
+        assert_int_equal(ss_header_add_column(s->head, "x", NULL), SS_OK);
+        assert_int_equal(ss_source_fill_gaps(&s, SS_GAPS_INTERPOLATE, NULL), SS_OK);
+        assert_int_equal(ss_source_rows(s, &column, ROWS, &n, NULL), k == 0 ? SS_OK : SS_EDATA);
+        assert_true(k > 0 || (n == ROWS && value[1] == 2));
+        ss_source_free(s);
     }
 }
 

@@ -34,7 +34,7 @@ a_signal_reads_back_exactly(void **state)
         ss_signal *signal = new_signal(length[i]), *back = NULL;
         signal->head->has_time = i % 2 == 0;
         write_ok(&(ss_record){ .signal = signal });
-        assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+        assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
         assert_int_equal(back->n, length[i]);
         assert_same_columns(signal->head, back->head);
         assert_same_notes(signal->head, back->head);
@@ -105,7 +105,7 @@ a_file_made_piece_by_piece_reads_back_exactly(void **state)
             assert_int_equal(ss_morlet_transform(&c, signal, 1, &opts, NULL), SS_OK);
             if (write_pieces(signal, c, row / 2, &err) != SS_OK)
                 fail_msg("%s", err.text);
-            assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+            assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
             assert_int_equal(back->n, signal->n);
             assert_same_columns(signal->head, back->head);
             assert_same_bits(signal->values, back->values, 3 * signal->n);
@@ -142,7 +142,7 @@ a_signal_of_unknown_length_reads_back_exactly(void **state)
         assert_int_equal(ss_header_note(signal->head, "late", "a note: at the end"), SS_OK);
         assert_int_equal(ss_store_writer_end(writer, n, NULL), SS_OK);
         ss_store_writer_free(writer);
-        assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+        assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
         assert_int_equal(back->n, n);
         assert_same_columns(signal->head, back->head);
         assert_same_notes(signal->head, back->head);
@@ -513,7 +513,7 @@ write_columns(size_t n)
     int attached = H5Aexists(t, "REFERENCE_LIST") > 0;
     H5Dclose(t);
     H5Fclose(file);
-    assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+    assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
     assert_int_equal(back->head->n_columns, n);
     assert_same_bits(back->values, signal->values, n);
     ss_signal_free(back);

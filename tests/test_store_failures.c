@@ -145,7 +145,10 @@ hdf5_reports_nothing_and_is_left_as_it_was(void **state)
     (void)state;
     H5Eget_auto2(H5E_DEFAULT, &old, &old_user);
     H5Eset_auto2(H5E_DEFAULT, count_reports, &reports);
-    assert_int_equal(ss_store_read_signal(&signal, "/dev/null", NULL, NULL, NULL), SS_EDATA);
+    FILE *damaged = fopen(path, "wb");
+    fputs("\211HDF\r\n\032\n", damaged);
+    fclose(damaged);
+    assert_int_equal(ss_signal_load(&signal, path, NULL, NULL), SS_EDATA);
     assert_int_equal(ss_store_write("/nonexistent/run.h5", &(ss_record){ .has_events = 1 }, NULL),
                      SS_EIO);
     assert_int_equal(reports, 0);

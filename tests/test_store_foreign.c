@@ -80,7 +80,7 @@ assert_rows(size_t rows, size_t columns, double from)
     double *x[600], *values = malloc(MOST * columns * sizeof *values);
     for (size_t c = 0; c < columns; c++)
         x[c] = values + c * MOST;
-    if (ss_store_signal_reader(&reader, path, "/x", &opts, &err) != SS_OK)
+    if (ss_reader_load(&reader, place("/x"), &opts, &err) != SS_OK)
         fail_msg("%s", err.text);
     assert_true(ss_reader_header(reader)->start == from);
     assert_int_equal(ss_reader_waits(reader), 0);
@@ -113,12 +113,12 @@ rows_in_pieces_are_those_of_the_array(void **state)
             assert_rows(rows, columns, 0);
             if (rows > 500)
                 assert_rows(rows, columns, 500);
-            assert_int_equal(ss_store_read_signal(&all, path, "/x", &opts, NULL), SS_OK);
+            assert_int_equal(load_place(&all, "/x", &opts, NULL), SS_OK);
             assert_int_equal(all->n, rows);
             for (size_t i = 0; i < rows; i++)
                 for (size_t c = 0; c < columns; c++)
                     assert_true(all->values[c * rows + i] == value_at(i, c));
-            assert_int_equal(ss_store_read_signal(&same, path, "/x", &filled, NULL), SS_OK);
+            assert_int_equal(load_place(&same, "/x", &filled, NULL), SS_OK);
             assert_same_bits(same->values, all->values, rows * columns);
             ss_signal_free(all);
             ss_signal_free(same);
@@ -147,7 +147,7 @@ a_bad_value_is_found_where_it_stands(void **state)
     H5Sclose(memory);
     H5Sclose(space);
     H5Fclose(file);
-    assert_int_equal(ss_store_signal_reader(&reader, path, "/x", &opts, &err), SS_OK);
+    assert_int_equal(ss_reader_load(&reader, place("/x"), &opts, &err), SS_OK);
     ss_status st = SS_OK;
     while (got > 0 && (st = ss_reader_rows(reader, &column, 1000, &got, &err)) == SS_OK)
         done += got;
@@ -155,9 +155,9 @@ a_bad_value_is_found_where_it_stands(void **state)
     assert_string_equal(err.text + strlen(path), ":/x: value 600001 is not finite");
     assert_true(done > 300000 && done <= 600000);
     ss_reader_free(reader);
-    assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_EDATA);
+    assert_int_equal(load_place(&signal, "/x", &opts, &err), SS_EDATA);
     assert_null(signal);
-    assert_int_equal(ss_store_read_signal(&signal, path, "/x", &filled, &err), SS_OK);
+    assert_int_equal(load_place(&signal, "/x", &filled, &err), SS_OK);
     assert_string_equal(ss_header_find_note(signal->head, "gaps"), "600000:600001");
     ss_signal_free(signal);
 }
@@ -168,7 +168,7 @@ a_dataset_of_our_own_brings_its_clock(void **state)
     ss_signal *signal = new_signal(10), *back = NULL;
     (void)state;
     write_ok(&(ss_record){ .signal = signal });
-    assert_int_equal(ss_store_read_signal(&back, path, "/signal/a", NULL, NULL), SS_OK);
+    assert_int_equal(load_place(&back, "/signal/a", NULL, NULL), SS_OK);
     assert_same_bits(&back->head->rate, &signal->head->rate, 1);
     assert_same_bits(&back->head->start, &signal->head->start, 1);
     assert_string_equal(back->head->column[0].unit, "m/s^2");
@@ -199,7 +199,7 @@ what_cannot_be_read_is_refused_in_clear_words(void **state)
         snprintf(words, sizeof words, row[i].words, path);
         snprintf(expected, sizeof expected, "%s%s%s: %s", path, i > 0 ? ":" : "", row[i].dataset,
                  words);
-        assert_int_equal(ss_store_read_signal(&signal, path, row[i].dataset, NULL, &err),
+        assert_int_equal(load_place(&signal, row[i].dataset, NULL, &err),
                          strcmp(row[i].dataset, "/line") == 0 ? SS_ECLOCK : SS_EDATA);
         assert_null(signal);
         assert_string_equal(err.text, expected);
@@ -226,13 +226,13 @@ a_clock_of_its_own_is_not_exchanged(void **state)
     ss_error err = { 0 };
     (void)state;
     write_ok(&(ss_record){ .signal = signal });
-    assert_int_equal(ss_store_read_signal(&back, path, NULL, &other, &err), SS_EDATA);
+    assert_int_equal(ss_signal_load(&back, path, &other, &err), SS_EDATA);
     assert_non_null(strstr(err.text, "has a clock of its own"));
-    assert_int_equal(ss_store_read_signal(&back, path, NULL, &column, NULL), SS_EDATA);
-    assert_int_equal(ss_store_read_signal(&back, path, "/signal/a", &column, &err), SS_EDATA);
+    assert_int_equal(ss_signal_load(&back, path, &column, NULL), SS_EDATA);
+    assert_int_equal(load_place(&back, "/signal/a", &column, &err), SS_EDATA);
     assert_non_null(strstr(err.text, ":/signal/none: no such dataset"));
     assert_null(back);
-    assert_int_equal(ss_store_read_signal(&back, path, NULL, &same, NULL), SS_OK);
+    assert_int_equal(ss_signal_load(&back, path, &same, NULL), SS_OK);
     ss_signal_free(back);
     ss_signal_free(signal);
 }
@@ -248,7 +248,7 @@ a_start_too_late_for_its_rate_is_refused(void **state)
     put_attribute("/signal", "start", 1e17);
     for (size_t i = 0; i < 2; i++) {
         ss_error err = { 0 };
-        assert_int_equal(ss_store_read_signal(&back, path, dataset[i], NULL, &err), SS_EDATA);
+        assert_int_equal(load_place(&back, dataset[i], NULL, &err), SS_EDATA);
         assert_non_null(strstr(err.text, "starts at 1e+17 s has equal time stamps"));
     }
     signal->head->start = 1e17;
@@ -323,7 +323,7 @@ assert_timed(const char *time, const char *unit, size_t n, double start)
     const ss_read_opts opts = { .time = time, .time_unit = unit };
     ss_signal *signal = NULL;
     ss_error err = { 0 };
-    if (ss_store_read_signal(&signal, path, "/daq/ch0/x", &opts, &err) != SS_OK)
+    if (load_place(&signal, "/daq/ch0/x", &opts, &err) != SS_OK)
         fail_msg("%s: %s", time, err.text);
     assert_true(signal->head->rate == 800);
     assert_true(fabs(signal->head->start - start) <= 1e-5);
@@ -377,7 +377,7 @@ times_of_a_dataset_are_checked_as_those_of_text(void **state)
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         ss_signal *signal = NULL;
         ss_error err = { 0 };
-        ss_status st = ss_store_read_signal(&signal, path, "/daq/ch0/x", &row[i].opts, &err);
+        ss_status st = load_place(&signal, "/daq/ch0/x", &row[i].opts, &err);
         if (st != row[i].status || strstr(err.text, row[i].words) == NULL)
             fail_msg("%s: %d: %s", row[i].opts.time, st, err.text);
         assert_int_equal(st == SS_OK ? signal->n : 0, row[i].n);
@@ -408,7 +408,7 @@ a_column_of_an_array_gives_its_clock(void **state)
         const ss_read_opts opts = { .time = time[i] };
         ss_signal *signal = NULL;
         ss_error err = { 0 };
-        if (ss_store_read_signal(&signal, path, "/data", &opts, &err) != SS_OK)
+        if (load_place(&signal, "/data", &opts, &err) != SS_OK)
             fail_msg("%s", err.text);
         assert_true(signal->head->rate == 50);
         assert_int_equal(signal->head->n_columns, 2);
@@ -429,7 +429,7 @@ attributes_that_are_no_notes_are_skipped(void **state)
     for (size_t i = 0; i < sizeof name / sizeof *name; i++)
         put_scalar(file, name[i], H5T_C_S1, "5");
     H5Fclose(file);
-    assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_OK);
+    assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
     assert_same_notes(signal->head, back->head);
     ss_signal_free(back);
     ss_signal_free(signal);
@@ -446,7 +446,7 @@ a_missing_signal_is_told_from_a_damaged_one(void **state)
     write_ok(&(ss_record){ .signal = signal });
     put_attribute("/signal", "rate", 0);
     assert_true(ss_store_has_signal(path));
-    assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, NULL), SS_EDATA);
+    assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_EDATA);
     ss_signal_free(signal);
 }
 

@@ -46,7 +46,7 @@ flipped_bits_are_refused_or_harmless(void **state)
         out = fopen(path, "wb");
         assert_int_equal(fwrite(bytes, 1, size, out), size);
         fclose(out);
-        if (ss_store_read_signal(&read, path, NULL, NULL, &err) != SS_OK)
+        if (ss_signal_load(&read, path, NULL, &err) != SS_OK)
             assert_true(read == NULL && err.text[0] != '\0');
         if (ss_store_read_coefficients(&back, path, &err) != SS_OK)
             assert_true(back == NULL && err.text[0] != '\0');
@@ -138,7 +138,7 @@ nothing_leads_out_of_a_file_or_claims_more_than_it_holds(void **state)
     write_hostile(other);
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         ss_signal *signal = NULL;
-        assert_int_equal(ss_store_read_signal(&signal, path, row[i].dataset, &opts, &err), SS_EDATA);
+        assert_int_equal(load_place(&signal, row[i].dataset, &opts, &err), SS_EDATA);
         assert_null(signal);
         assert_string_equal(err.text + strlen(path), row[i].words);
     }
@@ -187,7 +187,7 @@ assert_signal_refused(const char *words)
 {
     ss_signal *signal = NULL;
     ss_error err = { 0 };
-    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
+    assert_int_equal(ss_signal_load(&signal, path, NULL, &err), SS_EDATA);
     assert_null(signal);
     assert_string_equal(err.text + strlen(path), words);
 }
@@ -309,7 +309,7 @@ one_text_under_many_names_is_not_read_many_times(void **state)
         put_variable_text(file, name, (size_t)(SMALL + i), 'b');
     }
     H5Fclose(file);
-    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, NULL), SS_OK);
+    assert_int_equal(ss_signal_load(&signal, path, NULL, NULL), SS_OK);
     assert_int_equal(strlen(ss_header_find_note(signal->head, "large")), LARGE);
     assert_int_equal(strlen(ss_header_find_note(signal->head, "small7")), SMALL + 7);
     ss_signal_free(signal);
@@ -322,7 +322,7 @@ one_text_under_many_names_is_not_read_many_times(void **state)
     assert_int_equal(fwrite(bytes, 1, size, out), size);
     fclose(out);
     free(bytes);
-    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
+    assert_int_equal(ss_signal_load(&signal, path, NULL, &err), SS_EDATA);
     assert_null(signal);
     assert_string_equal(err.text + strlen(path), ":/: attributes claim more text than the file holds");
 }
@@ -345,15 +345,15 @@ the_list_of_arrays_ends_after_10000_objects(void **state)
     }
     put_array(file, "x", H5T_IEEE_F64LE, 6, H5P_DEFAULT);
     H5Fclose(file);
-    assert_int_equal(ss_store_read_signal(&signal, path, NULL, &opts, &err), SS_EDATA);
+    assert_int_equal(ss_signal_load(&signal, path, &opts, &err), SS_EDATA);
     assert_non_null(strstr(err.text, "no /signal in it; choose one as"));
     assert_non_null(strstr(err.text, " /x"));
     file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
     H5Gclose(H5Gcreate2(file, "group", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     H5Fclose(file);
-    assert_int_equal(ss_store_read_signal(&signal, path, NULL, &opts, &err), SS_EDATA);
+    assert_int_equal(ss_signal_load(&signal, path, &opts, &err), SS_EDATA);
     assert_string_equal(err.text + strlen(path), ": no /signal in it, nor any array of real numbers");
-    assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_OK);
+    assert_int_equal(load_place(&signal, "/x", &opts, &err), SS_OK);
     ss_signal_free(signal);
 }
 
@@ -374,7 +374,7 @@ groups_in_groups_are_not_followed_without_end(void **state)
     }
     H5Gclose(group);
     H5Fclose(file);
-    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, &err), SS_EDATA);
+    assert_int_equal(ss_signal_load(&signal, path, NULL, &err), SS_EDATA);
     assert_non_null(strstr(err.text, ":/PATH from /a ..."));
 }
 
@@ -394,7 +394,7 @@ many_columns_without_an_index_are_listed_at_once(void **state)
     }
     H5Gclose(group);
     H5Fclose(file);
-    assert_int_equal(ss_store_read_signal(&signal, path, NULL, NULL, NULL), SS_OK);
+    assert_int_equal(ss_signal_load(&signal, path, NULL, NULL), SS_OK);
     assert_int_equal(signal->head->n_columns, COLUMNS);
     assert_string_equal(signal->head->column[0].name, "x20000");
     assert_string_equal(signal->head->column[COLUMNS - 1].name, "x1");
@@ -423,7 +423,7 @@ the_sources_of_a_virtual_dataset_are_not_opened(void **state)
     H5Sclose(space);
     H5Fclose(file);
     for (int named = 0; named < 2; named++)
-        assert_int_equal(ss_store_read_signal(&signal, path, named ? "/x" : NULL, &opts, &err), SS_EDATA);
+        assert_int_equal(load_place(&signal, named ? "/x" : NULL, &opts, &err), SS_EDATA);
     assert_string_equal(err.text + strlen(path), ":/x: its values lie outside this file");
     unlink(fifo);
 }
@@ -460,13 +460,13 @@ only_filters_that_bound_what_they_make_are_run(void **state)
     (void)state;
     H5PLget_loading_state(&before);
     write_filtered(plain);
-    assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_OK);
+    assert_int_equal(load_place(&signal, "/x", &opts, &err), SS_OK);
     ss_signal_free(signal);
     for (int i = 0; i < 2; i++) {
         H5E_BEGIN_TRY {
             write_filtered(i == 0 ? twice : other);
         } H5E_END_TRY
-        assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_EDATA);
+        assert_int_equal(load_place(&signal, "/x", &opts, &err), SS_EDATA);
         assert_string_equal(err.text + strlen(path), ":/x: is packed otherwise than by deflate, once; "
                             "h5repack -f GZIP=1 makes it so");
     }
@@ -501,7 +501,7 @@ times_that_are_not_the_clock_are_refused(void **state)
             H5Sclose(space);
             H5Dclose(id);
             H5Fclose(file);
-            ss_status st = ss_store_read_signal(&back, path, NULL, NULL, &err);
+            ss_status st = ss_signal_load(&back, path, NULL, &err);
             assert_int_equal(st, !wrong || row[i].good ? SS_OK : SS_EDATA);
             snprintf(words, sizeof words, ":/signal/t: value %d is not start + %d / rate", (int)row[i].at + 1,
                      (int)row[i].at);
@@ -542,7 +542,7 @@ dimensions_are_multiplied_without_end(void **state)
         H5Sclose(space);
         H5Pclose(how);
         H5Fclose(file);
-        assert_int_equal(ss_store_read_signal(&signal, path, "/x", &opts, &err), SS_EDATA);
+        assert_int_equal(load_place(&signal, "/x", &opts, &err), SS_EDATA);
         assert_string_equal(err.text + strlen(path) + strlen(":/x: "), row[i].words);
     }
 }
@@ -595,7 +595,7 @@ names_that_are_packed_are_not_unpacked(void **state)
             ss_error err = { 0 };
             write_heap(row[i].name, 100, deflated);
             ss_status st = row[i].dataset == NULL ? ss_store_read_coefficients(&c, path, &err)
-                : ss_store_read_signal(&signal, path, row[i].dataset, &opts, &err);
+                : load_place(&signal, row[i].dataset, &opts, &err);
             assert_int_equal(st, !deflated && i < 2 ? SS_OK : SS_EDATA);
             int packed = strstr(err.text, ": names or attributes in it are packed by filters") != NULL;
             if (packed != deflated)
@@ -684,7 +684,7 @@ gaps_that_are_reversed_are_refused(void **state)
         ss_error err = { 0 };
         assert_int_equal(ss_header_note(signal->head, "gaps", note[i]), SS_OK);
         write_ok(&(ss_record){ .signal = signal });
-        assert_int_equal(ss_store_read_signal(&back, path, NULL, NULL, &err), SS_EDATA);
+        assert_int_equal(ss_signal_load(&back, path, NULL, &err), SS_EDATA);
         assert_non_null(strstr(err.text, "the note 'gaps' is not"));
         ss_signal_free(signal);
     }

@@ -68,7 +68,7 @@ double **tool_columns(size_t n, size_t rows);
 /* Read at most max rows, as ss_reader_rows does, or die.  Returns their number; 0 at the end. */
 size_t tool_rows(ss_reader *reader, double *const column[], size_t max);
 /* What tool_read_rows does for --resample, with a reader that was opened otherwise. */
-void tool_resample(ss_reader **reader, const char *path, const ss_read_opts *opts);
+void tool_resample(ss_reader *reader, const char *path, const ss_read_opts *opts);
 /* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
 ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
 /* Read coefficients from "-", a file or HDF5, or die. */

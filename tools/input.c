@@ -66,10 +66,10 @@ is_resampled(const ss_header *head, const char *path, const ss_read_opts *opts)
 }
 
 void
-tool_resample(ss_reader **reader, const char *path, const ss_read_opts *opts)
+tool_resample(ss_reader *reader, const char *path, const ss_read_opts *opts)
 {
     ss_error err = { 0 };
-    if (is_resampled(ss_reader_header(*reader), path, opts))
+    if (is_resampled(ss_reader_header(reader), path, opts))
         tool_check(ss_reader_resample(reader, opts->resample, &err), &err);
 }
 
@@ -82,7 +82,7 @@ tool_read_rows(const char *path, const ss_read_opts *opts)
         tool_check(ss_reader_new(&reader, stdin, "<stdin>", opts, &err), &err);
     else
         tool_check(ss_reader_load(&reader, path, opts, &err), &err);
-    tool_resample(&reader, path, opts);
+    tool_resample(reader, path, opts);
     return reader;
 }
 

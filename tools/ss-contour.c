@@ -124,12 +124,11 @@ find_trend(ss_reader *reader, double *const wanted[], const double *value, ss_de
 
 /* Draw rows as they come. */
 static void
-draw_rows(drawing *d, ss_reader **source)
+draw_rows(drawing *d, ss_reader *reader)
 {
     ss_error err = { 0 };
     if (d->detrend != SS_DETREND_NONE)
-        tool_check(ss_reader_keep(source, d->reading.opts.folder, &err), &err);
-    ss_reader *reader = *source;
+        tool_check(ss_reader_keep(reader, d->reading.opts.folder, &err), &err);
     const ss_header *head = ss_reader_header(reader);
     size_t column = open_overview(d, head), piece = ss_reader_piece(reader), n;
     double *x = tool_room(NULL, piece, sizeof *x), **wanted = tool_room(NULL, head->n_columns, sizeof *wanted);
@@ -163,8 +162,8 @@ draw_recording(drawing *d)
     int is_signal = st != SS_EKIND && !(st == SS_EDATA && s.st_size == 0);
     if (is_signal) {
         tool_check(st, &err);
-        tool_resample(&reader, d->path, &d->reading.opts);
-        draw_rows(d, &reader);
+        tool_resample(reader, d->path, &d->reading.opts);
+        draw_rows(d, reader);
     }
     ss_reader_free(reader);
     fclose(in);
@@ -186,7 +185,7 @@ open_input(drawing *d)
     ss_status st = ss_store_open_coefficients(&d->own, tool_reads(d->path), &err);
     if (st == SS_EKIND) {
         ss_reader *reader = tool_read_rows(d->path, &d->reading.opts);
-        draw_rows(d, &reader);
+        draw_rows(d, reader);
         ss_reader_free(reader);
         return;
     }

@@ -158,7 +158,7 @@ change_rows(tool_kind kind, ss_noise *noise)
     char text[128];
     ss_error err = { 0 };
     if (!isnan(snr))
-        tool_check(ss_reader_keep(&reader, reading.opts.folder, &err), &err);
+        tool_check(ss_reader_keep(reader, reading.opts.folder, &err), &err);
     ss_header *head = ss_header_copy(ss_reader_header(reader));
     if (head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));

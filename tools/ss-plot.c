@@ -231,7 +231,7 @@ open_signal(const char *path, const ss_read_opts *reading, int is_read_again)
     ss_error err = { 0 };
     ss_reader *reader = tool_read_rows(path, reading);
     if (is_read_again)
-        tool_check(ss_reader_keep(&reader, reading->folder, &err), &err);
+        tool_check(ss_reader_keep(reader, reading->folder, &err), &err);
     return reader;
 }
 

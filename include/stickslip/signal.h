@@ -148,14 +148,14 @@ size_t ss_reader_piece(const ss_reader *reader);
 int ss_reader_waits(const ss_reader *reader);
 void ss_reader_free(ss_reader *reader);         /* NULL is allowed */
 
-/* Make *reader, which is at its first row, give its rows at another rate [Hz], as ss_signal_resample has them,
- * in constant memory.  A failure leaves it as it is.  Reading fails where there is but one row. */
-ss_status ss_reader_resample(ss_reader **reader, double rate, ss_error *err);
+/* Make a reader that is at its first row give its rows at another rate [Hz], as ss_signal_resample has them,
+ * in constant memory.  Reading fails where there is but one row. */
+ss_status ss_reader_resample(ss_reader *reader, double rate, ss_error *err);
 
-/* Let *reader, which is at its first row, go back there.  A source that cannot is read to its end; more
- * than 2^18 numbers of it are kept in a temporary file, in this folder (NULL: see ss_read_opts).  A failure
- * leaves *reader to be freed. */
-ss_status ss_reader_keep(ss_reader **reader, const char *folder, ss_error *err);
+/* Let a reader that is at its first row go back there.  A source that cannot is read to its end; more than
+ * 2^18 numbers of it are kept in a temporary file, in this folder (NULL: see ss_read_opts).  After a failure
+ * it can only be freed. */
+ss_status ss_reader_keep(ss_reader *reader, const char *folder, ss_error *err);
 /* Go back to the first row.  SS_EINVAL: it cannot. */
 ss_status ss_reader_rewind(ss_reader *reader, ss_error *err);
 

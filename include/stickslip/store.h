@@ -67,24 +67,18 @@ int ss_store_is_hdf5(const char *path);
 /* 1 if the file is HDF5 and has a /signal, damaged or not. */
 int ss_store_has_signal(const char *path);
 
-/* Open /signal of a file that this library wrote (dataset is NULL or ""), or the real dataset of
- * one or two dimensions whose path in the file is dataset, for example in a MATLAB v7.3 file.  In
- * a dataset of two dimensions the columns are the shorter one.
- *
- * A dataset takes its clock from opts->rate.  /signal has its own clock; SS_EDATA: opts ask for
- * another.  The reader reads chunk by chunk, in memory that does not grow with the number of rows.
- * If gaps are to be filled, it reads all rows twice, and its memory grows with the gaps. */
-ss_status ss_store_signal_reader(ss_reader **out, const char *path, const char *dataset,
-                                 const ss_read_opts *opts, ss_error *err);
-/* The simple case: all rows of it. */
-ss_status ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
-                               const ss_read_opts *opts, ss_error *err);
 /* Read all of /wavelet.  The caller frees *out with ss_coefficients_free. */
 ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err);
 
 /* Read its grid alone.  The file stays open until *out is freed: ss_map_read reads coefficients from it,
  * in the memory of one scale. */
 ss_status ss_store_open_coefficients(ss_coefficients **out, const char *path, ss_error *err);
+
+/* All of this that needs the HDF5 library, as one table.  A program that is linked with the static library may
+ * define this function itself: to open the shared library when a file needs it, and return what the function there
+ * returns.  NULL, with the reason in *err: there is none. */
+struct ss_store_calls;
+const struct ss_store_calls *ss_store_calls(ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

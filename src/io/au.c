@@ -9,10 +9,8 @@
 #include <string.h>
 #include "base/error.h"
 #include "signal/header.h"
-#include "io/table/clock.h"
 #include "io/format.h"
 #include "io/frames.h"
-#include "io/reader.h"
 
 /* A header within these limits is accepted; its annotation follows the fixed part. */
 enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
@@ -63,31 +61,35 @@ whole_rate(double rate)
 }
 
 static ss_status
-make_header(ss_reader *reader, char *annotation, uint32_t rate, size_t channels, ss_error *err)
+make_header(ss_source *s, ss_kind kind, char *annotation, uint32_t rate, size_t channels, ss_error *err)
 {
     ss_header *head;
     const char *reason = "";
-    ss_status st = read_annotation(&head, ss_kind_magic(reader->kind), annotation, &reason);
+    ss_status st = read_annotation(&head, ss_kind_magic(kind), annotation, &reason);
     if (st == SS_EDATA)
-        return ss_fail(err, st, "%s: AU annotation: %s", reader->in.name, reason);
+        return ss_fail(err, st, "%s: AU annotation: %s", s->name, reason);
     if (st != SS_OK)
-        return ss_fail_memory(err, reader->in.name);
+        return ss_fail_memory(err, s->name);
     if (head != NULL && head->n_columns == channels) {
-        ss_header_free(reader->head);
-        reader->head = head;
+        ss_header_free(s->head);
+        s->head = head;
     } else {
         ss_header_free(head);
-        st = ss_frames_columns(reader->head, channels);
+        st = ss_frames_columns(s->head, channels);
     }
-    if (!(reader->head->rate > 0) || whole_rate(reader->head->rate) != rate)
-        reader->head->rate = rate;
-    return st == SS_OK ? st : ss_fail_memory(err, reader->in.name);
+    if (!(s->head->rate > 0) || whole_rate(s->head->rate) != rate)
+        s->head->rate = rate;
+    return st == SS_OK ? st : ss_fail_memory(err, s->name);
 }
 
 static ss_status
-open_au(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+open_au(ss_source **out, const struct opening *o, ss_error *err)
 {
-    struct input *in = &reader->in;
+    struct input *in = o->in;
+    struct frames *f = ss_frames_new(in, err);
+    if (f == NULL)
+        return SS_ENOMEM;
+    *out = &f->base;
     ss_status st = ss_input_need(in, FIXED_HEADER, err);
     if (st != SS_OK)
         return st;
@@ -115,22 +117,19 @@ open_au(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
         return ss_fail(err, SS_EDATA, "%s: truncated AU annotation", in->name);
 
     char *annotation = strndup(in->buffer + in->lo + FIXED_HEADER, offset - FIXED_HEADER);
-    if (annotation != NULL
-        && ss_fail_kind(err, in->name, annotation, strlen(annotation), reader->kind) != SS_OK) {
-        free(annotation);
-        return SS_EKIND;
-    }
-    st = annotation != NULL ? make_header(reader, annotation, field[4], channels, err)
-        : ss_fail_memory(err, in->name);
+    st = annotation == NULL ? ss_fail_memory(err, in->name)
+        : ss_fail_kind(err, in->name, annotation, strlen(annotation), o->kind);
+    if (st == SS_OK)
+        st = make_header(&f->base, o->kind, annotation, field[4], channels, err);
     free(annotation);
     if (st != SS_OK)
         return st;
     in->lo += offset;
     /* a program that meant to fill in the size at the end leaves 0 */
-    ss_frames_begin(reader, (sample_type){ .bytes = width[encoding],
-                                           .is_float = encoding >= ENCODING_FLOAT },
-                    size == UNKNOWN_SIZE || size == 0 ? UINT64_MAX : size, (uint64_t)offset + size);
-    return ss_refuse_clock(in->name, reader->head->rate, opts, err);
+    f->type = (sample_type){ .bytes = width[encoding], .is_float = encoding >= ENCODING_FLOAT };
+    f->bytes_left = size == UNKNOWN_SIZE || size == 0 ? UINT64_MAX : size;
+    f->end = (uint64_t)offset + size;
+    return ss_refuse_clock(in->name, f->base.head->rate, o->opts, err);
 }
 
 /* --- writing ------------------------------------------------------------------------------- */

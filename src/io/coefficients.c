@@ -25,7 +25,8 @@ typedef struct part {
 } part;
 
 typedef struct coefficient_reader {
-    ss_reader in;               /* must be the first member */
+    ss_reader *in;
+    unsigned long row;          /* of AU, the one that is read */
     ss_error *err;
     ss_coefficients *coef;      /* its n is 0 until the length is known */
     ss_morlet_opts opts;        /* the options that determine the grid */
@@ -42,13 +43,13 @@ static ss_status
 refuse(const coefficient_reader *r, const char *format, ...)
 {
     char why[256];
-    unsigned long line = r->in.in.line;
+    unsigned long line = r->in->source->line;
     va_list args;
     va_start(args, format);
     ss_print_text(why, sizeof why, format, args);
     va_end(args);
-    return ss_fail(r->err, SS_EDATA, "%s:%s%lu: %s", r->in.in.name, line > 0 ? "" : " row ",
-                   line > 0 ? line : (unsigned long)r->in.row, why);
+    return ss_fail(r->err, SS_EDATA, "%s:%s%lu: %s", r->in->source->name, line > 0 ? "" : " row ",
+                   line > 0 ? line : r->row, why);
 }
 
 /* --- header */
@@ -57,14 +58,14 @@ refuse(const coefficient_reader *r, const char *format, ...)
 static ss_status
 copy_header(coefficient_reader *r)
 {
-    const ss_header *head = r->in.head;
+    const ss_header *head = r->in->source->head;
     int known = head->n_columns == COEFFICIENT_COLUMNS && !head->has_time;
     for (size_t i = 0; known && i < COEFFICIENT_COLUMNS; i++)
         known = strcmp(head->column[i].name, ss_coefficient_columns[i][0]) == 0
             && strcmp(head->column[i].unit, ss_coefficient_columns[i][1]) == 0;
     if (!known)
         return ss_fail_wanted(ss_fail(r->err, SS_EKIND, "%s: the columns are not those of wavelet "
-                                      "coefficients, m a/s b/s f/Hz re im edge", r->in.in.name),
+                                      "coefficients, m a/s b/s f/Hz re im edge", r->in->source->name),
                               SS_KIND_COEFFICIENTS, r->err);
     ss_status st = ss_header_select(&r->coef->head, head, NULL, 0, 0);
     if (st == SS_OK)
@@ -77,7 +78,7 @@ required(const coefficient_reader *r, const char *key, const char **value)
 {
     *value = ss_header_find_note(r->coef->head, key);
     if (*value == NULL || **value == '\0')
-        return ss_fail(r->err, SS_EDATA, "%s: no line '# %s: ...'", r->in.in.name, key);
+        return ss_fail(r->err, SS_EDATA, "%s: no line '# %s: ...'", r->in->source->name, key);
     return SS_OK;
 }
 
@@ -91,7 +92,7 @@ required_number(const coefficient_reader *r, const char *key, double hi, double 
         return st;
     *x = ss_number_parse(value, &end);
     if (end == value || *end != '\0' || !(*x > 0 && *x <= hi))
-        return ss_fail(r->err, SS_EDATA, "%s: '# %s: %s' is out of range", r->in.in.name, key,
+        return ss_fail(r->err, SS_EDATA, "%s: '# %s: %s' is out of range", r->in->source->name, key,
                        value);
     return SS_OK;
 }
@@ -108,7 +109,7 @@ static ss_status
 read_options(coefficient_reader *r)
 {
     ss_coefficients *coef = r->coef;
-    const char *column, *unit, *name = r->in.in.name;
+    const char *column, *unit, *name = r->in->source->name;
     double samples = 0, voices;
     ss_status st;
     r->opts = ss_morlet_defaults;
@@ -264,13 +265,13 @@ set_length(coefficient_reader *r, double samples)
 
 /* A line "# samples: N" among the rows ends a stream. */
 static ss_status
-read_late_note(ss_reader *in, char *line, ss_error *err)
+read_late_note(void *reader, char *line, ss_error *err)
 {
     static const char length[] = "# samples: ";
     (void)err;
     if (strncmp(line, length, sizeof length - 1) != 0)
         return SS_OK;
-    return set_length((coefficient_reader *)in, ss_number_parse(line + sizeof length - 1, NULL));
+    return set_length(reader, ss_number_parse(line + sizeof length - 1, NULL));
 }
 
 /* In AU, a row at scale 0 ends a stream: its b is the time of the last sample. */
@@ -283,7 +284,8 @@ read_rows_of_scales(coefficient_reader *r)
     double *column[COEFFICIENT_COLUMNS];
     for (int c = 0; c < COEFFICIENT_COLUMNS; c++)
         column[c] = &row[c];
-    while ((st = ss_reader_rows(&r->in, column, 1, &n, r->err)) == SS_OK && n > 0) {
+    while ((st = ss_reader_rows(r->in, column, 1, &n, r->err)) == SS_OK && n > 0) {
+        r->row++;
         st = row[1] == 0 ? set_length(r, rint(row[2] * r->coef->head->rate) + 1) : append_row(r, row);
         if (st != SS_OK)
             return st;
@@ -306,7 +308,7 @@ assemble(coefficient_reader *r)
     ss_coefficients *coef = r->coef;
     size_t total = 0;
     if (r->n_parts == 0)
-        return ss_fail(r->err, SS_EDATA, "%s: a header without coefficients", r->in.in.name);
+        return ss_fail(r->err, SS_EDATA, "%s: a header without coefficients", r->in->source->name);
     if (coef->n == 0)
         return refuse(r, "cut short: a stream ends with its number of samples");
     for (size_t i = 0; i < r->n_parts; i++) {
@@ -336,7 +338,9 @@ assemble(coefficient_reader *r)
 static ss_status
 read_all(coefficient_reader *r, FILE *in, const char *name)
 {
-    ss_status st = ss_reader_open(&r->in, in, name, SS_KIND_COEFFICIENTS, NULL, r->err);
+    static const ss_read_opts opts;
+    struct opening o = { .opts = &opts, .kind = SS_KIND_COEFFICIENTS, .late_note = read_late_note, .user = r };
+    ss_status st = ss_reader_open(&r->in, in, name, &o, r->err);
     if (st != SS_OK)
         return st;
     r->coef = calloc(1, sizeof *r->coef);
@@ -355,7 +359,7 @@ read_all(coefficient_reader *r, FILE *in, const char *name)
 ss_status
 ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err)
 {
-    coefficient_reader r = { .in = { .late_note = read_late_note }, .err = err };
+    coefficient_reader r = { .err = err };
     if (out == NULL || in == NULL || name == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = read_all(&r, in, name);
@@ -363,7 +367,7 @@ ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error
         free(r.part[i].w);
     free(r.part);
     free(r.part_of);
-    ss_reader_close(&r.in);
+    ss_reader_free(r.in);
     if (st == SS_OK)
         *out = r.coef;
     else

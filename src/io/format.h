@@ -1,4 +1,4 @@
-/* format.h -- the formats in which signals and rows are read and written.
+/* format.h -- the formats in which signals, coefficients and rows are read and written.
  *
  * A new format needs a file that defines such a table, and a row in the list below. */
 #ifndef FORMAT_H
@@ -7,18 +7,36 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stickslip/signal.h>
+#include "io/input.h"
+#include "signal/source.h"
+
+/* A stream that is opened. */
+struct opening {
+    struct input *in;           /* outlives the ss_source */
+    const ss_read_opts *opts;   /* of the call alone */
+    ss_kind kind;               /* a signal, or wavelet coefficients */
+    /* Takes a line "# ..." that stands among the rows; NULL: it is passed over. */
+    ss_status (*late_note)(void *user, char *line, ss_error *err);
+    void *user;
+};
 
 struct format {
     const char *name;           /* "au": the name for users; a file's ending is a dot and this */
 
-    /* To read a signal: the bytes with which it begins, where "?" is any byte; NULL: this format
-     * is tried last. */
+    /* To read a stream: the bytes with which it begins, where "?" is any byte; NULL: this format is tried
+     * last.  *out must be set, or be NULL, even after a failure; the caller frees it. */
     const char *magic;
     int has_header;             /* 1: it begins with our header, whose first line names the kind, so that it
                                    may hold coefficients too */
-    ss_status (*open)(ss_reader *reader, const ss_read_opts *opts, ss_error *err);  /* or NULL */
+    ss_status (*open)(ss_source **out, const struct opening *o, ss_error *err);        /* or NULL */
 
-    /* To write numbers: begin a file with a header whose first line is magic; NULL: it is not written. */
+    /* To read what only its path opens: is the file at path of this format?  place: of a signal in it, or
+     * NULL. */
+    int (*is_file)(const char *path);
+    ss_status (*open_file)(ss_source **out, const char *path, const char *place, const ss_read_opts *opts,
+                           ss_error *err);
+
+    /* To write numbers: begin a file with a header whose first line is magic; NULL: no stream is written. */
     ss_status (*begin)(FILE *out, const ss_header *head, const char *magic, ss_error *err);
     /* Write a cell of at most SS_NUMBER_MAX bytes; last: 1 if it ends its row.  Returns its length. */
     size_t (*number)(char *to, double x, int last);
@@ -34,6 +52,7 @@ struct format {
     row(tsv) \
     row(au) \
     row(delimited) \
+    row(hdf5) \
     row(wav) \
     row(npy)
 
@@ -41,10 +60,16 @@ struct format {
 FORMAT_LIST(FORMAT_DECLARATION)
 #undef FORMAT_DECLARATION
 
-/* The table of a format that can be written, or NULL. */
+/* The table of a format in which streams are written, or NULL. */
 const struct format *ss_format_table(ss_format of);
-/* The format of a signal that begins with these n bytes. */
-const struct format *ss_format_of_bytes(const char *bytes, size_t n);
-enum { FORMAT_BYTES = 12 };     /* the longest magic */
+/* Open a stream in the format that its first bytes show. */
+ss_status ss_format_open(ss_source **out, const struct opening *o, ss_error *err);
+/* The format of a file that only its path opens; NULL: it is a stream, or there is none. */
+const struct format *ss_format_of_file(const char *path);
+
+/* Refuse an option for delimited text alone. */
+ss_status ss_refuse_table(const char *name, const ss_read_opts *opts, ss_error *err);
+/* Refuse it, and options for input without a clock; this input has the rate own. */
+ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
 
 #endif

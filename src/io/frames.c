@@ -44,30 +44,30 @@ decode(const unsigned char *p, sample_type type)
 }
 
 static ss_status
-refuse_end(const ss_reader *reader, size_t frame, size_t rest, ss_error *err)
+refuse_end(const struct frames *f, size_t frame, size_t rest, ss_error *err)
 {
-    unsigned long long row = reader->row;
+    unsigned long long row = f->row;
     if (rest > 0)
         return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu bytes of row %llu",
-                       reader->in.name, rest, frame, row + 1);
+                       f->in->name, rest, frame, row + 1);
     return ss_fail(err, SS_EDATA, "%s: truncated: ends after row %llu, %llu bytes before the end "
-                   "that its header gives", reader->in.name, row,
-                   (unsigned long long)reader->bytes_left);
+                   "that its header gives", f->in->name, row,
+                   (unsigned long long)f->bytes_left);
 }
 
 static ss_status
-decode_row(ss_reader *reader, const char *p, double *const column[], size_t at, ss_error *err)
+decode_row(struct frames *f, const char *p, double *const column[], size_t at, ss_error *err)
 {
-    for (size_t c = 0; c < reader->head->n_columns; c++) {
-        double x = decode((const unsigned char *)p + c * reader->type.bytes, reader->type);
+    for (size_t c = 0; c < f->base.head->n_columns; c++) {
+        double x = decode((const unsigned char *)p + c * f->type.bytes, f->type);
         if (column[c] != NULL)
             column[c][at] = x;
         if (!isfinite(x))
             return ss_fail(err, SS_EDATA, "%s: row %llu, column %s: not a finite number",
-                           reader->in.name, (unsigned long long)reader->row + 1,
-                           reader->head->column[c].name);
+                           f->in->name, (unsigned long long)f->row + 1,
+                           f->base.head->column[c].name);
     }
-    reader->row++;
+    f->row++;
     return SS_OK;
 }
 
@@ -82,21 +82,21 @@ names_chunk(const char *name)
 }
 
 static ss_status
-refuse_rest(const ss_reader *reader, ss_error *err)
+refuse_rest(const struct frames *f, ss_error *err)
 {
     return ss_fail(err, SS_EDATA, "%s: goes on after the %llu row%s that its header gives; head -c %llu "
-                   "cuts it there", reader->in.name, (unsigned long long)reader->row,
-                   PLURAL(reader->row), (unsigned long long)reader->end);
+                   "cuts it there", f->in->name, (unsigned long long)f->row,
+                   PLURAL(f->row), (unsigned long long)f->end);
 }
 
 /* Skip chunks up to the end of the file.  Each has four letters, a length and so many bytes, as samples
  * hardly ever do.  The byte that makes an odd length even may be missing at the end. */
 static ss_status
-skip_chunks(ss_reader *reader, ss_error *err)
+skip_chunks(struct frames *f, ss_error *err)
 {
     enum { CHUNK_HEADER = 8 };
-    struct input *in = &reader->in;
-    for (uint64_t left = reader->end % 2;;) {
+    struct input *in = f->in;
+    for (uint64_t left = f->end % 2;;) {
         ss_status st = ss_input_skip(in, &left, err);
         if (st == SS_OK)
             st = ss_input_need(in, CHUNK_HEADER, err);
@@ -104,7 +104,7 @@ skip_chunks(ss_reader *reader, ss_error *err)
             return st;
         const unsigned char *p = (const unsigned char *)in->buffer + in->lo;
         if (in->hi - in->lo < CHUNK_HEADER || !names_chunk((const char *)p))
-            return refuse_rest(reader, err);
+            return refuse_rest(f, err);
         left = p[4] | (uint64_t)p[5] << 8 | (uint64_t)p[6] << 16 | (uint64_t)p[7] << 24;
         left += left % 2;
         in->lo += CHUNK_HEADER;
@@ -114,40 +114,56 @@ skip_chunks(ss_reader *reader, ss_error *err)
 /* SS_EDATA if bytes other than chunks follow the data: then either they or the length that the header gives
  * is wrong. */
 static ss_status
-refuse_more(ss_reader *reader, ss_error *err)
+refuse_more(struct frames *f, ss_error *err)
 {
-    struct input *in = &reader->in;
-    if (reader->is_chunk)
-        return skip_chunks(reader, err);
+    struct input *in = f->in;
+    if (f->is_chunk)
+        return skip_chunks(f, err);
     ss_status st = ss_input_need(in, 1, err);
-    return st == SS_OK && in->hi > in->lo ? refuse_rest(reader, err) : st;
+    return st == SS_OK && in->hi > in->lo ? refuse_rest(f, err) : st;
 }
 
 static ss_status
-read_frames(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
+give_frames(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
-    struct input *in = &reader->in;
-    size_t frame = reader->head->n_columns * reader->type.bytes;
-    for (; *n < max && reader->bytes_left > 0; ++*n) {
+    struct frames *f = (struct frames *)s;
+    struct input *in = f->in;
+    size_t frame = s->head->n_columns * f->type.bytes;
+    for (; *n < max && f->bytes_left > 0; ++*n) {
         if (*n > 0 && in->hi - in->lo < frame)
             break;
         ss_status st = ss_input_need(in, frame, err);
         if (st != SS_OK)
             return st;
         size_t there = in->hi - in->lo;
-        if (there == 0 && reader->bytes_left == UINT64_MAX)
+        if (there == 0 && f->bytes_left == UINT64_MAX)
             break;
-        if (there < frame || reader->bytes_left < frame)
-            return refuse_end(reader, frame, reader->bytes_left < there
-                              ? (size_t)reader->bytes_left : there, err);
-        st = decode_row(reader, in->buffer + in->lo, column, *n, err);
+        if (there < frame || f->bytes_left < frame)
+            return refuse_end(f, frame, f->bytes_left < there ? (size_t)f->bytes_left : there, err);
+        st = decode_row(f, in->buffer + in->lo, column, *n, err);
         if (st != SS_OK)
             return st;
         in->lo += frame;
-        if (reader->bytes_left != UINT64_MAX)
-            reader->bytes_left -= frame;
+        if (f->bytes_left != UINT64_MAX)
+            f->bytes_left -= frame;
     }
-    return *n == 0 && reader->bytes_left == 0 && reader->end > 0 ? refuse_more(reader, err) : SS_OK;
+    return *n == 0 && f->bytes_left == 0 && f->end > 0 ? refuse_more(f, err) : SS_OK;
+}
+
+static int
+waits(const ss_source *s)
+{
+    return ss_input_waits(((const struct frames *)s)->in);
+}
+
+struct frames *
+ss_frames_new(struct input *in, ss_error *err)
+{
+    static const struct source_calls calls = { .next = give_frames, .waits = waits };
+    struct frames *f = ss_source_new(sizeof *f, &calls, in->name, err);
+    if (f != NULL)
+        f->in = in;
+    return f;
 }
 
 ss_status
@@ -160,13 +176,4 @@ ss_frames_columns(ss_header *head, size_t n)
         st = ss_header_add_column(head, name, "");
     }
     return st;
-}
-
-void
-ss_frames_begin(ss_reader *reader, sample_type type, uint64_t bytes, uint64_t end)
-{
-    reader->type = type;
-    reader->bytes_left = bytes;
-    reader->end = end;
-    reader->rows = read_frames;
 }

@@ -1,79 +1,12 @@
-/* load.c -- open a file that holds any kind of signal or the measured base of a scene. */
+/* load.c -- read the measured base of a scene. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <stickslip/load.h>
-#include <stickslip/store.h>
 #include "base/error.h"
 #include "scene/model.h"
-#include "io/reader.h"
-
-static void
-close_file(ss_reader *reader)
-{
-    fclose(reader->source);
-}
-
-static ss_status
-open_stream(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err)
-{
-    struct stat st;
-    FILE *in = fopen(path, "rb");
-    if (in == NULL)
-        return ss_fail_errno(err, path, errno);
-    ss_status status = fstat(fileno(in), &st) == 0 && S_ISDIR(st.st_mode)
-                       ? ss_fail_errno(err, path, EISDIR)
-                       : ss_reader_new(out, in, path, opts, err);
-    if (status != SS_OK) {
-        fclose(in);
-        return status;
-    }
-    (*out)->source = in;
-    (*out)->close = close_file;
-    return SS_OK;
-}
-
-ss_status
-ss_reader_load(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err)
-{
-    struct stat st;
-    if (out == NULL || path == NULL)
-        return SS_FAIL_NULL(err);
-    if (ss_store_is_hdf5(path))
-        return ss_store_signal_reader(out, path, NULL, opts, err);
-    const char *colon = strstr(path, ":/");
-    if (colon == NULL || stat(path, &st) == 0)
-        return open_stream(out, path, opts, err);
-    char *file = strndup(path, (size_t)(colon - path));
-    if (file == NULL)
-        return ss_fail_memory(err, path);
-    ss_status status = ss_store_is_hdf5(file)
-                       ? ss_store_signal_reader(out, file, colon + 1, opts, err)
-                       : stat(file, &st) != 0
-                       ? ss_fail_errno(err, file, errno)
-                       : ss_fail(err, SS_EDATA, "%s: not an HDF5 file, so '%s' is not in it", file,
-                                 colon + 1);
-    free(file);
-    return status;
-}
-
-ss_status
-ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err)
-{
-    ss_reader *reader;
-    if (out == NULL || path == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status status = ss_reader_load(&reader, path, opts, err);
-    if (status != SS_OK)
-        return status;
-    status = ss_reader_all(out, reader, err);
-    ss_reader_free(reader);
-    return status;
-}
-
-/* --- a measured base ------------------------------------------------------------------------ */
 
 /* POSIX's cksum: the CRC of the bytes and of their number, whose lowest byte comes first. */
 static unsigned long

@@ -5,13 +5,13 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/columns.h"
 #include "base/error.h"
 #include "base/list.h"
 #include "signal/header.h"
-#include "io/table/clock.h"
-#include "io/table/delimited.h"
-#include "io/format.h"
 #include "io/frames.h"
+#include "io/table/sheet.h"
+#include "io/table/text.h"
 
 enum {
     MAGIC_BYTES = 8, HEADER_MOST = 1 << 20, RECORD_MOST = 1 << 20,
@@ -239,122 +239,99 @@ read_record(struct input *in, const struct npy *a, uint64_t at, double *value, s
 
 /* Give the table its columns. */
 static ss_status
-name_columns(struct table *t, const struct npy *a, ss_error *err)
+name_columns(struct sheet *t, const struct npy *a)
 {
     char number[32];
     ss_status st = SS_OK;
     t->n_columns = a->columns;
     t->named = a->named;
     t->column = calloc(a->columns, sizeof *t->column);
-    for (size_t c = 0; t->column != NULL && st == SS_OK && c < a->columns; c++) {
+    for (size_t c = 0; st == SS_OK && c < a->columns; c++) {
         snprintf(number, sizeof number, "ch%zu", c + 1);
         const char *name = a->named ? a->field[c].name : "";
         st = ss_header_add_column(t->names, *name != '\0' ? name : number, "");
     }
-    return t->column != NULL && st == SS_OK ? SS_OK : ss_delimited_no_memory(t, err);
+    return t->column != NULL ? st : SS_ENOMEM;
 }
 
+/* Keep all values of an array whose columns follow each other in the file. */
 static ss_status
-read_by_rows(struct table *t, const struct npy *a, ss_error *err)
+keep_values(struct input *in, const struct npy *a, struct kept *value, ss_error *err)
 {
-    ss_status st = SS_OK;
-    double *row;
-    for (uint64_t i = 0; st == SS_OK && i < a->rows; i++) {
-        st = ss_delimited_begin_numbers(t, i, &row, err);
-        for (size_t c = 0; st == SS_OK && c < a->columns; c += a->n_fields)
-            st = read_record(t->in, a, i * a->columns + c, row + c, err);
-        if (st == SS_OK)
-            st = ss_delimited_add_numbers(t, i, row, err);
-    }
-    return st;
-}
-
-/* Add the rows of an array whose columns follow each other in the file.  All its values are kept. */
-static ss_status
-add_rows(struct table *t, const struct npy *a, struct kept *value, ss_error *err)
-{
-    size_t piece = 1 + PIECE / a->columns;
-    double *x = malloc(piece * a->columns * sizeof *x), *row;
-    ss_status st = x != NULL ? SS_OK : ss_delimited_no_memory(t, err);
-    for (size_t first = 0, n; st == SS_OK && first < a->rows; first += n) {
-        n = a->rows - first < piece ? a->rows - first : piece;
-        for (size_t c = 0; st == SS_OK && c < a->columns; c++)
-            st = ss_kept_copy(value, c * a->rows + first, n, x + c * n, err);
-        for (size_t i = 0; st == SS_OK && i < n; i++) {
-            st = ss_delimited_begin_numbers(t, first + i, &row, err);
-            for (size_t c = 0; st == SS_OK && c < a->columns; c++)
-                row[c] = x[c * n + i];
-            if (st == SS_OK)
-                st = ss_delimited_add_numbers(t, first + i, row, err);
-        }
-    }
-    free(x);
-    return st;
-}
-
-static ss_status
-read_by_columns(struct table *t, const struct npy *a, ss_error *err)
-{
-    struct kept value = { .name = NULL };
     double *x;
     ss_status st = SS_OK;
-    ss_kept_begin(&value, t->in->name, t->opts->folder, 1);
     for (uint64_t i = 0; st == SS_OK && i < a->rows * a->columns; i++) {
-        st = ss_kept_new(&value, &x, err);
+        st = ss_kept_new(value, &x, err);
         if (st == SS_OK)
-            st = read_record(t->in, a, i, x, err);
+            st = read_record(in, a, i, x, err);
         if (st == SS_OK)
-            ss_kept_add(&value);
+            ss_kept_add(value);
     }
-    if (st == SS_OK)
-        st = ss_kept_end(&value, err);
-    if (st == SS_OK)
-        st = add_rows(t, a, &value, err);
+    return st == SS_OK ? ss_kept_end(value, err) : st;
+}
+
+/* Read the rows, piece by piece. */
+static ss_status
+fill_table(struct sheet *t, struct input *in, const struct npy *a, ss_error *err)
+{
+    size_t piece = 1 + PIECE / a->columns;
+    double **column = ss_columns_new(a->columns, piece), *record = malloc(a->n_fields * sizeof *record);
+    struct kept value = { .name = NULL };
+    ss_kept_begin(&value, in->name, t->opts->folder, 1);
+    ss_status st = column == NULL || record == NULL ? SS_ENOMEM : a->fortran ? keep_values(in, a, &value, err) : SS_OK;
+    for (size_t first = 0, n; st == SS_OK && first < a->rows; first += n) {
+        n = a->rows - first < piece ? a->rows - first : piece;
+        for (size_t c = 0; st == SS_OK && a->fortran && c < a->columns; c++)
+            st = ss_kept_copy(&value, c * a->rows + first, n, column[c], err);
+        for (size_t i = 0; !a->fortran && i < n; i++)
+            for (size_t c = 0; st == SS_OK && c < a->columns; c += a->n_fields) {
+                st = read_record(in, a, (first + i) * a->columns + c, record, err);
+                for (size_t f = 0; f < a->n_fields; f++)
+                    column[c + f][i] = record[f];
+            }
+        if (st == SS_OK)
+            st = ss_sheet_add_columns(t, column, first, n, err);
+    }
     ss_kept_free(&value);
-    return st;
+    free(column);
+    free(record);
+    return st == SS_OK ? ss_kept_end(&t->rows, err) : st;
 }
 
 static ss_status
-fill_table(struct table *t, const struct npy *a, ss_error *err)
+open_npy(ss_source **out, const struct opening *o, ss_error *err)
 {
-    struct input *in = t->in;
-    ss_status st = name_columns(t, a, err);
-    if (st != SS_OK)
-        return st;
-    ss_delimited_begin_rows(t);
-    st = a->fortran ? read_by_columns(t, a, err) : read_by_rows(t, a, err);
-    if (st == SS_OK)
-        st = ss_input_need(in, 1, err);
-    if (st == SS_OK && in->hi > in->lo)
-        return ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", in->name,
-                       a->rows * a->columns);
-    return st;
-}
-
-static ss_status
-open_npy(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
-{
-    struct input *in = &reader->in;
-    struct table *t = ss_delimited_new(reader, opts);
+    struct input *in = o->in;
+    struct sheet t = { .names = NULL };
     struct npy a = { .field = NULL };
     char *text = NULL;
-    if (t == NULL)
-        return ss_fail_memory(err, in->name);
-    ss_status st = ss_refuse_table(in->name, opts, err);
+    in->share = 0.5;                            /* of the work; the other half is to give the rows */
+    ss_status st = ss_sheet_begin(&t, in->name, o->opts);
+    if (st == SS_OK)
+        st = ss_refuse_table(in->name, o->opts, err);
     if (st == SS_OK)
         st = read_header(in, &text, err);
     if (st == SS_OK && (!read_dictionary(&a, text) || !arrange(&a)))
-        st = a.no_memory ? ss_fail_memory(err, in->name)
+        st = a.no_memory ? SS_ENOMEM
             : ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', "
                       "array.astype('f8')) writes one of one or two dimensions that is", in->name,
                       ss_cell_trim(text));
     if (st == SS_OK)
-        st = fill_table(t, &a, err);
+        st = name_columns(&t, &a);
+    if (st == SS_OK) {
+        ss_sheet_begin_rows(&t);
+        st = fill_table(&t, in, &a, err);
+    }
     if (st == SS_OK)
-        st = ss_delimited_finish(t, reader, err);
+        st = ss_input_need(in, 1, err);
+    if (st == SS_OK && in->hi > in->lo)
+        st = ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", in->name, a.rows * a.columns);
+    if (st == SS_OK)
+        st = ss_sheet_give(out, &t, in->size > 0 ? in->progress : (ss_progress){ NULL, NULL }, err);
+    ss_sheet_free(&t);
     free(a.field);
     free(text);
-    return st;
+    return st == SS_ENOMEM ? ss_fail_memory(err, in->name) : st;
 }
 
 const struct format ss_format_npy = { .name = "npy", .magic = "\223NUMPY", .open = open_npy };

@@ -6,31 +6,25 @@
 #include <string.h>
 #include "base/error.h"
 #include "signal/header.h"
-#include "io/table/clock.h"
 #include "io/format.h"
-#include "io/reader.h"
 
-static size_t
-n_cells(const ss_header *head)
-{
-    return head->n_columns + (head->has_time != 0);
-}
+struct text {
+    ss_source base;
+    struct input *in;
+    ss_status (*late_note)(void *user, char *line, ss_error *err);
+    void *user;
+    uint64_t row;               /* the number of the next one */
+};
 
-static const char *
-cell_name(const ss_header *head, size_t i)
-{
-    if (head->has_time && i == 0)
-        return "t";
-    return head->column[i - (head->has_time != 0)].name;
-}
+/* --- reading ------------------------------------------------------------------------------- */
 
 /* The error of a row that could not be read. */
 static ss_status
-refuse_row(const ss_reader *reader, const char *line, ss_error *err)
+refuse_row(const struct text *s, const char *line, ss_error *err)
 {
-    const ss_header *head = reader->head;
-    const char *name = reader->in.name, *bad = NULL;
-    size_t found = 0, length, bad_length = 0, bad_cell = 0;
+    const ss_header *head = s->base.head;
+    const char *name = s->in->name, *bad = NULL;
+    size_t found = 0, length, bad_length = 0, bad_cell = 0, cells = head->n_columns + (head->has_time != 0);
     for (const char *p = line; *(p += strspn(p, " \t")) != '\0'; p += length, found++) {
         length = strcspn(p, " \t");
         char *end;
@@ -41,106 +35,115 @@ refuse_row(const ss_reader *reader, const char *line, ss_error *err)
             bad_cell = found;
         }
     }
-    if (found != n_cells(head))
-        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", name,
-                       reader->in.line, n_cells(head), PLURAL(n_cells(head)), found);
+    if (found != cells)
+        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", name, s->in->line, cells,
+                       PLURAL(cells), found);
     if (bad == NULL)
-        return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte in text", name, reader->in.line);
-    return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.*s' is not a finite number", name,
-                   reader->in.line, cell_name(head, bad_cell), bad_length < 40 ? (int)bad_length : 40,
-                   bad);
+        return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte in text", name, s->in->line);
+    const char *column = head->has_time && bad_cell == 0 ? "t" : head->column[bad_cell - (head->has_time != 0)].name;
+    return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.*s' is not a finite number", name, s->in->line, column,
+                   bad_length < 40 ? (int)bad_length : 40, bad);
 }
 
 static ss_status
-check_time(const ss_reader *reader, double t, ss_error *err)
+check_time(const struct text *s, double t, ss_error *err)
 {
-    const ss_header *head = reader->head;
-    if (ss_is_on_clock(t, head->rate, reader->start, reader->row))
+    const ss_header *head = s->base.head;
+    if (ss_is_on_clock(t, head->rate, head->start, s->row))
         return SS_OK;
     char is[SS_NUMBER_MAX], should[SS_NUMBER_MAX];
     ss_number_format(is, t);
-    ss_number_format(should, reader->start + (double)reader->row / head->rate);
-    return ss_fail(err, SS_EDATA, "%s:%lu: time is %s, expected start + %llu / rate = %s",
-                   reader->in.name, reader->in.line, is, (unsigned long long)reader->row, should);
+    ss_number_format(should, head->start + (double)s->row / head->rate);
+    return ss_fail(err, SS_EDATA, "%s:%lu: time is %s, expected start + %llu / rate = %s", s->in->name,
+                   s->in->line, is, (unsigned long long)s->row, should);
 }
 
+/* Read a line as row number `at` of the columns. */
 static ss_status
-read_row(ss_reader *reader, char *line, size_t length, double *const column[], size_t at, ss_error *err)
+read_row(const struct text *s, char *line, size_t length, double *const column[], size_t at, ss_error *err)
 {
-    size_t n = n_cells(reader->head);
-    const int time = reader->head->has_time != 0;
+    const size_t time = s->base.head->has_time != 0, n = s->base.head->n_columns + time;
     char *p = line, *end;
     double t = 0;
     for (size_t i = 0; i < n; i++, p = end) {
         double x = ss_number_parse(p, &end);
         if (end == p || !isfinite(x) || (*end != '\t' && *end != ' ' && *end != '\0'))
-            return refuse_row(reader, line, err);
-        if (time && i == 0)
+            return refuse_row(s, line, err);
+        if (i < time)
             t = x;
-        else if (column[i - (size_t)time] != NULL)
-            column[i - (size_t)time][at] = x;
+        else if (column[i - time] != NULL)
+            column[i - time][at] = x;
     }
     if (p + strspn(p, " \t") != line + length)
-        return refuse_row(reader, line, err);
-    return time ? check_time(reader, t, err) : SS_OK;
+        return refuse_row(s, line, err);
+    return time ? check_time(s, t, err) : SS_OK;
 }
 
 static ss_status
-text_rows(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
+give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
 {
+    struct text *s = (struct text *)base;
     char *line;
     size_t length;
-    while (*n < max && (*n == 0 || ss_input_has_line(&reader->in))) {
-        ss_status st = ss_input_line(&reader->in, &line, &length, err);
+    while (*n < max && (*n == 0 || ss_input_has_line(s->in))) {
+        ss_status st = ss_input_line(s->in, &line, &length, err);
         if (st != SS_OK || line == NULL)
             return st;
-        if (line[0] == '#' && reader->late_note != NULL)
-            st = reader->late_note(reader, line, err);
-        if (st != SS_OK)
-            return st;
-        if (line[0] == '#' || line[strspn(line, " \t")] == '\0')
+        base->line = s->in->line;
+        int is_note = line[0] == '#';
+        if (!is_note && line[strspn(line, " \t")] == '\0')
             continue;
-        st = read_row(reader, line, length, column, *n, err);
+        st = !is_note ? read_row(s, line, length, column, *n, err)
+            : s->late_note != NULL ? s->late_note(s->user, line, err) : SS_OK;
         if (st != SS_OK)
             return st;
-        ++*n;
-        reader->row++;
+        *n += !is_note;
+        s->row += !is_note;
     }
     return SS_OK;
 }
 
+static int
+waits(const ss_source *s)
+{
+    return ss_input_waits(((const struct text *)s)->in);
+}
+
 /* The header ends before the first line that is no comment. */
 static ss_status
-open_text(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+open_text(ss_source **out, const struct opening *o, ss_error *err)
 {
-    struct input *in = &reader->in;
+    static const struct source_calls calls = { .next = give_rows, .waits = waits };
+    struct input *in = o->in;
     const char *reason = "";
     char *line;
     size_t length;
-    ss_status st = ss_input_begin(in, reader->kind, err);
-    reader->head->rate = 0;
-    while (st == SS_OK && (st = ss_input_need(in, 1, err)) == SS_OK) {
-        if (in->lo == in->hi || in->buffer[in->lo] != '#')
+    struct text *s = ss_source_new(sizeof *s, &calls, in->name, err);
+    if (s == NULL)
+        return SS_ENOMEM;
+    *out = &s->base;
+    s->in = in;
+    s->late_note = o->late_note;
+    s->user = o->user;
+    ss_header *head = s->base.head;
+    ss_status st = ss_input_begin(in, o->kind, err);
+    while (st == SS_OK && (st = ss_input_need(in, 1, err)) == SS_OK && in->lo < in->hi && in->buffer[in->lo] == '#') {
+        if ((st = ss_input_line(in, &line, &length, err)) != SS_OK)
             break;
-        st = ss_input_line(in, &line, &length, err);
+        st = ss_header_read_line(head, line, &reason);
         if (st != SS_OK)
-            break;
-        st = ss_header_read_line(reader->head, line, &reason);
-        if (st != SS_OK)
-            return ss_fail(err, st, "%s:%lu: %s", in->name, in->line,
-                           st == SS_EDATA ? reason : ss_strerror(st));
+            return ss_fail(err, st, "%s:%lu: %s", in->name, in->line, st == SS_EDATA ? reason : ss_strerror(st));
     }
     if (st != SS_OK)
         return st;
-    if (reader->head->n_columns == 0)
+    if (head->n_columns == 0)
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", in->name, in->line);
-    reader->rows = text_rows;
-    if (reader->head->rate > 0)
-        return ss_refuse_clock(in->name, reader->head->rate, opts, err);
-    if (!(opts->rate > 0))
+    if (head->rate > 0)
+        return ss_refuse_clock(in->name, head->rate, o->opts, err);
+    if (!(o->opts->rate > 0))
         return ss_fail(err, SS_EDATA, "%s:%lu: no '# rate:' line in the header", in->name, in->line);
-    reader->head->rate = opts->rate;
-    return ss_refuse_table(in->name, opts, err);
+    head->rate = o->opts->rate;
+    return ss_refuse_table(in->name, o->opts, err);
 }
 
 /* --- writing ------------------------------------------------------------------------------- */

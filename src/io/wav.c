@@ -8,8 +8,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include "base/error.h"
-#include "io/table/clock.h"
-#include "io/format.h"
 #include "io/frames.h"
 
 enum {
@@ -120,12 +118,16 @@ has_bytes(const struct input *in, uint64_t n)
 }
 
 static ss_status
-open_wav(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+open_wav(ss_source **out, const struct opening *o, ss_error *err)
 {
-    struct input *in = &reader->in;
+    struct input *in = o->in;
     description d = { 0 };
     uint32_t length = 0;
     uint64_t place = 0;
+    struct frames *f = ss_frames_new(in, err);
+    if (f == NULL)
+        return SS_ENOMEM;
+    *out = &f->base;
     ss_status st = need(in, RIFF_HEADER, err);
     if (st != SS_OK)
         return st;
@@ -133,15 +135,16 @@ open_wav(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
     in->lo += RIFF_HEADER;
     if ((st = read_chunks(in, &d, &place, &length, err)) != SS_OK)
         return st;
-    if ((st = ss_frames_columns(reader->head, d.channels)) != SS_OK)
+    if ((st = ss_frames_columns(f->base.head, d.channels)) != SS_OK)
         return ss_fail(err, st, "%s: %s", in->name, ss_strerror(st));
-    reader->head->rate = d.rate;
-    sample_type type = { .bytes = d.bits / 8, .is_float = d.code == CODE_FLOAT,
-                         .is_unsigned = d.bits == 8, .little_endian = 1 };
+    f->base.head->rate = d.rate;
+    f->type = (sample_type){ .bytes = d.bits / 8, .is_float = d.code == CODE_FLOAT, .is_unsigned = d.bits == 8,
+                             .little_endian = 1 };
     int unknown = (length >= UNKNOWN_FROM && !has_bytes(in, place + length)) || (length == 0 && all == 0);
-    ss_frames_begin(reader, type, unknown ? UINT64_MAX : length, place + length);
-    reader->is_chunk = 1;
-    return ss_refuse_clock(in->name, reader->head->rate, opts, err);
+    f->bytes_left = unknown ? UINT64_MAX : length;
+    f->end = place + length;
+    f->is_chunk = 1;
+    return ss_refuse_clock(in->name, f->base.head->rate, o->opts, err);
 }
 
 const struct format ss_format_wav = { .name = "wav", .magic = "RIFF????WAVE", .open = open_wav };

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/columns.h"
 #include "base/error.h"
 #include "base/list.h"
 #include "signal/gaps.h"
@@ -42,24 +43,12 @@ struct runs {
     double last;                /* the last of these */
 };
 
-struct gap_filler {
+struct filled {
+    ss_source base;
     ss_gaps how;
-    size_t n_columns, row;      /* row: the number of the next row */
+    size_t row;                 /* the number of the next one */
     struct runs *column, rows;  /* rows: the rows in which any column lacks its value */
 };
-
-gap_filler *
-ss_gaps_new(size_t n_columns, ss_gaps how)
-{
-    gap_filler *g = calloc(1, sizeof *g);
-    if (g == NULL || (g->column = calloc(n_columns, sizeof *g->column)) == NULL) {
-        free(g);
-        return NULL;
-    }
-    g->how = how;
-    g->n_columns = n_columns;
-    return g;
-}
 
 /* Add the value of a row, which may be missing; 0: no memory. */
 static int
@@ -86,12 +75,13 @@ add_value(struct runs *r, size_t row, double value)
     return 1;
 }
 
-int
-ss_gaps_add(gap_filler *g, double *const column[], size_t n)
+/* Add n rows; 0: no memory. */
+static int
+add_rows(struct filled *g, double *const column[], size_t n)
 {
     for (size_t i = 0; i < n; i++, g->row++) {
         double zero = 0;                        /* NaN if any column lacks its value */
-        for (size_t c = 0; c < g->n_columns; c++) {
+        for (size_t c = 0; c < g->base.head->n_columns; c++) {
             double x = column[c][i];
             if (g->how == SS_GAPS_SPLIT)
                 g->column[c].there += !isnan(x);
@@ -105,85 +95,101 @@ ss_gaps_add(gap_filler *g, double *const column[], size_t n)
     return 1;
 }
 
-/* The gaps as "from:to from:to ...", to be freed.  Each goes from the time of its first missing sample to
- * that of the next sample with a value. */
-static char *
-spans(const struct runs *r, const ss_header *head)
+/* Note the gaps as "from:to from:to ...".  Each goes from the time of its first missing sample to that of the
+ * next sample with a value. */
+static ss_status
+note_spans(const struct runs *r, ss_header *head)
 {
     size_t length = 0;
     char *text = malloc(r->n * (2 * SS_NUMBER_MAX + 2) + 1);
-    for (size_t i = 0; text != NULL && i < r->n; i++) {
+    if (r->n == 0 || text == NULL) {
+        free(text);
+        return r->n == 0 ? SS_OK : SS_ENOMEM;
+    }
+    for (size_t i = 0; i < r->n; i++) {
         if (length > 0)
             text[length++] = ' ';
         length += ss_number_format(text + length, head->start + (double)r->run[i].first / head->rate);
         text[length++] = ':';
         length += ss_number_format(text + length, head->start + (double)r->run[i].end / head->rate);
     }
-    if (text != NULL)
-        text[length] = '\0';
-    return text;
-}
-
-void
-ss_gaps_rewind(gap_filler *g)
-{
-    g->row = 0;
-    for (size_t c = 0; c < g->n_columns; c++)
-        g->column[c].next = 0;
-}
-
-ss_status
-ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err)
-{
-    for (size_t c = 0; c < g->n_columns; c++) {
-        struct runs *r = &g->column[c];
-        if (g->row > 0 && r->there == 0)
-            return ss_fail(err, SS_EDATA, "%s: column %s: no numbers", name, head->column[c].name);
-        if (r->open)
-            r->run[r->n - 1].right = r->last;
-    }
-    ss_gaps_rewind(g);
-    if (g->rows.n == 0)
-        return SS_OK;
-    char *text = spans(&g->rows, head);
-    ss_status st = text != NULL ? ss_header_note(head, key, text) : SS_ENOMEM;
+    ss_status st = ss_header_note(head, key, text);
     free(text);
-    return st == SS_OK ? st : ss_fail_memory(err, name);
+    return st;
 }
 
-int
-ss_gaps_fill(gap_filler *g, double *const column[], size_t n)
+static ss_status
+rewind_filled(ss_source *s, ss_error *err)
 {
-    for (size_t i = 0; i < n; i++, g->row++)
-        for (size_t c = 0; c < g->n_columns; c++) {
-            if (column[c] == NULL)
-                continue;
+    struct filled *g = (struct filled *)s;
+    g->row = 0;
+    for (size_t c = 0; c < s->head->n_columns; c++)
+        g->column[c].next = 0;
+    return ss_source_rewind(s->inner, err);
+}
+
+static ss_status
+give_filled(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
+{
+    struct filled *g = (struct filled *)s;
+    ss_status st = ss_source_rows(s->inner, column, max, n, err);
+    for (size_t c = 0; st == SS_OK && c < s->head->n_columns; c++) {
+        struct runs *r = &g->column[c];
+        for (size_t i = 0; column[c] != NULL && i < *n; i++) {
+            size_t row = g->row + i;
             double *x = &column[c][i];
-            struct runs *r = &g->column[c];
-            if (isnan(*x) && g->how == SS_GAPS_SPLIT)
-                *x = 0;
             if (!isnan(*x))
                 continue;
-            while (r->next < r->n && r->run[r->next].end <= g->row)
+            while (g->how != SS_GAPS_SPLIT && r->next < r->n && r->run[r->next].end <= row)
                 r->next++;
-            if (r->next == r->n || r->run[r->next].first > g->row)
-                return 0;
-            const struct run *run = &r->run[r->next];
-            *x = between(run->left, run->right, g->row, run->first, run->end);
+            const struct run *run = r->next < r->n && r->run[r->next].first <= row ? &r->run[r->next] : NULL;
+            if (g->how != SS_GAPS_SPLIT && run == NULL)
+                return ss_fail(err, SS_EDATA, "%s: the rows have changed while they were read", s->name);
+            *x = run != NULL ? between(run->left, run->right, row, run->first, run->end) : 0;
         }
-    return 1;
+    }
+    g->row += *n;
+    return st;
 }
 
-void
-ss_gaps_free(gap_filler *g)
+static void
+free_filled(ss_source *s)
 {
-    if (g == NULL)
-        return;
-    for (size_t c = 0; c < g->n_columns; c++)
+    struct filled *g = (struct filled *)s;
+    for (size_t c = 0; g->column != NULL && c < s->head->n_columns; c++)
         free(g->column[c].run);
     free(g->column);
     free(g->rows.run);
-    free(g);
+}
+
+ss_status
+ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err)
+{
+    static const struct source_calls calls = { .next = give_filled, .rewind = rewind_filled, .free = free_filled };
+    size_t columns = (*s)->head->n_columns, piece = ss_source_piece(*s), n = 1;
+    struct filled *g = ss_source_wrap(s, sizeof *g, &calls, err);
+    if (g == NULL)
+        return SS_ENOMEM;
+    double **column = ss_columns_new(columns, piece);
+    g->how = how;
+    g->column = calloc(columns, sizeof *g->column);
+    ss_status st = column != NULL && g->column != NULL ? SS_OK : ss_fail_memory(err, g->base.name);
+    while (st == SS_OK && n > 0) {
+        st = ss_source_rows(g->base.inner, column, piece, &n, err);
+        if (st == SS_OK && !add_rows(g, column, n))
+            st = ss_fail_memory(err, g->base.name);
+    }
+    free(column);
+    for (size_t c = 0; st == SS_OK && c < columns; c++) {
+        struct runs *r = &g->column[c];
+        if (g->row > 0 && r->there == 0)
+            st = ss_fail(err, SS_EDATA, "%s: column %s: no numbers", g->base.name, g->base.head->column[c].name);
+        if (r->open)
+            r->run[r->n - 1].right = r->last;
+    }
+    if (st == SS_OK && note_spans(&g->rows, g->base.head) != SS_OK)
+        st = ss_fail_memory(err, g->base.name);
+    return st == SS_OK ? rewind_filled(&g->base, err) : st;
 }
 
 /* --- the note ------------------------------------------------------------------------------ */

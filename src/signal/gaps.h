@@ -4,18 +4,12 @@
 
 #include <stddef.h>
 #include <stickslip/signal.h>
+#include "signal/source.h"
 
-/* Replaces NaN by numbers in columns of rows that are read twice: all rows are added; begin notes the times in head, or refuses a column without numbers; then all are filled.  Memory
- * grows with the gaps.  NULL, 0: no memory. */
-typedef struct gap_filler gap_filler;
-gap_filler *ss_gaps_new(size_t n_columns, ss_gaps how);
-int ss_gaps_add(gap_filler *g, double *const column[], size_t n);
-ss_status ss_gaps_begin(gap_filler *g, ss_header *head, const char *name, ss_error *err);
-/* 0: a value is missing that was there when the rows were added. */
-int ss_gaps_fill(gap_filler *g, double *const column[], size_t n);
-/* Fill from the first row on again. */
-void ss_gaps_rewind(gap_filler *g);
-void ss_gaps_free(gap_filler *g);               /* NULL is allowed */
+/* Wrap a source that gives NaN where a value is missing, and that can go back, in one that gives numbers there:
+ * all rows are read, the gaps are noted in its header, and the rows begin anew.  Memory grows with the gaps.
+ * SS_EDATA: a column has no numbers, or, later, a value is missing that was there. */
+ss_status ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err);
 
 /* SS_EDATA: the note of the gaps is not what ss_header_gaps reads. */
 ss_status ss_header_check_gaps(const ss_header *head);

@@ -20,16 +20,16 @@ enum {
     ROWS = 4096, VALUES = 1 << 19       /* at most so many are in memory, unless margins need more */
 };
 
-struct resampler {
-    const char *name;           /* of the file */
+struct resampled {
+    ss_source base;
     size_t columns;
-    double rate, longest, first;        /* first: the first stamp */
-    stamped_rows *next;
-    void *source;
+    int stamped;
+    double longest, first;      /* first: the time of the first row */
     int ended;                  /* 1: all rows have been read */
     size_t n, room;             /* rows in memory, and their most, which is also the most samples */
-    double *stamp, **value;     /* those of row i are stamp[i] and value[c][i] of each column */
-    double **to;                /* where the values of the next row go */
+    uint64_t read;              /* rows, of which the last are in memory */
+    double *stamp, **value;     /* of row i, stamp[i] and value[c][i] of each column */
+    double **to;                /* where the values of the next row go; the stamps behind them */
     double *kept_stamp, *kept;  /* one piece, without a gap, of one column */
     double at;                  /* the number of the next sample */
     double **sample;            /* of each column, those that are there, from the given-th on */
@@ -68,7 +68,7 @@ fill_piece(const struct target *to, const double *t, const double *value, size_t
 
 /* Fill in one column: by a spline through each piece without a gap, and NaN between the pieces. */
 static ss_status
-fill_column(const resampler *r, const struct target *to, const double *value)
+fill_column(const struct resampled *r, const struct target *to, const double *value)
 {
     size_t k = 0;
     ss_status st = SS_OK;
@@ -89,44 +89,50 @@ fill_column(const resampler *r, const struct target *to, const double *value)
 
 /* Discard the rows that the next sample does not need, and read as many further ones. */
 static ss_status
-read_on(resampler *r, ss_error *err)
+read_on(struct resampled *r, ss_error *err)
 {
+    const ss_header *own = r->base.inner->head;
     size_t drop = 0;
-    while (drop + 2 * MARGIN < r->n && (r->stamp[drop + MARGIN] - r->first) * r->rate < r->at)
+    while (drop + 2 * MARGIN < r->n && (r->stamp[drop + MARGIN] - r->first) * r->base.head->rate < r->at)
         drop++;
     r->n -= drop;
     memmove(r->stamp, r->stamp + drop, r->n * sizeof *r->stamp);
     for (size_t c = 0; c < r->columns; c++)
         memmove(r->value[c], r->value[c] + drop, r->n * sizeof *r->value[c]);
     while (r->n < r->room && !r->ended) {
-        size_t n = 0;
+        size_t n;
         for (size_t c = 0; c < r->columns; c++)
             r->to[c] = r->value[c] + r->n;
-        ss_status st = r->next(r->source, &r->stamp[r->n], r->to, r->room - r->n, &n, err);
+        r->to[r->columns] = r->stamp + r->n;
+        ss_status st = ss_source_rows(r->base.inner, r->to, r->room - r->n, &n, err);
         if (st != SS_OK)
             return st;
+        for (size_t i = 0; i < n && !r->stamped; i++)
+            r->stamp[r->n + i] = own->start + (double)(r->read + i) / own->rate;
         r->ended = n == 0;
         r->n += n;
+        r->read += n;
         if (r->at == 0)
             r->first = r->stamp[0];
     }
     if (r->ended && r->at == 0 && r->n < 2)
-        return ss_fail(err, SS_EDATA, "%s: one row cannot be resampled", r->name);
+        return ss_fail(err, SS_EDATA, "%s: one row cannot be resampled", r->base.name);
     return SS_OK;
 }
 
 /* The number of samples that the rows in memory determine. */
 static size_t
-count_ready(const resampler *r)
+count_ready(const struct resampled *r)
 {
-    double all = r->ended ? ss_resample_count(r->first, r->stamp[r->n - 1], r->rate)
-        : floor((r->stamp[r->n - 1 - MARGIN] - r->first) * r->rate) + 1;
+    double rate = r->base.head->rate;
+    double all = r->ended ? ss_resample_count(r->first, r->stamp[r->n - 1], rate)
+        : floor((r->stamp[r->n - 1 - MARGIN] - r->first) * rate) + 1;
     return all > r->at ? (size_t)fmin(all - r->at, (double)r->room) : 0;
 }
 
 /* Compute the next samples, r->samples of them; 0: there are no more. */
 static ss_status
-make_samples(resampler *r, ss_error *err)
+make_samples(struct resampled *r, ss_error *err)
 {
     ss_status st;
     r->given = 0;
@@ -135,46 +141,21 @@ make_samples(resampler *r, ss_error *err)
         r->samples = st == SS_OK ? count_ready(r) : 0;
     } while (st == SS_OK && r->samples == 0 && !r->ended);
     for (size_t c = 0; st == SS_OK && r->samples > 0 && c < r->columns; c++) {
-        const struct target to = { r->first, r->rate, r->at, r->sample[c], r->samples };
+        const struct target to = { r->first, r->base.head->rate, r->at, r->sample[c], r->samples };
         st = fill_column(r, &to, r->value[c]);
         if (st == SS_ENOMEM)
-            ss_fail_memory(err, r->name);
+            ss_fail_memory(err, r->base.name);
         else if (st == SS_ERANGE)
-            ss_fail(err, st, "%s: a resampled value exceeds what a double holds", r->name);
+            ss_fail(err, st, "%s: a resampled value exceeds what a double holds", r->base.name);
     }
     r->at += (double)r->samples;
     return st;
 }
 
-ss_status
-ss_resampler_new(resampler **out, const char *name, size_t columns, double rate, double longest,
-                 stamped_rows *next, void *source, ss_error *err)
+static ss_status
+give_samples(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
-    resampler *r = *out = calloc(1, sizeof *r);
-    if (r == NULL)
-        return ss_fail_memory(err, name);
-    r->name = name;
-    r->columns = columns;
-    r->rate = rate;
-    r->longest = longest;
-    r->next = next;
-    r->source = source;
-    r->room = VALUES / columns < ROWS ? VALUES / columns : ROWS;
-    r->room = r->room < 4 * MARGIN ? 4 * MARGIN : r->room;
-    r->stamp = malloc(3 * r->room * sizeof *r->stamp);
-    r->value = ss_columns_new(columns, r->room);
-    r->sample = ss_columns_new(columns, r->room);
-    r->to = malloc(columns * sizeof *r->to);
-    if (r->stamp == NULL || r->value == NULL || r->sample == NULL || r->to == NULL)
-        return ss_fail_memory(err, name);
-    r->kept_stamp = r->stamp + r->room;
-    r->kept = r->kept_stamp + r->room;
-    return SS_OK;
-}
-
-ss_status
-ss_resampler_rows(resampler *r, double *const column[], size_t max, size_t *n, ss_error *err)
-{
+    struct resampled *r = (struct resampled *)s;
     ss_status st = r->given == r->samples ? make_samples(r, err) : SS_OK;
     size_t left = st == SS_OK ? r->samples - r->given : 0;
     *n = left < max ? left : max;
@@ -185,16 +166,56 @@ ss_resampler_rows(resampler *r, double *const column[], size_t max, size_t *n, s
     return st;
 }
 
-void
-ss_resampler_free(resampler *r)
+static ss_status
+rewind_samples(ss_source *s, ss_error *err)
 {
-    if (r == NULL)
-        return;
+    struct resampled *r = (struct resampled *)s;
+    r->n = r->samples = r->given = 0;
+    r->read = 0;
+    r->at = 0;
+    r->ended = 0;
+    return ss_source_rewind(s->inner, err);
+}
+
+static void
+free_samples(ss_source *s)
+{
+    struct resampled *r = (struct resampled *)s;
     free(r->stamp);
     free(r->value);
     free(r->sample);
     free(r->to);
-    free(r);
+}
+
+ss_status
+ss_source_resample(ss_source **s, double rate, int stamped, double longest, ss_error *err)
+{
+    static const struct source_calls calls = {
+        .next = give_samples, .rewind = rewind_samples, .free = free_samples };
+    struct resampled *r = ss_source_wrap(s, sizeof *r, &calls, err);
+    if (r == NULL)
+        return SS_ENOMEM;
+    ss_header *head = r->base.head;
+    size_t columns = r->columns = head->n_columns - (stamped != 0);
+    if (stamped) {
+        free(head->column[--head->n_columns].name);
+        free(head->column[head->n_columns].unit);
+    }
+    head->rate = rate;
+    r->base.length = UINT64_MAX;
+    r->stamped = stamped;
+    r->longest = longest;
+    r->room = VALUES / columns < ROWS ? VALUES / columns : ROWS;
+    r->room = r->room < 4 * MARGIN ? 4 * MARGIN : r->room;
+    r->stamp = malloc(3 * r->room * sizeof *r->stamp);
+    r->value = ss_columns_new(columns, r->room);
+    r->sample = ss_columns_new(columns, r->room);
+    r->to = malloc((columns + 1) * sizeof *r->to);
+    if (r->stamp == NULL || r->value == NULL || r->sample == NULL || r->to == NULL)
+        return ss_fail_memory(err, r->base.name);
+    r->kept_stamp = r->stamp + r->room;
+    r->kept = r->kept_stamp + r->room;
+    return SS_OK;
 }
 
 double
@@ -210,79 +231,28 @@ ss_resample_count(double first, double last, double rate)
     return floor((last - first) * rate + AT_END) + 1;
 }
 
-/* --- a signal in memory -------------------------------------------------------------------- */
-
-struct held {
-    const ss_signal *signal;
-    size_t next;
-};
-
-static ss_status
-next_rows(void *source, double *stamp, double *const column[], size_t max, size_t *n, ss_error *err)
-{
-    struct held *h = source;
-    const ss_signal *s = h->signal;
-    (void)err;
-    *n = s->n - h->next < max ? s->n - h->next : max;
-    for (size_t i = 0; i < *n; i++)
-        stamp[i] = s->head->start + (double)(h->next + i) / s->head->rate;
-    for (size_t c = 0; c < s->head->n_columns; c++)
-        memcpy(column[c], s->values + c * s->n + h->next, *n * sizeof *stamp);
-    h->next += *n;
-    return SS_OK;
-}
-
-/* Fill a signal that has room for all samples. */
-static ss_status
-fill_signal(ss_signal *out, resampler *r, ss_error *err)
-{
-    ss_status st = SS_OK;
-    for (size_t done = 0; st == SS_OK && done < out->n; done += r->samples) {
-        st = make_samples(r, err);
-        if (st == SS_OK && r->samples == 0)
-            return SS_ERANGE;
-        size_t n = r->samples < out->n - done ? r->samples : out->n - done;
-        for (size_t c = 0; st == SS_OK && c < r->columns; c++)
-            memcpy(out->values + c * out->n + done, r->sample[c], n * sizeof *out->values);
-    }
-    return st;
-}
-
 ss_status
 ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_error *err)
 {
     if (out == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
-    struct held held = { signal, 0 };
-    resampler *r = NULL;
     size_t n = signal->n;
     *out = NULL;
     if (n < 2 || !(rate > 0) || !isfinite(rate))
-        return ss_fail(err, SS_EINVAL, "%zu sample%s cannot be resampled at %g Hz", n,
-                       PLURAL(n), rate);
+        return ss_fail(err, SS_EINVAL, "%zu sample%s cannot be resampled at %g Hz", n, PLURAL(n), rate);
     ss_status st = ss_refuse_range("signal", rate, head->start, err);
     if (st != SS_OK)
         return st;
-    double last = head->start + (double)(n - 1) / head->rate, samples = ss_resample_count(head->start, last, rate);
-    ss_header *new_head = ss_header_copy(head);
-    int fits = samples < (double)(SIZE_MAX / sizeof last / (head->n_columns + 1) / 2);
-    st = new_head != NULL && fits ? SS_OK : ss_fail_memory(err, NULL);
+    double samples = ss_resample_count(head->start, head->start + (double)(n - 1) / head->rate, rate);
+    if (!(samples < (double)(SIZE_MAX / sizeof samples / (head->n_columns + 1) / 2)))
+        return ss_fail_memory(err, NULL);
+    ss_source *s = ss_source_of_signal(signal, "signal", err);
+    st = s != NULL ? ss_source_resample(&s, rate, 0, INFINITY, err) : SS_ENOMEM;
     if (st == SS_OK) {
-        new_head->rate = rate;
-        st = ss_signal_new(out, new_head, (size_t)samples);
-        st = st == SS_OK ? st : ss_fail_memory(err, NULL);
+        s->length = (uint64_t)samples;          /* so that all of it finds room at once */
+        st = ss_source_all(out, s, err);
     }
-    if (st == SS_OK)
-        st = ss_resampler_new(&r, "signal", head->n_columns, rate, INFINITY, next_rows, &held, err);
-    if (st == SS_OK)
-        st = fill_signal(*out, r, err);
-    ss_resampler_free(r);
-    ss_header_free(new_head);
-    if (st == SS_OK)
-        return st;
-    ss_signal_free(*out);
-    *out = NULL;
-    return st == SS_ERANGE ? ss_fail(err, st, "a resampled value exceeds what a double holds")
-        : ss_fail_memory(err, NULL);
+    ss_source_free(s);
+    return st;
 }

@@ -5,45 +5,54 @@ mkdir -p src/io bin
 sed 's/^    row(npy)$/    row(npy) \\\n    row(fish)/' "$SRC/src/io/format.h" > src/io/format.h
 diff "$SRC/src/io/format.h" src/io/format.h | grep -c '^> ' || true
 cat > src/io/fish.c <<'C'
-#include <stdlib.h>
 #include <string.h>
 #include "io/format.h"
-#include "io/reader.h"
+
+struct fish {
+    ss_source base;
+    struct input *in;
+};
 
 static ss_status
-read_fish(ss_reader *reader, double *rows, size_t max, size_t *n, ss_error *err)
+give_fish(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
+    struct input *in = ((struct fish *)s)->in;
     char *line;
     size_t length;
-    while (*n < max) {
-        ss_status st = ss_input_line(&reader->in, &line, &length, err);
+    for (; *n < max; ++*n) {
+        ss_status st = ss_input_line(in, &line, &length, err);
         if (st != SS_OK || line == NULL)
             return st;
-        for (size_t c = 0; c < reader->head->n_columns; c++) {
+        for (size_t c = 0; c < s->head->n_columns; c++) {
             char *end;
-            rows[*n * reader->head->n_columns + c] = ss_number_parse(line, &end);
+            double x = ss_number_parse(line, &end);
+            if (column[c] != NULL)
+                column[c][*n] = x;
             line = end + (*end == '|');
         }
-        ++*n;
     }
     return SS_OK;
 }
 
 static ss_status
-open_fish(ss_reader *reader, const ss_read_opts *opts, ss_error *err)
+open_fish(ss_source **out, const struct opening *o, ss_error *err)
 {
+    static const struct source_calls calls = { .next = give_fish };
+    struct fish *f = ss_source_new(sizeof *f, &calls, o->in->name, err);
     char *line, *end;
     size_t length;
-    (void)opts;
-    ss_status st = ss_input_line(&reader->in, &line, &length, err);
+    if (f == NULL)
+        return SS_ENOMEM;
+    *out = &f->base;
+    f->in = o->in;
+    ss_status st = ss_input_line(o->in, &line, &length, err);
     if (st == SS_OK)
-        st = ss_input_line(&reader->in, &line, &length, err);
+        st = ss_input_line(o->in, &line, &length, err);
     if (st != SS_OK || line == NULL)
         return st;
-    reader->head->rate = ss_number_parse(line, &end);
+    f->base.head->rate = ss_number_parse(line, &end);
     for (char *name = strtok(end, "|"); name != NULL; name = strtok(NULL, "|"))
-        ss_header_add_column(reader->head, name, NULL);
-    reader->rows = read_fish;
+        ss_header_add_column(f->base.head, name, NULL);
     return SS_OK;
 }
 

@@ -2,6 +2,7 @@
  * as coefficients. */
 #include <stdlib.h>
 #include "io/hdf5/groups.h"
+#include "io/reader.h"
 #include "fuzz.h"
 
 static hid_t
@@ -19,23 +20,23 @@ open_image(const uint8_t *bytes, size_t size)
 static void
 read_signal(const uint8_t *bytes, size_t size, const char *dataset, const ss_read_opts *opts)
 {
-    ss_reader reader = { .head = NULL };
+    ss_source *rows = NULL;
     ss_signal *signal = NULL;
     ss_error err = { 0 };
-    h5_file file = { .id = open_image(bytes, size), .path = "in", .err = &err };
-    if (file.id < 0)
+    hid_t id = open_image(bytes, size);
+    if (id < 0)
         return;
-    ss_status status = ss_h5_open_signal(&reader, &file, dataset, opts);
+    ss_status status = ss_h5_begin_signal(&rows, id, "in", dataset, opts, &err);
     if (status == SS_OK)
-        status = ss_reader_adjust(&reader, opts, &err);
+        status = ss_source_adjust(&rows, opts, &err);
     if (status == SS_OK)
-        status = ss_reader_all(&signal, &reader, &err);
+        status = ss_source_all(&signal, rows, &err);
     if (status == SS_OK)
         fuzz_check_signal(signal);
     else if (status != SS_ENOMEM)
         fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, &err);
     ss_signal_free(signal);
-    ss_reader_close(&reader);
+    ss_source_free(rows);
 }
 
 static void

@@ -11,7 +11,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "signal/header.h"
-#include "io/table/clock.h"
 
 typedef struct array {
     size_t rows, columns;
@@ -163,8 +162,7 @@ find_clock(h5_file *file, hid_t id, const char *dataset, double *rate, double *s
 
 /* Make a header whose columns have the name of the dataset, numbered from 1 if there are several. */
 static ss_status
-make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, double rate,
-            ss_header **out)
+make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, double rate, ss_header *head)
 {
     double start;
     ss_status status = find_clock(file, id, dataset, &rate, &start);
@@ -172,9 +170,8 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
         status = ss_refuse_range(file->path, rate, start, file->err);
     if (status != SS_OK)
         return status;
-    *out = ss_header_new(rate, start);
-    if (*out == NULL)
-        return SS_ENOMEM;
+    head->rate = rate;
+    head->start = start;
     const char *slash = strrchr(dataset, '/'), *base = slash != NULL ? slash + 1 : dataset;
     char *unit, *name = malloc(strlen(base) + 3 * sizeof(size_t) + 1);
     if (name == NULL)
@@ -184,7 +181,7 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
         char *end = stpcpy(name, base);
         if (shape->columns > 1)
             sprintf(end, "%zu", c + 1);
-        status = ss_header_add_column(*out, name, unit);
+        status = ss_header_add_column(head, name, unit);
     }
     free(unit);
     free(name);
@@ -235,7 +232,7 @@ find_times(signal_rows *s, const ss_header *head, const char *dataset, const cha
 }
 
 ss_status
-ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset, const ss_read_opts *opts)
+ss_h5_find_array(signal_rows *s, const char *dataset, const ss_read_opts *opts)
 {
     array shape = { .rows = 0 };
     h5_file *file = &s->file;
@@ -266,6 +263,6 @@ ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset, const ss
     s->by_columns = shape.transposed;
     s->gaps = opts->gaps != SS_GAPS_REFUSE;
     if (status == SS_OK)
-        status = make_header(file, id, dataset, &shape, opts->time != NULL ? 1 : opts->rate, head);
-    return status == SS_OK && opts->time != NULL ? find_times(s, *head, dataset, opts->time) : status;
+        status = make_header(file, id, dataset, &shape, opts->time != NULL ? 1 : opts->rate, s->base.head);
+    return status == SS_OK && opts->time != NULL ? find_times(s, s->base.head, dataset, opts->time) : status;
 }

@@ -4,7 +4,7 @@
 
 #include "io/hdf5/h5.h"
 #include "io/hdf5/h5_write.h"
-#include "io/reader.h"
+#include "signal/source.h"
 
 /* /signal (signal_writer.c, signal_reader.c).  The samples come in pieces; the datasets stay open. */
 typedef struct signal_writer {
@@ -20,9 +20,10 @@ ss_status ss_signal_writer_open(signal_writer *w, h5_pieces *pieces, const ss_he
 /* n samples more of each column. */
 ss_status ss_signal_writer_append(signal_writer *w, double *const column[], size_t n);
 
-/* The rows of /signal (signal_reader.c), or of an array of another program (foreign.c), which are read
- * in pieces (signal_rows.c). */
+/* A source of the rows of /signal (signal_reader.c), or of an array of another program (foreign.c), which are
+ * read in pieces (signal_rows.c). */
 typedef struct signal_rows {
+    ss_source base;
     h5_file file;
     char *path;                 /* of the file */
     hid_t *dataset;             /* one for all columns, or one for each */
@@ -33,20 +34,23 @@ typedef struct signal_rows {
     int by_columns;             /* what is read at a time from a dataset is column after column */
     int gaps;                   /* values that are not finite are missing, not wrong */
     size_t piece;               /* rows that are read at a time */
+    double **value;             /* a piece of each column */
+    size_t n_rows, next;        /* the rows in it; of these, the one to be given next */
     double *raw;                /* a piece of a dataset of several columns, or of the times */
 } signal_rows;
 
-/* Begin to read a signal of an open file, as ss_store_signal_reader does, but for ss_reader_adjust.  The
- * file is the reader's from here on, also after a failure. */
-ss_status ss_h5_open_signal(ss_reader *reader, h5_file *file, const char *dataset,
-                            const ss_read_opts *opts);
+/* Open /signal, or the array at a path in the file; *out is to be freed even after a failure. */
+ss_status ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts,
+                            ss_error *err);
+/* The same for a file that is open, unless id < 0, and becomes the source's. */
+ss_status ss_h5_begin_signal(ss_source **out, hid_t id, const char *path, const char *dataset,
+                             const ss_read_opts *opts, ss_error *err);
 /* Find the datasets, their shape and the header; datasets stay open. */
-ss_status ss_h5_find_signal(signal_rows *s, ss_header **head, const ss_read_opts *opts);
-ss_status ss_h5_find_array(signal_rows *s, ss_header **head, const char *dataset,
-                           const ss_read_opts *opts);
-/* The rows of a reader, which gives those of an array, become those of a table with opts->time as its column of
- * time (timed_rows.c). */
-ss_status ss_h5_time_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts);
+ss_status ss_h5_find_signal(signal_rows *s, const ss_read_opts *opts);
+ss_status ss_h5_find_array(signal_rows *s, const char *dataset, const ss_read_opts *opts);
+/* Make a table of the rows of an array, with opts->time as its column of time, and *out the source of its samples
+ * (timed_rows.c). */
+ss_status ss_h5_time_rows(ss_source **out, const ss_read_opts *opts, ss_error *err);
 
 /* /events (events_writer.c). */
 ss_status ss_h5_write_events(h5_file *file, const ss_event *event, size_t n);
@@ -90,5 +94,18 @@ ss_status ss_wavelet_reader_open(wavelet_reader *r, h5_file *file, ss_coefficien
 /* The coefficients of scale i, as pairs. */
 ss_status ss_wavelet_reader_scale(wavelet_reader *r, const ss_coefficients *map, size_t i, double *w);
 void ss_wavelet_reader_close(wavelet_reader *r);        /* the file stays open */
+
+/* The functions of stickslip/store.h, whose arguments have been checked (read.c, write.c). */
+int ss_h5_has_signal(const char *path);
+ss_status ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err);
+ss_status ss_h5_write(const char *path, const ss_record *record, ss_error *err);
+ss_status ss_h5_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
+                           const ss_coefficients *grid, ss_error *err);
+ss_status ss_h5_writer_signal(ss_store_writer *writer, double *const column[], size_t n, ss_error *err);
+ss_status ss_h5_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n,
+                            const double *w, size_t samples, ss_error *err);
+ss_status ss_h5_writer_note(ss_store_writer *writer, const char *key, const char *value, ss_error *err);
+ss_status ss_h5_writer_end(ss_store_writer *writer, size_t samples, ss_error *err);
+void ss_h5_writer_free(ss_store_writer *writer);
 
 #endif

@@ -433,9 +433,10 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
         return status;
     if ((status = ss_refuse_range(file->path, rate, start, file->err)) != SS_OK)
         return status;
-    *head = ss_header_new(rate, start);
-    if (*head == NULL)
+    if (*head == NULL && (*head = ss_header_new(0, 0)) == NULL)
         return SS_ENOMEM;
+    (*head)->rate = rate;
+    (*head)->start = start;
     (*head)->has_time = has_time != 0;
     return read_notes(file, *head);
 }

@@ -1,4 +1,4 @@
-/* read.c -- read our own files, and arrays in files of other programs, into memory. */
+/* read.c -- what is in a file, and its coefficients. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,10 +19,8 @@ typedef struct file_source {
 } file_source;
 
 int
-ss_store_has_signal(const char *path)
+ss_h5_has_signal(const char *path)
 {
-    if (path == NULL)
-        return 0;
     h5_file file = { .id = -1, .path = path };
     int has = 0;
     QUIETLY(
@@ -31,49 +29,6 @@ ss_store_has_signal(const char *path)
         ss_h5_close(&file);
     );
     return has;
-}
-
-ss_status
-ss_store_signal_reader(ss_reader **out, const char *path, const char *dataset,
-                       const ss_read_opts *opts, ss_error *err)
-{
-    static const ss_read_opts no_opts;
-    if (out == NULL || path == NULL)
-        return SS_FAIL_NULL(err);
-    h5_file file = { .id = -1, .path = path, .err = err };
-    ss_reader *reader = calloc(1, sizeof *reader);
-    ss_status status = reader != NULL ? SS_OK : SS_ENOMEM;
-    opts = opts != NULL ? opts : &no_opts;
-    QUIETLY(
-        if (status == SS_OK)
-            status = ss_h5_open(&file);
-        if (status == SS_OK)
-            status = ss_h5_open_signal(reader, &file, dataset, opts);
-    );
-    if (status == SS_ENOMEM)
-        ss_fail(err, status, "%s: %s", path, ss_strerror(status));
-    if (status == SS_OK)
-        status = ss_reader_adjust(reader, opts, err);
-    if (status == SS_OK)
-        *out = reader;
-    else
-        ss_reader_free(reader);
-    return status;
-}
-
-ss_status
-ss_store_read_signal(ss_signal **out, const char *path, const char *dataset,
-                     const ss_read_opts *opts, ss_error *err)
-{
-    ss_reader *reader;
-    if (out == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status status = ss_store_signal_reader(&reader, path, dataset, opts, err);
-    if (status != SS_OK)
-        return status;
-    status = ss_reader_all(out, reader, err);
-    ss_reader_free(reader);
-    return status;
 }
 
 /* --- coefficients --------------------------------------------------------------------------- */
@@ -118,10 +73,8 @@ read_parts(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_er
 }
 
 ss_status
-ss_store_open_coefficients(ss_coefficients **out, const char *path, ss_error *err)
+ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err)
 {
-    if (out == NULL || path == NULL)
-        return SS_FAIL_NULL(err);
     ss_coefficients *map = calloc(1, sizeof *map);
     file_source *s = calloc(1, sizeof *s);
     ss_status status = SS_ENOMEM;
@@ -145,33 +98,6 @@ ss_store_open_coefficients(ss_coefficients **out, const char *path, ss_error *er
         map->source = &s->source;
     else if (s != NULL)
         close_file(&s->source);
-    if (status == SS_OK)
-        *out = map;
-    else
-        ss_coefficients_free(map);
-    return status;
-}
-
-ss_status
-ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err)
-{
-    ss_coefficients *map;
-    if (out == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status status = ss_store_open_coefficients(&map, path, err);
-    if (status != SS_OK)
-        return status;
-    const ss_scale *last = &map->scale[map->n_scales - 1];
-    double *w = malloc(2 * (last->offset + last->n) * sizeof *w);
-    if (w == NULL)
-        status = ss_fail_memory(err, path);
-    for (size_t i = 0; status == SS_OK && i < map->n_scales; i++) {
-        const ss_scale *scale = &map->scale[i];
-        status = ss_map_read(map, &(ss_map_part){ i, 0, scale->n, w + 2 * scale->offset, NULL }, 1, err);
-    }
-    map->source->free(map->source);
-    map->source = NULL;
-    map->w = w;
     if (status == SS_OK)
         *out = map;
     else

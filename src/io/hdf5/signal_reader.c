@@ -4,7 +4,7 @@
 #include "base/list.h"
 #include "signal/header.h"
 #include "io/hdf5/groups.h"
-#include "io/table/clock.h"
+#include "io/format.h"
 
 /* The order of a group's links: that of writing if the file has it, else that of the names. */
 static H5_index_t
@@ -106,7 +106,7 @@ add_columns(signal_rows *s, hid_t group, const struct links *links, ss_header *h
 }
 
 ss_status
-ss_h5_find_signal(signal_rows *s, ss_header **head, const ss_read_opts *opts)
+ss_h5_find_signal(signal_rows *s, const ss_read_opts *opts)
 {
     h5_file *file = &s->file;
     if (H5Lexists(file->id, "signal", H5P_DEFAULT) <= 0)
@@ -115,16 +115,16 @@ ss_h5_find_signal(signal_rows *s, ss_header **head, const ss_read_opts *opts)
     struct links links = { .name = NULL };
     if (group < 0)
         return ss_h5_fail(file, SS_EDATA, 0, "/signal", "not a group of this file");
-    ss_status status = ss_h5_read_header(file, group, head);
+    ss_status status = ss_h5_read_header(file, group, &s->base.head);
     if (status == SS_OK)
         status = open_list(file, group, "t", &s->times, &s->n);
     if (status == SS_OK)
         status = list_links(file, group, &links);
     if (status == SS_OK)
-        status = add_columns(s, group, &links, *head);
+        status = add_columns(s, group, &links, s->base.head);
     for (size_t i = 0; i < links.n; i++)
         free(links.name[i]);
     free(links.name);
     H5Gclose(group);
-    return status == SS_OK ? ss_refuse_clock(file->path, (*head)->rate, opts, file->err) : status;
+    return status == SS_OK ? ss_refuse_clock(file->path, s->base.head->rate, opts, file->err) : status;
 }

@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/columns.h"
+#include "base/error.h"
 #include "io/hdf5/groups.h"
-#include "io/table/clock.h"
+#include "signal/gaps.h"
 
 enum { PIECE = 1 << 18 };       /* values that are read at a time, unless chunks are larger */
 
@@ -56,13 +57,14 @@ check_finite(signal_rows *s, size_t d, double *x, size_t n, size_t columns)
 }
 
 static ss_status
-check_times(signal_rows *s, const ss_reader *reader, size_t n)
+check_times(signal_rows *s, size_t n)
 {
+    const ss_header *head = s->base.head;
     char text[64];
     if (!ss_h5_read_rows(s->times, 0, s->row, n, s->raw))
         return ss_h5_fail(&s->file, SS_EIO, s->times, "", "cannot be read");
     for (size_t i = 0; i < n; i++)
-        if (!ss_is_on_clock(s->raw[i], reader->head->rate, reader->start, s->row + i)) {
+        if (!ss_is_on_clock(s->raw[i], head->rate, head->start, s->row + i)) {
             snprintf(text, sizeof text, "value %zu is not start + %zu / rate", s->row + i + 1, s->row + i);
             return ss_h5_fail(&s->file, SS_EDATA, s->times, "", text);
         }
@@ -71,117 +73,128 @@ check_times(signal_rows *s, const ss_reader *reader, size_t n)
 
 /* Read n rows of dataset d into columns of the piece. */
 static ss_status
-read_dataset(signal_rows *s, size_t d, size_t n, size_t columns, double *const piece[])
+read_dataset(signal_rows *s, size_t d, size_t n, size_t columns)
 {
-    double *x = columns == 1 ? piece[d] : s->raw;
+    double *x = columns == 1 ? s->value[d] : s->raw;
     if (!ss_h5_read_rows(s->dataset[d], s->by_columns, s->row, n, x))
         return ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
     ss_status status = check_finite(s, d, x, n, columns);
     for (size_t c = 0; columns > 1 && c < columns; c++)
         for (size_t i = 0; i < n; i++)
-            piece[c][i] = x[s->by_columns ? c * n + i : i * columns + c];
+            s->value[c][i] = x[s->by_columns ? c * n + i : i * columns + c];
     return status;
 }
 
-/* Read the next n rows into the piece of the reader. */
+/* Read the next n rows. */
 static ss_status
-read_piece(ss_reader *reader, signal_rows *s, size_t n)
+read_piece(signal_rows *s, size_t n)
 {
-    size_t columns = s->n_datasets > 1 ? 1 : reader->head->n_columns;
-    ss_status status = s->times > 0 && n > 0 ? check_times(s, reader, n) : SS_OK;
+    size_t columns = s->n_datasets > 1 ? 1 : s->base.head->n_columns;
+    ss_status status = s->times > 0 && n > 0 ? check_times(s, n) : SS_OK;
     for (size_t d = 0; status == SS_OK && n > 0 && d < s->n_datasets; d++)
-        status = read_dataset(s, d, n, columns, reader->values);
+        status = read_dataset(s, d, n, columns);
     if (status != SS_OK)
         return status;
     s->row += n;
-    reader->n_rows = n;
-    reader->next = 0;
+    s->n_rows = n;
+    s->next = 0;
     return SS_OK;
 }
 
 static ss_status
-give_rows(ss_reader *reader, double *const column[], size_t max, size_t *n, ss_error *err)
+give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
 {
-    signal_rows *s = reader->source;
+    signal_rows *s = (signal_rows *)base;
     size_t left = s->n - s->row;
     ss_status status = SS_OK;
     s->file.err = err;
-    if (reader->next == reader->n_rows)
+    if (s->next == s->n_rows)
         QUIETLY(
-            status = read_piece(reader, s, left < s->piece ? left : s->piece);
+            status = read_piece(s, left < s->piece ? left : s->piece);
         );
     if (status != SS_OK)
         return status;
-    left = reader->n_rows - reader->next;
+    left = s->n_rows - s->next;
     *n = left < max ? left : max;
-    for (size_t c = 0; c < reader->head->n_columns; c++)
+    for (size_t c = 0; c < base->head->n_columns; c++)
         if (column[c] != NULL)
-            memcpy(column[c], reader->values[c] + reader->next, *n * sizeof *column[c]);
-    reader->next += *n;
-    reader->row += *n;
+            memcpy(column[c], s->value[c] + s->next, *n * sizeof *column[c]);
+    s->next += *n;
+    return SS_OK;
+}
+
+static ss_status
+rewind_rows(ss_source *base, ss_error *err)
+{
+    signal_rows *s = (signal_rows *)base;
+    (void)err;
+    s->row = s->next = s->n_rows = 0;
     return SS_OK;
 }
 
 static void
-close_rows(ss_reader *reader)
+free_rows(ss_source *base)
 {
-    signal_rows *s = reader->source;
+    signal_rows *s = (signal_rows *)base;
     QUIETLY(
         ss_h5_close(&s->file);
     );
     free(s->path);
     free(s->dataset);
+    free(s->value);
     free(s->raw);
-    free(s);
 }
 
 static ss_status
-rewind_rows(ss_reader *reader, ss_error *err)
+find(signal_rows *s, const char *dataset, const ss_read_opts *opts)
 {
-    signal_rows *s = reader->source;
-    (void)err;
-    s->row = 0;
-    reader->next = reader->n_rows = 0;
-    return SS_OK;
-}
-
-static ss_status
-begin_rows(ss_reader *reader, signal_rows *s, const ss_read_opts *opts)
-{
-    size_t all = reader->head->n_columns, columns = s->n_datasets > 1 ? 1 : all;
-    reader->rows = give_rows;
-    reader->rewind = rewind_rows;
-    reader->length = s->n;
+    ss_status status = s->file.id < 0 ? ss_h5_open(&s->file) : SS_OK;
+    if (status != SS_OK)
+        return status;
+    status = dataset != NULL ? ss_h5_find_array(s, dataset, opts) : ss_h5_find_signal(s, opts);
+    if (status != SS_OK)
+        return status;
+    size_t all = s->base.head->n_columns, columns = s->n_datasets > 1 ? 1 : all;
+    s->base.length = s->n;
     s->piece = piece_rows(s, all);
-    reader->values = ss_columns_new(all, s->piece);
+    s->value = ss_columns_new(all, s->piece);
     s->raw = malloc((s->piece * columns + 1) * sizeof *s->raw);
-    if (reader->values == NULL || s->raw == NULL)
-        return SS_ENOMEM;
-    return s->gaps && opts->time == NULL ? ss_reader_fill_gaps(reader, opts->gaps, s->file.err) : SS_OK;
+    return s->value != NULL && s->raw != NULL ? SS_OK : SS_ENOMEM;
 }
 
 ss_status
-ss_h5_open_signal(ss_reader *reader, h5_file *file, const char *dataset, const ss_read_opts *opts)
+ss_h5_begin_signal(ss_source **out, hid_t id, const char *path, const char *dataset, const ss_read_opts *opts,
+                   ss_error *err)
 {
-    int is_array = dataset != NULL && dataset[0] != '\0';
-    signal_rows *s = calloc(1, sizeof *s);
-    char *name = malloc(strlen(file->path) + (is_array ? strlen(dataset) : 0) + 2);
-    reader->in.name = name;
-    if (s == NULL || name == NULL || (s->path = strdup(file->path)) == NULL) {
-        ss_h5_close(file);
-        free(s);
-        return SS_ENOMEM;
-    }
-    char *end = stpcpy(name, file->path);
-    if (is_array)
+    static const struct source_calls calls = { .next = give_rows, .rewind = rewind_rows, .free = free_rows };
+    dataset = dataset != NULL && dataset[0] != '\0' ? dataset : NULL;
+    char *name = malloc(strlen(path) + (dataset != NULL ? strlen(dataset) : 0) + 2);
+    if (name == NULL)
+        return ss_fail_memory(err, path);
+    char *end = stpcpy(name, path);
+    if (dataset != NULL)
         stpcpy(stpcpy(end, ":"), dataset);
-    s->file = *file;
-    s->file.path = s->path;
-    reader->source = s;
-    reader->close = close_rows;
-    ss_status status = is_array ? ss_h5_find_array(s, &reader->head, dataset, opts)
-        : ss_h5_find_signal(s, &reader->head, opts);
-    if (status == SS_OK)
-        status = begin_rows(reader, s, opts);
-    return status == SS_OK && opts->time != NULL ? ss_h5_time_rows(reader, s, opts) : status;
+    signal_rows *s = ss_source_new(sizeof *s, &calls, name, err);
+    free(name);
+    if (s == NULL)
+        return SS_ENOMEM;
+    *out = &s->base;
+    s->path = strdup(path);
+    s->file = (h5_file){ .id = id, .path = s->path, .err = err };
+    ss_status status = SS_ENOMEM;
+    if (s->path != NULL)
+        QUIETLY(
+            status = find(s, dataset, opts);
+        );
+    if (status == SS_ENOMEM)
+        ss_fail(err, status, "%s: %s", path, ss_strerror(status));
+    if (status == SS_OK && opts->time != NULL && dataset != NULL)
+        return ss_h5_time_rows(out, opts, err);
+    return status == SS_OK && s->gaps ? ss_source_fill_gaps(out, opts->gaps, err) : status;
+}
+
+ss_status
+ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts, ss_error *err)
+{
+    return ss_h5_begin_signal(out, -1, path, dataset, opts, err);
 }

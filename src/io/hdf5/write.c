@@ -93,15 +93,12 @@ report(const ss_store_writer *w, ss_status st, ss_error *err)
 /* --- public -------------------------------------------------------------------------------- */
 
 ss_status
-ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
-                    const ss_coefficients *grid, ss_error *err)
+ss_h5_writer_new(ss_store_writer **out, const char *path, const ss_header *signal, const ss_coefficients *grid,
+                 ss_error *err)
 {
     ss_store_writer *w = NULL;
-    ss_status st;
-    if (out == NULL || path == NULL || (grid == NULL && signal == NULL)
-        || (grid != NULL && (grid->head == NULL || grid->n_scales == 0)))
-        return SS_FAIL_NULL(err);
-    if ((st = ss_header_check_notes(grid != NULL ? grid->head : signal, err)) != SS_OK)
+    ss_status st = ss_header_check_notes(grid != NULL ? grid->head : signal, err);
+    if (st != SS_OK)
         return st;
     H5E_BEGIN_TRY {
         st = begin_empty(&w, path, signal, grid);
@@ -113,15 +110,13 @@ ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *si
     else if (w != NULL)
         report(w, st, err);
     if (st != SS_OK)
-        ss_store_writer_free(w);
+        ss_h5_writer_free(w);
     return st;
 }
 
 ss_status
-ss_store_writer_signal(ss_store_writer *w, double *const column[], size_t n, ss_error *err)
+ss_h5_writer_signal(ss_store_writer *w, double *const column[], size_t n, ss_error *err)
 {
-    if (w == NULL || (column == NULL && n > 0))
-        return SS_FAIL_NULL(err);
     ss_status st = w->status;
     signal_writer *signal = &w->signal;
     H5E_BEGIN_TRY {
@@ -136,11 +131,9 @@ ss_store_writer_signal(ss_store_writer *w, double *const column[], size_t n, ss_
 }
 
 ss_status
-ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n,
-                     const double *w, size_t samples, ss_error *err)
+ss_h5_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n, const double *w,
+                  size_t samples, ss_error *err)
 {
-    if (writer == NULL || scale == NULL || (w == NULL && n > 0))
-        return SS_FAIL_NULL(err);
     ss_status st = writer->status;
     size_t i = ss_wavelet_writer_find(&writer->wavelet, scale, first, n);
     H5E_BEGIN_TRY {
@@ -155,10 +148,8 @@ ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t firs
 }
 
 ss_status
-ss_store_writer_note(ss_store_writer *w, const char *key, const char *value, ss_error *err)
+ss_h5_writer_note(ss_store_writer *w, const char *key, const char *value, ss_error *err)
 {
-    if (w == NULL || key == NULL || value == NULL)
-        return SS_FAIL_NULL(err);
     ss_status st = w->status;
     h5_file *file = &w->output.file;
     H5E_BEGIN_TRY {
@@ -189,10 +180,8 @@ complete(ss_store_writer *w, size_t samples)
 }
 
 ss_status
-ss_store_writer_end(ss_store_writer *w, size_t samples, ss_error *err)
+ss_h5_writer_end(ss_store_writer *w, size_t samples, ss_error *err)
 {
-    if (w == NULL)
-        return SS_FAIL_NULL(err);
     ss_status st = w->status;
     H5E_BEGIN_TRY {
         if (st == SS_OK && w->output.file.id < 0)
@@ -205,7 +194,7 @@ ss_store_writer_end(ss_store_writer *w, size_t samples, ss_error *err)
 }
 
 void
-ss_store_writer_free(ss_store_writer *w)
+ss_h5_writer_free(ss_store_writer *w)
 {
     if (w == NULL)
         return;
@@ -252,12 +241,10 @@ write_all(ss_store_writer **out, const char *path, const ss_record *r)
 }
 
 ss_status
-ss_store_write(const char *path, const ss_record *r, ss_error *err)
+ss_h5_write(const char *path, const ss_record *r, ss_error *err)
 {
     ss_store_writer *w = NULL;
     ss_status st;
-    if (path == NULL || r == NULL)
-        return SS_FAIL_NULL(err);
     H5E_BEGIN_TRY {
         st = write_all(&w, path, r);
         if (w != NULL)
@@ -267,6 +254,6 @@ ss_store_write(const char *path, const ss_record *r, ss_error *err)
         report(w, st, err);
     else
         ss_fail(err, st, "%s: %s", path, ss_strerror(st));
-    ss_store_writer_free(w);
+    ss_h5_writer_free(w);
     return st;
 }

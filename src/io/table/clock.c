@@ -16,86 +16,11 @@
 #define BY_DIGITS 0.25          /* or by so many if it has no more digits: a missing row is farther off */
 enum { DIGIT = 16 };            /* so many bits of a step are found at a time */
 
-/* --- the straight line through stamps, by least squares ------------------------------------- */
-
-/* 1 if b is no corner of the convex hull between a and c, on the side with this sign. */
-static int
-is_within(struct clock_point a, struct clock_point b, struct clock_point c, double sign)
-{
-    return sign * ((b.sample - a.sample) * (c.stamp - a.stamp)
-                   - (b.stamp - a.stamp) * (c.sample - a.sample)) <= 0;
-}
-
-/* Add a point to one side of the convex hull; 0: no memory.  The point farthest from a line is one of its
- * corners, of which there are few. */
-static int
-add_corner(struct clock_side *s, struct clock_point p, double sign)
-{
-    while (s->n > 1 && is_within(s->corner[s->n - 2], s->corner[s->n - 1], p, sign))
-        s->n--;
-    struct clock_point *more = ss_list_room(s->corner, &s->room, s->n, sizeof *more);
-    if (more == NULL)
-        return 0;
-    s->corner = more;
-    s->corner[s->n++] = p;
-    return 1;
-}
-
-int
-ss_clock_add(clock_fit *f, double sample, double stamp)
-{
-    f->last = (struct clock_point){ sample, stamp };
-    if (f->n++ == 0)
-        f->first = f->last;
-    double t = stamp - f->first.stamp, off = sample - f->mean.sample;
-    f->mean.sample += off / (double)f->n;
-    f->mean.stamp += (t - f->mean.stamp) / (double)f->n;
-    f->product += off * (t - f->mean.stamp);
-    f->square += off * (sample - f->mean.sample);
-    return add_corner(&f->side[0], f->last, 1) && add_corner(&f->side[1], f->last, -1);
-}
-
-void
-ss_clock_free(clock_fit *f)
-{
-    free(f->side[0].corner);
-    free(f->side[1].corner);
-}
-
-struct line {
-    double period, at_0;
-};
-
-static struct line
-line_of(const clock_fit *f)
-{
-    double period = f->product / f->square;
-    return (struct line){ period, f->first.stamp + (f->mean.stamp - period * f->mean.sample) };
-}
-
-static double
-distance(struct line l, struct clock_point p)
-{
-    return fabs(p.stamp - l.at_0 - l.period * p.sample);
-}
-
-static double
-largest_distance(const clock_fit *f, struct line l)
-{
-    double most = 0;
-    for (int s = 0; s < 2; s++)
-        for (size_t i = 0; i < f->side[s].n; i++) {
-            double off = distance(l, f->side[s].corner[i]);
-            most = off <= most ? most : off;    /* NaN stays */
-        }
-    return most;
-}
-
 /* --- stamps that are read several times ----------------------------------------------------- */
 
 struct pass {
     const struct stamps *of;
-    double stamp, before;       /* before: the previous stamp */
+    double first, stamp, before;        /* before: the previous stamp */
     unsigned long line;
     size_t n;                   /* stamps so far */
     ss_status status;
@@ -108,7 +33,7 @@ start(const struct stamps *s, ss_error *err)
     return (struct pass){ .of = s, .status = s->rewind(s->source, err), .err = err };
 }
 
-/* Go to the next stamp.  Returns 0 if there is none, or it cannot be read. */
+/* Go to the next stamp.  Returns 0 if there is none, it cannot be read, or it is no later than the one before. */
 static int
 step(struct pass *p)
 {
@@ -116,32 +41,108 @@ step(struct pass *p)
     p->before = p->stamp;
     if (p->status == SS_OK)
         p->status = p->of->next(p->of->source, &there, &p->stamp, &p->line, p->err);
-    p->n += (size_t)there;
-    return p->status == SS_OK && there;
+    if (p->status != SS_OK || !there)
+        return 0;
+    if (p->n++ == 0)
+        p->first = p->stamp;
+    else if (!(p->stamp > p->before))
+        p->status = ss_fail(p->err, SS_ECLOCK, "%s:%lu: time stamps do not ascend: %s", p->of->file, p->line,
+                            p->stamp < p->before ? "this one is before that of the row above"
+                            : "this one is that of the row above");
+    return p->status == SS_OK;
 }
 
+/* The status of a pass that has ended: there must be two stamps, at a distance that is a number. */
 static ss_status
-check_stamps(const struct stamps *s, size_t *n, ss_error *err)
+end(const struct pass *p)
 {
-    double first = 0;
-    struct pass p = start(s, err);
-    while (step(&p))
-        if (p.n == 1)
-            first = p.stamp;
-        else if (!(p.stamp > p.before))
-            return ss_fail(err, SS_ECLOCK, "%s:%lu: time stamps do not ascend: %s", s->file, p.line,
-                           p.stamp < p.before ? "this one is before that of the row above"
-                           : "this one is that of the row above");
-    *n = p.n;
-    if (p.status != SS_OK)
-        return p.status;
-    if (p.n < 2)
-        return ss_fail(err, SS_ECLOCK, "%s: one row has no sample rate", s->file);
-    if (!isfinite(p.stamp - first))
-        return ss_fail(err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", s->file, first,
-                       p.stamp);
-    return SS_OK;
+    if (p->status == SS_OK && p->n < 2)
+        return ss_fail(p->err, SS_ECLOCK, "%s: one row has no sample rate", p->of->file);
+    if (p->status == SS_OK && !isfinite(p->stamp - p->first))
+        return ss_fail(p->err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", p->of->file,
+                       p->first, p->stamp);
+    return p->status;
 }
+
+/* --- the straight line through stamps, by least squares ------------------------------------- */
+
+struct point {
+    double sample, stamp;
+};
+
+struct fit {
+    size_t n;
+    struct point first, last, mean;     /* mean: from the first on */
+    double product, square;     /* sums of products of sample and stamp, and of sample, about the mean */
+    struct side {               /* corners of the convex hull: below and above all points */
+        struct point *corner;
+        size_t n, room;
+    } side[2];
+};
+
+struct line {
+    double period, at_0;
+};
+
+/* 1 if b is no corner of the convex hull between a and c, on the side with this sign. */
+static int
+is_within(struct point a, struct point b, struct point c, double sign)
+{
+    return sign * ((b.sample - a.sample) * (c.stamp - a.stamp)
+                   - (b.stamp - a.stamp) * (c.sample - a.sample)) <= 0;
+}
+
+/* Add a stamp; 0: no memory.  The point farthest from a line is a corner of the hull, which has few. */
+static int
+add(struct fit *f, double sample, double stamp)
+{
+    f->last = (struct point){ sample, stamp };
+    if (f->n++ == 0)
+        f->first = f->last;
+    double t = stamp - f->first.stamp, off = sample - f->mean.sample;
+    f->mean.sample += off / (double)f->n;
+    f->mean.stamp += (t - f->mean.stamp) / (double)f->n;
+    f->product += off * (t - f->mean.stamp);
+    f->square += off * (sample - f->mean.sample);
+    for (int i = 0; i < 2; i++) {
+        struct side *s = &f->side[i];
+        while (s->n > 1 && is_within(s->corner[s->n - 2], s->corner[s->n - 1], f->last, i == 0 ? 1 : -1))
+            s->n--;
+        struct point *more = ss_list_room(s->corner, &s->room, s->n, sizeof *more);
+        if (more == NULL)
+            return 0;
+        s->corner = more;
+        more[s->n++] = f->last;
+    }
+    return 1;
+}
+
+static struct line
+line_of(const struct fit *f)
+{
+    double period = f->product / f->square;
+    return (struct line){ period, f->first.stamp + (f->mean.stamp - period * f->mean.sample) };
+}
+
+static double
+distance(struct line l, struct point p)
+{
+    return fabs(p.stamp - l.at_0 - l.period * p.sample);
+}
+
+static double
+largest_distance(const struct fit *f, struct line l)
+{
+    double most = 0;
+    for (int s = 0; s < 2; s++)
+        for (size_t i = 0; i < f->side[s].n; i++) {
+            double off = distance(l, f->side[s].corner[i]);
+            most = off <= most ? most : off;    /* NaN stays */
+        }
+    return most;
+}
+
+/* --- the usual step ------------------------------------------------------------------------ */
 
 /* The bits of a double >= 0 as an integer: integers made in this way are in the order of the doubles. */
 static uint64_t
@@ -175,14 +176,17 @@ next_digit(const struct stamps *s, size_t *count, int below, uint64_t *known, si
 ss_status
 ss_usual_step(const struct stamps *s, double *usual, ss_error *err)
 {
-    size_t n, *count;
+    size_t *count;
     uint64_t known = 0;
-    ss_status st = check_stamps(s, &n, err);
+    struct pass p = start(s, err);
+    while (step(&p))
+        ;
+    ss_status st = end(&p);
     if (st != SS_OK)
         return st;
     if ((count = malloc(((size_t)1 << DIGIT) * sizeof *count)) == NULL)
         return ss_fail_memory(err, s->file);
-    size_t rank = (n - 2) / 2;                  /* the lower median, since gaps lengthen steps */
+    size_t rank = (p.n - 2) / 2;                  /* the lower median, since gaps lengthen steps */
     for (int below = 64 - DIGIT; st == SS_OK && below >= 0; below -= DIGIT)
         st = next_digit(s, count, below, &known, &rank, err);
     memcpy(usual, &known, sizeof *usual);
@@ -203,6 +207,8 @@ ss_clock_sample(struct sample_count *c, double stamp)
     return sample;
 }
 
+/* --- stamps that are not uniform ----------------------------------------------------------- */
+
 /* A stamp that is off by `by`. */
 struct off {
     double by, stamp, before;
@@ -218,7 +224,7 @@ farthest_from(struct line l, const struct stamps *s, double usual, struct off *w
     *worst = (struct off){ .by = NAN };
     struct pass p = start(s, err);
     while (step(&p)) {
-        double off = distance(l, (struct clock_point){ (double)ss_clock_sample(&count, p.stamp), p.stamp });
+        double off = distance(l, (struct point){ (double)ss_clock_sample(&count, p.stamp), p.stamp });
         if (p.n > 1 && off <= most * (1 + 1e-9))
             continue;
         most = off;
@@ -266,6 +272,8 @@ refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
                    "sample periods, %.1f is allowed", s->file, worst.line, off, TOLERANCE);
 }
 
+/* --- the clock ----------------------------------------------------------------------------- */
+
 /* The decimal number with the fewest digits in [lo, hi]; *digits becomes their number. */
 static double
 roundest(double lo, double hi, int *digits)
@@ -291,24 +299,17 @@ ss_clock_digits(double x)
     return digits;
 }
 
-static int
-is_uniform(const clock_fit *f, struct line l, double deviation)
+/* Find the rate; SS_EUNEVEN, without a text, if the stamps are not uniform. */
+static ss_status
+find_rate(const struct fit *f, const char *file, struct clock *c, ss_error *err)
 {
-    return l.period > 0 && deviation <= fmax(TOLERANCE * l.period, fmin(f->digit, BY_DIGITS * l.period));
-}
-
-ss_status
-ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
-{
-    if (f->n < 2)
-        return SS_EUNEVEN;
     struct line l = line_of(f);
-    double deviation = largest_distance(f, l);
-    if (!is_uniform(f, l, deviation))
+    double deviation = largest_distance(f, l), allowed = TOLERANCE * l.period;
+    if (!(l.period > 0 && deviation <= fmax(allowed, fmin(c->digit, BY_DIGITS * l.period))))
         return SS_EUNEVEN;
 
     /* each stamp is off by at most the deviation, so the period over all of them by at most twice that */
-    double rounding = 2 * DBL_EPSILON * fmax(fabs(f->taken + f->first.stamp), fabs(f->taken + f->last.stamp));
+    double rounding = 2 * DBL_EPSILON * fmax(fabs(c->taken + f->first.stamp), fabs(c->taken + f->last.stamp));
     double slack = 2 * (deviation + rounding) / f->last.sample + 4 * DBL_EPSILON * l.period;
     int rate_digits, period_digits;
     ss_status st = ss_refuse_range(file, 1 / (l.period - slack), f->first.stamp, err);
@@ -316,56 +317,32 @@ ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err)
         return st;
     double by_rate = roundest(1 / (l.period + slack), 1 / (l.period - slack), &rate_digits);
     double by_period = roundest(l.period - slack, l.period + slack, &period_digits);
-    *rate = rate_digits <= period_digits ? by_rate : 1 / by_period;
+    c->rate = rate_digits <= period_digits ? by_rate : 1 / by_period;
     return SS_OK;
 }
 
 ss_status
-ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate, ss_error *err)
+ss_find_clock(const struct stamps *s, struct clock *c, ss_error *err)
 {
-    size_t n;
-    struct sample_count count = { .usual = usual };
-    ss_status st = check_stamps(s, &n, err);
-    if (st != SS_OK)
-        return st;
+    struct fit f = { .n = 0 };
+    struct sample_count count = { .usual = c->usual };
     struct pass p = start(s, err);
     while (step(&p))
-        if (!ss_clock_add(fit, (double)ss_clock_sample(&count, p.stamp), p.stamp))
-            return ss_fail_memory(err, s->file);
-    if (p.status == SS_OK)
-        st = ss_clock_rate(fit, s->file, rate, err);
-    else
-        st = p.status;
-    double period = line_of(fit).period;
-    if (st == SS_EUNEVEN && period > 0 && fit->digit > 2 * BY_DIGITS * period)
+        if (!add(&f, (double)ss_clock_sample(&count, p.stamp), p.stamp))
+            p.status = ss_fail_memory(err, s->file);
+    ss_status st = end(&p);
+    struct line l = line_of(&f);
+    if (st == SS_OK)
+        st = find_rate(&f, s->file, c, err);
+    c->start = f.first.stamp;
+    c->n = f.n;
+    c->last = f.last.sample;
+    free(f.side[0].corner);
+    free(f.side[1].corner);
+    if (st != SS_EUNEVEN)
+        return st;
+    if (l.period > 0 && c->digit > 2 * BY_DIGITS * l.period)
         return ss_fail(err, st, "%s: time stamps have too few digits: 1 in the last of them is %.2g sample periods, "
-                       "%.1f is allowed", s->file, fit->digit / period, 2 * BY_DIGITS);
-    return st == SS_EUNEVEN ? refuse(s, usual, line_of(fit), err) : st;
-}
-
-int
-ss_is_on_clock(double stamp, double rate, double start, uint64_t row)
-{
-    double expected = start + (double)row / rate;
-    return fabs(stamp - expected) <= 1e-6 / rate + 1e-15 * fabs(expected);
-}
-
-ss_status
-ss_refuse_table(const char *name, const ss_read_opts *opts, ss_error *err)
-{
-    return opts->table == 0 ? SS_OK
-        : ss_fail(err, SS_EDATA, "%s: not delimited text: no table can be chosen", name);
-}
-
-ss_status
-ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err)
-{
-    char rate[SS_NUMBER_MAX];
-    ss_number_format(rate, own);
-    if (opts->time != NULL || (opts->rate > 0 && (opts->rate < own || opts->rate > own)))
-        return ss_fail(err, SS_EDATA, "%s: has a clock of its own, %s Hz: no column of time or rate "
-                       "can be chosen", name, rate);
-    if (opts->time_unit != NULL)
-        return ss_fail(err, SS_EDATA, "%s: has a clock in seconds: no unit of time can be chosen", name);
-    return ss_refuse_table(name, opts, err);
+                       "%.1f is allowed", s->file, c->digit / l.period, 2 * BY_DIGITS);
+    return refuse(s, c->usual, l, err);
 }

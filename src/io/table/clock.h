@@ -3,33 +3,7 @@
 #define CLOCK_H
 
 #include <stddef.h>
-#include <stdint.h>
-#include <stickslip/signal.h>
-
-/* Sums over stamps that come one after the other, from which the uniform clock follows.  Begin with
- * zeros. */
-struct clock_point {
-    double sample, stamp;
-};
-typedef struct clock_fit {
-    size_t n;
-    struct clock_point first, last, mean;       /* mean: from the first on */
-    double taken;               /* [s] from all stamps, which were rounded before */
-    double digit;               /* [s] what 1 in the last digit of a stamp is; 0: not known */
-    double product, square;     /* sums of products of sample and stamp, and of sample, about the mean */
-    struct clock_side {         /* corners of the convex hull: below and above all points */
-        struct clock_point *corner;
-        size_t n, room;
-    } side[2];
-} clock_fit;
-
-/* Add a stamp that is later than the one before.  Returns 0 if there is no memory. */
-int ss_clock_add(clock_fit *f, double sample, double stamp);
-/* The rate; SS_EUNEVEN, without a text, if the stamps are not uniform. */
-ss_status ss_clock_rate(const clock_fit *f, const char *file, double *rate, ss_error *err);
-void ss_clock_free(clock_fit *f);
-/* The fewest digits of a number that is x, but for 1e-9 of it. */
-int ss_clock_digits(double x);
+#include <stickslip/status.h>
 
 /* Stamps of a file that are read several times: from the first on, the next with the number of its line;
  * *there = 0: there is none. */
@@ -48,18 +22,19 @@ struct sample_count {
 };
 size_t ss_clock_sample(struct sample_count *c, double stamp);
 
-/* Find the uniform clock of the stamps; *fit, from zeros but for taken and digit, is to be freed.  usual > 0: that step, and some may
- * be missing. */
-ss_status ss_find_clock(const struct stamps *s, double usual, clock_fit *fit, double *rate, ss_error *err);
+struct clock {
+    double usual;               /* given: the usual step, and some stamps may be missing; 0: none is */
+    double taken;               /* given: [s] from all stamps, which were rounded before */
+    double digit;               /* given: [s] what 1 in the last digit of a stamp is; 0: not known */
+    double rate, start;         /* found */
+    size_t n;                   /* stamps */
+    double last;                /* the number of the last sample */
+};
+/* Find the uniform clock of the stamps, which must ascend. */
+ss_status ss_find_clock(const struct stamps *s, struct clock *clock, ss_error *err);
 /* The median step of stamps, which must ascend. */
 ss_status ss_usual_step(const struct stamps *s, double *usual, ss_error *err);
-
-/* Is the stamp start + row / rate, but for rounding and 1e-6 sample periods? */
-int ss_is_on_clock(double stamp, double rate, double start, uint64_t row);
-
-/* Refuse an option for delimited text alone. */
-ss_status ss_refuse_table(const char *name, const ss_read_opts *opts, ss_error *err);
-/* Refuse it, and options for input without a clock; this input has the rate own. */
-ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
+/* The fewest digits of a number that is x, but for 1e-9 of it. */
+int ss_clock_digits(double x);
 
 #endif

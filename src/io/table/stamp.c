@@ -1,4 +1,5 @@
 /* stamp.c -- read dates and times of day in the form of ISO 8601 and in those of spreadsheets. */
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 #include <strings.h>
@@ -172,4 +173,63 @@ ss_stamp_read(const char *cell)
     found.parts |= STAMP_TIME;
     found.seconds -= ahead;
     return found;
+}
+
+/* --- a column ------------------------------------------------------------------------------ */
+
+struct stamp_column
+ss_stamp_column(unsigned parts)
+{
+    return (struct stamp_column){ .parts = parts, .fits = { 1, 1 }, .last = NAN };
+}
+
+static int
+order_of(const struct stamp_column *c)
+{
+    return c->fits[DAY_FIRST] ? DAY_FIRST : MONTH_FIRST;
+}
+
+double
+ss_stamp_day(const struct stamp_column *c)
+{
+    int open = c->fits[DAY_FIRST] && c->fits[MONTH_FIRST] && c->first[DAY_FIRST] != c->first[MONTH_FIRST];
+    return c->dated && !open ? (double)c->first[order_of(c)] : NAN;
+}
+
+/* The days since the first row.  Day and month have the same order in all rows.  A day above 12 shows it, or
+ * else, where the date changes, the order in which the next day follows.  NaN: the date fits no order. */
+static double
+count_days(struct stamp_column *c, const long day[ORDERS])
+{
+    if (!c->dated)
+        memcpy(c->first, day, sizeof c->first);
+    for (int i = 0; i < ORDERS; i++)
+        c->fits[i] &= day[i] != NO_DAY;
+    if (c->dated && c->fits[DAY_FIRST] && c->fits[MONTH_FIRST]
+        && day[DAY_FIRST] - c->first[DAY_FIRST] != day[MONTH_FIRST] - c->first[MONTH_FIRST])
+        for (int i = 0; i < ORDERS; i++)
+            c->fits[i] = day[i] == c->before[i] + 1;
+    memcpy(c->before, day, sizeof c->before);
+    c->dated = 1;
+    int order = order_of(c);
+    return c->fits[order] ? (double)(day[order] - c->first[order]) : NAN;
+}
+
+/* Times without a date go on at midnight, and those without hours at the hour.  Second 60 is the next minute's second
+ * 0 unless that follows, too: then it was a leap second. */
+double
+ss_stamp_next(struct stamp_column *c, const char *cell)
+{
+    const time_stamp s = ss_stamp_read(cell);
+    double seconds = s.seconds;
+    if (s.parts != c->parts)
+        return NAN;
+    if (c->parts & STAMP_DATE)
+        seconds += 86400 * count_days(c, s.day);
+    else if (!isnan(c->last))                   /* on the day that brings it nearest to the row before */
+        seconds += s.turn * floor((c->last - s.seconds) / s.turn + 0.5);
+    c->leaps += c->leap && !s.leap && seconds <= c->last;
+    c->leap = s.leap;
+    c->last = seconds;
+    return seconds + c->leaps;
 }

@@ -22,4 +22,20 @@ typedef struct time_stamp {
  * without hours 12:13.125. */
 time_stamp ss_stamp_read(const char *cell);
 
+/* A column of stamps, of which each row shows more. */
+struct stamp_column {
+    unsigned parts;             /* a date, a time of day or both */
+    int dated;                  /* have its rows a date? */
+    int fits[ORDERS];           /* may their day and month stand in this order? */
+    long first[ORDERS];         /* the first row's day in it */
+    long before[ORDERS];        /* and that of the row before */
+    double last;                /* the stamp of the row before, without leap seconds */
+    int leap, leaps;            /* leap: may it lie in a leap second?  leaps: so many have ended */
+};
+struct stamp_column ss_stamp_column(unsigned parts);
+/* The seconds of the next row's stamp since the midnight before the first row; NaN: it is none like those before. */
+double ss_stamp_next(struct stamp_column *c, const char *cell);
+/* The day of the first row, since 1970-01-01; NaN: it has none, or day and month may stand in either order. */
+double ss_stamp_day(const struct stamp_column *c);
+
 #endif

@@ -1,34 +1,11 @@
-/* delimited_cells.c -- divide lines of a text table into cells, and read the numbers in cells. */
+/* cells.c -- divide lines of a text table into cells, and read the numbers in cells. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/error.h"
-#include "base/number.h"
+#include <stickslip/number.h>
 #include "base/list.h"
-#include "io/table/delimited.h"
-#include "io/table/stamp.h"
-
-ss_status
-ss_delimited_no_memory(const struct table *t, ss_error *err)
-{
-    return ss_fail(err, SS_ENOMEM, "%s:%lu: no memory for a table this large", t->in->name,
-                   t->in->line);
-}
-
-void
-ss_delimited_warn(const struct table *t, ss_status about, const char *format, ...)
-{
-    ss_error text;
-    va_list args;
-    if (t->opts->warn == NULL)
-        return;
-    va_start(args, format);
-    ss_print_text(text.text, sizeof text.text, format, args);
-    va_end(args);
-    t->opts->warn(about, text.text, t->opts->user);
-}
+#include "io/table/text.h"
 
 char *
 ss_cell_trim(char *p)
@@ -59,14 +36,18 @@ unquote(char *p)
 }
 
 size_t
-ss_delimited_split(struct table *t, char *p, char separator)
+ss_text_split(struct text *x, const char *line, char separator)
 {
-    size_t n = 0;
+    size_t n = 0, size = strlen(line) + 1;
+    char *p = ss_list_grow(x->copy, &x->copy_room, size, 1);
+    if (p == NULL)
+        return NONE;
+    memcpy(x->copy = p, line, size);
     for (int more = 1; more; ) {
-        char **cell = ss_list_room(t->cell, &t->cell_room, n, sizeof *cell);
+        char **cell = ss_list_room(x->cell, &x->cell_room, n, sizeof *cell);
         if (cell == NULL)
             return NONE;
-        t->cell = cell;
+        x->cell = cell;
         p += separator == '\t' ? strspn(p, " ") : strspn(p, " \t");
         char *begin = p, *rest = *p == '"' ? unquote(p) : p;
         char *end = rest + (separator == ' ' ? strcspn(rest, " \t") : separator == '\0' ? strlen(rest)
@@ -75,18 +56,18 @@ ss_delimited_split(struct table *t, char *p, char separator)
         *end = '\0';
         if (rest > begin)                       /* what stands behind quotes belongs to the cell */
             memmove(begin + strlen(begin), rest, strlen(rest) + 1);
-        t->cell[n++] = ss_cell_trim(begin);
+        x->cell[n++] = ss_cell_trim(begin);
         p = end + more;
     }
-    while (n > 1 && n != t->n_columns && t->cell[n - 1][0] == '\0')
+    while (n > 1 && n != x->t.n_columns && x->cell[n - 1][0] == '\0')
         n--;
     return n;
 }
 
 int
-ss_delimited_may_lack(const struct table *t)
+ss_text_may_lack(const struct text *x)
 {
-    return t->opts->gaps != SS_GAPS_REFUSE || t->opts->n_needed > 0;
+    return x->t.opts->gaps != SS_GAPS_REFUSE || x->t.opts->n_needed > 0;
 }
 
 /* 1 if the cell is a word that recorders write in place of a missing number. */
@@ -136,19 +117,16 @@ ss_cell_read(char *cell, char separator, double *x)
 }
 
 char *
-ss_delimited_shape(struct table *t, const char *line, char separator, size_t *numbers)
+ss_text_shape(struct text *x, const char *line, char separator, size_t *numbers)
 {
-    double x;
-    char *copy = strdup(line), *shape = NULL;
-    size_t n = copy != NULL ? ss_delimited_split(t, copy, separator) : NONE;
+    double number;
+    size_t n = ss_text_split(x, line, separator);
+    char *shape = n != NONE ? calloc(n + 1, 1) : NULL;
     *numbers = 0;
-    if (n != NONE)
-        shape = calloc(n + 1, 1);
     for (size_t i = 0; shape != NULL && i < n; i++) {
-        enum cell_kind kind = ss_cell_read(t->cell[i], separator, &x);
-        shape[i] = t->cell[i][0] == '\0' ? 'e' : kind == CELL_TEXT ? 't' : 'n';
+        enum cell_kind kind = ss_cell_read(x->cell[i], separator, &number);
+        shape[i] = x->cell[i][0] == '\0' ? 'e' : kind == CELL_TEXT ? 't' : 'n';
         *numbers += kind == CELL_NUMBER;
     }
-    free(copy);
     return shape;
 }

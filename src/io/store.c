@@ -1,0 +1,152 @@
+/* store.c -- HDF5 as a format, without the HDF5 library, which only the functions of ss_store_calls need. */
+#include "io/store.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include "base/error.h"
+#include "io/format.h"
+
+/* --- the format ---------------------------------------------------------------------------- */
+
+int
+ss_store_is_hdf5(const char *path)
+{
+    if (path == NULL)
+        return 0;
+    static const char signature[8] = "\211HDF\r\n\032\n";
+    char bytes[8];
+    struct stat st;
+    int found = 0;
+    if (stat(path, &st) != 0 || !S_ISREG(st.st_mode))   /* a FIFO must not lose its first bytes */
+        return 0;
+    FILE *in = fopen(path, "rb");
+    if (in == NULL)
+        return 0;
+    for (off_t at = 0; !found && at <= st.st_size - 8; at = at > 0 ? 2 * at : 512)
+        found = fseeko(in, at, SEEK_SET) == 0 && fread(bytes, 1, 8, in) == 8
+                && memcmp(bytes, signature, 8) == 0;
+    fclose(in);
+    return found;
+}
+
+static ss_status
+open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts, ss_error *err)
+{
+    const struct ss_store_calls *hdf5 = ss_store_calls(err);
+    return hdf5 != NULL ? hdf5->open_signal(out, path, dataset, opts, err) : SS_EIO;
+}
+
+const struct format ss_format_hdf5 = {
+    .name = "h5", .magic = "\211HDF", .is_file = ss_store_is_hdf5, .open_file = open_signal
+};
+
+/* --- what else is in a file ---------------------------------------------------------------- */
+
+int
+ss_store_has_signal(const char *path)
+{
+    const struct ss_store_calls *hdf5 = path != NULL ? ss_store_calls(NULL) : NULL;
+    return hdf5 != NULL && hdf5->has_signal(path);
+}
+
+ss_status
+ss_store_open_coefficients(ss_coefficients **out, const char *path, ss_error *err)
+{
+    if (out == NULL || path == NULL)
+        return SS_FAIL_NULL(err);
+    const struct ss_store_calls *hdf5 = ss_store_calls(err);
+    return hdf5 != NULL ? hdf5->open_coefficients(out, path, err) : SS_EIO;
+}
+
+ss_status
+ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err)
+{
+    ss_coefficients *map;
+    if (out == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status status = ss_store_open_coefficients(&map, path, err);
+    if (status != SS_OK)
+        return status;
+    const ss_scale *last = &map->scale[map->n_scales - 1];
+    double *w = malloc(2 * (last->offset + last->n) * sizeof *w);
+    if (w == NULL)
+        status = ss_fail_memory(err, path);
+    for (size_t i = 0; status == SS_OK && i < map->n_scales; i++) {
+        const ss_scale *scale = &map->scale[i];
+        status = ss_map_read(map, &(ss_map_part){ i, 0, scale->n, w + 2 * scale->offset, NULL }, 1, err);
+    }
+    map->source->free(map->source);
+    map->source = NULL;
+    map->w = w;
+    if (status == SS_OK)
+        *out = map;
+    else
+        ss_coefficients_free(map);
+    return status;
+}
+
+/* --- writing ------------------------------------------------------------------------------- */
+
+ss_status
+ss_store_write(const char *path, const ss_record *record, ss_error *err)
+{
+    if (path == NULL || record == NULL)
+        return SS_FAIL_NULL(err);
+    const struct ss_store_calls *hdf5 = ss_store_calls(err);
+    return hdf5 != NULL ? hdf5->write(path, record, err) : SS_EIO;
+}
+
+ss_status
+ss_store_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
+                    const ss_coefficients *grid, ss_error *err)
+{
+    if (out == NULL || path == NULL || (grid == NULL && signal == NULL)
+        || (grid != NULL && (grid->head == NULL || grid->n_scales == 0)))
+        return SS_FAIL_NULL(err);
+    const struct ss_store_calls *hdf5 = ss_store_calls(err);
+    return hdf5 != NULL ? hdf5->writer_new(out, path, signal, grid, err) : SS_EIO;
+}
+
+/* A writer has been made by these functions, which are there. */
+
+ss_status
+ss_store_writer_signal(ss_store_writer *writer, double *const column[], size_t n, ss_error *err)
+{
+    if (writer == NULL || (column == NULL && n > 0))
+        return SS_FAIL_NULL(err);
+    return ss_store_calls(err)->writer_signal(writer, column, n, err);
+}
+
+ss_status
+ss_store_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n,
+                     const double *w, size_t samples, ss_error *err)
+{
+    if (writer == NULL || scale == NULL || (w == NULL && n > 0))
+        return SS_FAIL_NULL(err);
+    return ss_store_calls(err)->writer_rows(writer, scale, first, n, w, samples, err);
+}
+
+ss_status
+ss_store_writer_note(ss_store_writer *writer, const char *key, const char *value, ss_error *err)
+{
+    if (writer == NULL || key == NULL || value == NULL)
+        return SS_FAIL_NULL(err);
+    return ss_store_calls(err)->writer_note(writer, key, value, err);
+}
+
+ss_status
+ss_store_writer_end(ss_store_writer *writer, size_t samples, ss_error *err)
+{
+    if (writer == NULL)
+        return SS_FAIL_NULL(err);
+    return ss_store_calls(err)->writer_end(writer, samples, err);
+}
+
+void
+ss_store_writer_free(ss_store_writer *writer)
+{
+    if (writer != NULL)
+        ss_store_calls(NULL)->writer_free(writer);
+}

@@ -1,0 +1,435 @@
+/* names.c -- names, units and a clock in the lines above the data of a text table.
+ *
+ * In most tables the last line names the columns, and one may give their units.  LabVIEW and other programs of
+ * National Instruments say in lines that begin with a key what each column is: "Delta_X", "Interval" or "delta t",
+ * "Y_Unit_Label" or "Unit", "Channel name".  The columns of x of LabVIEW's measurement files (.lvm) are as
+ * "X_Columns" says: One comes first, Multi have one before each channel, and with No its place is empty and the
+ * header alone has the clock.  (National Instruments, Specification for the LabVIEW Measurement File.) */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include "base/error.h"
+#include "signal/header.h"
+#include "io/table/text.h"
+
+/* --- units --------------------------------------------------------------------------------- */
+
+/* Is this one symbol of a unit, such as mm, kHz or kip? */
+static int
+is_unit_symbol(const char *p, size_t n)
+{
+    static const char *const symbol[] = { "m", "s", "g", "N", "Pa", "V", "A", "Hz", "K", "W", "J",
+        "rad", "Ohm", "bar", "sec", "min", "h", "in", "inch", "ft", "lb", "lbf", "kip", "psi", "deg",
+        "\u00b0", "\u00b0C", "\u00b0F", "%", "rpm", "dB", "strain", "\u03a9", NULL };
+    static const char *const prefix[] = { "", "m", "\u00b5", "\u03bc", "u", "n", "k", "M", "G", "c",
+        "d", "h", NULL };
+    for (int i = 0; prefix[i] != NULL; i++) {
+        size_t skip = strlen(prefix[i]);
+        if (skip >= n || memcmp(p, prefix[i], skip) != 0)
+            continue;
+        for (int j = 0; symbol[j] != NULL; j++)
+            if (strlen(symbol[j]) == n - skip && memcmp(p + skip, symbol[j], n - skip) == 0)
+                return 1;
+    }
+    return 0;
+}
+
+/* Is this a unit, such as [mm/s], N m, m/s^2 or 1? */
+static int
+is_unit(const char *p)
+{
+    static const char between[] = "/*. ^-()[]0123456789\xc2\xb2\xb3";  /* superscripts too */
+    if ((*p == '[' || *p == '(') && strpbrk(p, "])") == p + strlen(p) - 1)
+        return 1;
+    while (*p != '\0') {
+        size_t n = strcspn(p, "/*. ^-()[]0123456789");
+        if (n > 2 && p[n - 2] == '\xc2' && (p[n - 1] == '\xb2' || p[n - 1] == '\xb3'))
+            n -= 2;
+        if (n > 0 && !is_unit_symbol(p, n))
+            return 0;
+        p += n;
+        p += strspn(p, between);
+    }
+    return 1;
+}
+
+/* --- keys --------------------------------------------------------------------------------- */
+
+static const char *const step_keys[] = { "Delta_X", "Interval", "delta t", NULL };
+static const char *const start_keys[] = { "X0", NULL };
+static const char *const unit_keys[] = { "Y_Unit_Label", "Unit", "Units", NULL };
+static const char *const name_keys[] = { "Channel name", "Channel names", "waveform", NULL };
+static const char *const dimension_keys[] = { "X_Dimension", NULL };
+static const char *const layout_keys[] = { "X_Columns", NULL };
+
+static int
+is_one_of(const char *cell, const char *const *word)
+{
+    for (; *word != NULL; word++)
+        if (strcasecmp(cell, *word) == 0)
+            return 1;
+    return 0;
+}
+
+static int
+is_key(const char *cell)
+{
+    return is_one_of(cell, step_keys) || is_one_of(cell, unit_keys) || is_one_of(cell, name_keys);
+}
+
+/* --- lines above the data ------------------------------------------------------------------ */
+
+/* The kind of a row above the data, if it has as many cells as the data. */
+enum row_kind { ROW_OTHER, ROW_NAMES, ROW_UNITS, ROW_MIXED, ROW_NO_MEMORY };
+
+static enum row_kind
+kind_of_row(struct text *x, const char *line)
+{
+    size_t empty = 0, numbers = 0, units = 0, columns = x->t.n_columns;
+    double number;
+    size_t n = line != NULL ? ss_text_split(x, line, x->separator) : 0;
+    if (n == NONE)
+        return ROW_NO_MEMORY;
+    if (n == columns + 1 && strcasecmp(x->cell[n - 1], "comment") == 0) {
+        n--;                                    /* LabVIEW names a column of comments that few rows have */
+        x->comments = 1;
+    }
+    if (n != columns)
+        return ROW_OTHER;
+    for (size_t i = 0; i < n; i++) {
+        empty += x->cell[i][0] == '\0';
+        units += (size_t)is_unit(x->cell[i]);
+        numbers += ss_cell_read(x->cell[i], x->separator, &number) != CELL_TEXT;
+    }
+    if (units == n && empty + numbers < n)
+        return ROW_UNITS;
+    return numbers > 0 ? ROW_MIXED : ROW_NAMES;
+}
+
+/* Cut "name (unit)", "name [unit]" or "name/unit" in two. */
+static void
+split_name(char *cell, char **name, char **unit)
+{
+    size_t n = strlen(cell);
+    char closing = n > 0 ? cell[n - 1] : '\0';
+    char *opening = closing == ')' ? strchr(cell, '(') : closing == ']' ? strchr(cell, '[') : NULL;
+    if (opening == NULL || opening == cell) {
+        ss_split_label(cell, name, unit);
+        *name = ss_cell_trim(*name);
+        *unit = ss_cell_trim(*unit);
+        return;
+    }
+    cell[n - 1] = '\0';
+    if (opening > cell && opening[-1] == '/')
+        opening[-1] = '\0';
+    *opening = '\0';
+    *name = ss_cell_trim(cell);
+    *unit = ss_cell_trim(opening + 1);
+}
+
+/* A cell of the units row without the brackets around it. */
+static char *
+bare_unit(char *cell)
+{
+    size_t n = strlen(cell);
+    if (n < 2 || !((cell[0] == '[' && cell[n - 1] == ']') || (cell[0] == '(' && cell[n - 1] == ')')))
+        return cell;
+    cell[n - 1] = '\0';
+    return ss_cell_trim(cell + 1);
+}
+
+/* Name the columns by one line and give them the units of another; either may be NULL. */
+static ss_status
+name_columns(struct text *x, const char *names, const char *units)
+{
+    char number[32], **unit_cell = NULL, *copy = NULL;
+    size_t n = 0;
+    if (units != NULL && (n = ss_text_split(x, units, x->separator)) != NONE) {
+        unit_cell = x->cell;                    /* the cells of the names get room of their own */
+        copy = x->copy;
+        x->cell = NULL;
+        x->copy = NULL;
+    }
+    if (n != NONE && names != NULL)
+        n = ss_text_split(x, names, x->separator);
+    ss_status st = n != NONE ? SS_OK : SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < x->t.n_columns; i++) {
+        char *name = "", *unit = "";
+        snprintf(number, sizeof number, "ch%zu", i + 1);
+        if (names != NULL)
+            split_name(x->cell[i], &name, &unit);
+        if (units != NULL)
+            unit = bare_unit(unit_cell[i]);
+        else if (*unit == '\0')
+            unit = (char *)ss_unit_of_name(name, NULL);
+        st = ss_header_add_column(x->t.names, *name != '\0' ? name : number, unit);
+    }
+    free(unit_cell);
+    free(copy);
+    return st;
+}
+
+/* Cut a line after its first n cells. */
+static void
+cut(char *line, size_t n, char separator)
+{
+    for (; *line != '\0' && n > 0; line++)
+        if (*line == separator && --n == 0)
+            *line = '\0';
+}
+
+/* The text of the kept line that is `up` lines above the last one, which is just above the data; NULL if
+ * there is none. */
+static char *
+line_above(const struct text *x, size_t up)
+{
+    return x->n_head > up ? x->head[x->n_head - 1 - up].text : NULL;
+}
+
+/* Rigol's oscilloscopes number the rows.  Behind the names of their columns they write Start and
+ * Increment, and the two times in the line below.  Read the times and cut both lines before them. */
+static ss_status
+find_increment(struct text *x)
+{
+    char *above = line_above(x, 1), *last = line_above(x, 0);
+    size_t at_start = NONE, at_step = NONE;
+    double start, step;
+    size_t n = ss_text_split(x, above != NULL ? above : "", x->separator);
+    for (size_t i = x->t.n_columns; n != NONE && i < n; i++) {
+        at_start = strcasecmp(x->cell[i], "Start") == 0 ? i : at_start;
+        at_step = strcasecmp(x->cell[i], "Increment") == 0 ? i : at_step;
+    }
+    if (n != NONE && at_start != NONE && at_step != NONE) {
+        n = ss_text_split(x, last, x->separator);
+        if (n != NONE && at_start < n && at_step < n
+            && ss_cell_read(x->cell[at_start], x->separator, &start) == CELL_NUMBER
+            && ss_cell_read(x->cell[at_step], x->separator, &step) == CELL_NUMBER) {
+            cut(above, x->t.n_columns, x->separator);
+            cut(last, x->t.n_columns, x->separator);
+            if (step > 0) {
+                x->t.counted.origin = start;
+                x->t.counted.increment = step;
+                x->t.counted.numbered = 1;
+            }
+        }
+    }
+    return n != NONE ? SS_OK : SS_ENOMEM;
+}
+
+/* Refuse the last line, which has numbers, if it is a row with a bad cell. */
+static ss_status
+check_mixed(struct text *x, enum row_kind before, ss_error *err)
+{
+    double number;
+    const struct text_line *line = &x->head[x->n_head - 1];
+    size_t n = ss_text_split(x, line->text, x->separator), bad = n;
+    if (n == NONE)
+        return SS_ENOMEM;
+    int has_words = 0, begins = ss_cell_read(x->cell[0], x->separator, &number) != CELL_TEXT;
+    for (size_t i = n; i-- > 0; )
+        if (ss_cell_read(x->cell[i], x->separator, &number) == CELL_TEXT) {
+            has_words |= x->cell[i][0] != '\0';
+            bad = i;
+        }
+    if (bad == n || !(begins || !has_words || (before == ROW_NAMES && !is_key(x->cell[0]))))
+        return SS_OK;
+    return ss_fail(err, x->cell[bad][0] != '\0' ? SS_EDATA : SS_EGAPS, "%s:%lu: column %zu: '%.40s' is not a number",
+                   x->t.name, line->number, bad + 1, x->cell[bad]);
+}
+
+static ss_status
+name_by_lines(struct text *x, ss_error *err)
+{
+    char *last_line = line_above(x, 0), *above = line_above(x, 1);
+    ss_status st = find_increment(x);
+    if (st != SS_OK)
+        return st;
+    if (x->t.counted.increment > 0) {
+        x->t.named = 1;
+        return name_columns(x, above, last_line);
+    }
+    enum row_kind last = kind_of_row(x, last_line), before = kind_of_row(x, above);
+    if (last == ROW_NO_MEMORY || before == ROW_NO_MEMORY)
+        return SS_ENOMEM;
+    if (last == ROW_MIXED && (st = check_mixed(x, before, err)) != SS_OK)
+        return st;
+    x->t.named = last == ROW_NAMES || last == ROW_UNITS;
+    return last == ROW_UNITS && before == ROW_NAMES ? name_columns(x, above, last_line)
+        : name_columns(x, x->t.named ? last_line : NULL, NULL);
+}
+
+/* --- lines that begin with a key ----------------------------------------------------------- */
+
+/* Find the last kept line that begins with one of these words.  Returns the number of cells behind the
+ * word, which are in x->cell + 1; 0: there is no such line; NONE: no memory. */
+static size_t
+find_line(struct text *x, const char *const *word)
+{
+    size_t n_columns = x->t.n_columns, found = 0;
+    x->t.n_columns = 0;                         /* then all empty cells at the end are dropped */
+    for (size_t i = x->n_head; found == 0 && i-- > 0;) {
+        size_t n = ss_text_split(x, x->head[i].text, x->separator);
+        if (n != NONE)
+            x->cell[0][strcspn(x->cell[0], ":")] = '\0';
+        found = n == NONE ? NONE : n > 1 && is_one_of(x->cell[0], word) ? n - 1 : 0;
+    }
+    x->t.n_columns = n_columns;
+    return found;
+}
+
+/* Read the number that all cells of a line have in common.  *n becomes the number of these cells, 0 if
+ * there is no such line.  Cells without a number, such as dates, do not count. */
+static ss_status
+read_same(struct text *x, const char *const *word, double *same, size_t *n, ss_error *err)
+{
+    size_t cells = find_line(x, word);
+    *n = 0;
+    for (size_t i = 1; cells != NONE && i <= cells; i++) {
+        double value;
+        if (ss_cell_read(x->cell[i], x->separator, &value) != CELL_NUMBER)
+            continue;
+        if (*n > 0 && fabs(value - *same) > 1e-9 * fabs(value))
+            return ss_fail(err, SS_EDATA, "%s: channels of different clocks: %s is %s and %.9g", x->t.name,
+                           word[0], x->cell[i], *same);
+        *same = value;
+        ++*n;
+    }
+    return cells != NONE ? SS_OK : SS_ENOMEM;
+}
+
+/* *found becomes the index of a line's second cell in the list of choices; it stays as it is if there is
+ * no such line. */
+static ss_status
+read_choice(struct text *x, const char *const *word, const char *const *choice, int *found)
+{
+    size_t n = find_line(x, word);
+    for (int i = 0; n != NONE && n > 0 && choice[i] != NULL; i++)
+        if (strcasecmp(x->cell[1], choice[i]) == 0)
+            *found = i;
+    return n != NONE ? SS_OK : SS_ENOMEM;
+}
+
+/* If there is a line of names or units, give them to every step-th column from `first` on. */
+static ss_status
+label_columns(struct text *x, const char *const *word, size_t first, size_t step, int is_unit_row)
+{
+    size_t n = find_line(x, word);
+    ss_header *head = ss_header_new(0, 0);
+    ss_status st = n != NONE && head != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t c = 0; st == SS_OK && c < x->t.n_columns; c++) {
+        const ss_column *old = &x->t.names->column[c];
+        size_t i = (c - first) / step + 1;
+        const char *cell = c >= first && (c - first) % step == 0 && i <= n ? x->cell[i] : "";
+        st = ss_header_add_column(head, *cell != '\0' && !is_unit_row ? cell : old->name,
+                                  *cell != '\0' && is_unit_row ? cell : old->unit);
+    }
+    ss_header *other = st == SS_OK && n > 0 ? x->t.names : head;
+    x->t.names = other == head ? x->t.names : head;
+    ss_header_free(other);
+    return st;
+}
+
+/* Read names, units and clock from lines that begin with a key: Interval, Delta_X, Unit. */
+static ss_status
+name_by_keys(struct text *x, ss_error *err)
+{
+    static const char *const layout[] = { "No", "One", "Multi", NULL };
+    static const char *const dimension[] = { "Time", NULL };
+    size_t n = 0, ignored;
+    double step = 0, start = 0;
+    int is_time = -1, layout_found = (int)x->layout;
+    size_t named = find_line(x, name_keys);
+    if (named == NONE)
+        return SS_ENOMEM;
+    if (!x->labview && named == 0)
+        return SS_OK;
+    ss_status st = read_same(x, step_keys, &step, &n, err);
+    if (st == SS_OK)
+        st = read_same(x, start_keys, &start, &ignored, err);
+    if (st == SS_OK && x->labview)
+        st = read_choice(x, layout_keys, layout, &layout_found);
+    if (st == SS_OK && x->labview)
+        st = read_choice(x, dimension_keys, dimension, &is_time);
+    x->layout = layout_found;
+    if (st != SS_OK || n == 0 || !(step > 0) || x->t.n_columns < n)
+        return st;
+    if (x->labview && is_time < 0)
+        return ss_fail(err, SS_EDATA, "%s: the X_Dimension of its channels is not Time", x->t.name);
+    size_t first = x->first_x = x->t.n_columns > n, every = x->labview && x->layout == LAYOUT_MULTI ? 2 : 1;
+    st = label_columns(x, unit_keys, first, every, 1);
+    if (st == SS_OK)
+        st = label_columns(x, name_keys, first, every, 0);
+    x->t.named = 1;
+    x->t.counted.origin = start;
+    x->t.counted.increment = step;
+    x->t.counted.numbered = 0;
+    return st;
+}
+
+ss_status
+ss_text_read_names(struct text *x, ss_error *err)
+{
+    ss_status st = name_by_lines(x, err);
+    return st == SS_OK ? name_by_keys(x, err) : st;
+}
+
+/* --- the columns of x ---------------------------------------------------------------------- */
+
+#define MOST_APART 0.1          /* a time may be off by so many sample periods, as on any clock */
+#define MOST_ROUNDING 5.1e-7    /* [s] LabVIEW writes six decimals */
+
+/* Column 0 becomes the column of times, in seconds. */
+static ss_status
+name_first_time(struct sheet *t)
+{
+    char *name = strdup("X_Value"), *unit = strdup("s");
+    if (name == NULL || unit == NULL) {
+        free(name);
+        free(unit);
+        return SS_ENOMEM;
+    }
+    free(t->names->column[0].name);
+    free(t->names->column[0].unit);
+    t->names->column[0] = (ss_column){ name, unit };
+    return SS_OK;
+}
+
+/* The first column may repeat the times that the header gives, or hold the rows' numbers.  Where each channel has a
+ * column of times, they must be equal; all but the first are left out. */
+ss_status
+ss_text_check_times(struct text *x, ss_error *err)
+{
+    struct sheet *t = &x->t;
+    const double *row, step = t->counted.increment;
+    double from_times = 0, from_numbers = 0;
+    size_t other = t->n_columns;
+    int each = x->labview && x->layout == LAYOUT_MULTI;
+    if (!(step > 0) || t->counted.numbered || t->column[0].kind != COLUMN_NUMBERS || t->opts->time != NULL
+        || t->opts->rate > 0)
+        return SS_OK;
+    ss_status st = ss_kept_rewind(&t->rows, err);
+    for (double i = 0; st == SS_OK && (st = ss_kept_next(&t->rows, &row, err)) == SS_OK && row != NULL; i++) {
+        for (size_t c = 2; each && c < other; c += 2)
+            if (row[0] < row[c] || row[0] > row[c])
+                other = c;
+        from_times = fmax(from_times, fabs(row[0] - t->first[0] - i * step));
+        from_numbers = fmax(from_numbers, fabs(row[0] - t->first[0] - i));
+    }
+    if (st == SS_OK && each && other < t->n_columns)
+        return ss_fail(err, SS_EDATA, "%s: column %zu: the times of its channel are not those of the first; make a file "
+                       "of each", t->name, other + 1);
+    for (size_t c = 2; each && c < t->n_columns; c += 2)
+        t->column[c].kind = COLUMN_TEXT;
+    if (st != SS_OK || x->first_x == 0 || (x->labview && x->layout == LAYOUT_NO))
+        return st;
+    if (from_times <= fmax(MOST_APART * step, MOST_ROUNDING)) {
+        t->counted.origin = t->first[0];
+    } else if (from_numbers > 1e-6) {           /* nor does it number the rows */
+        t->counted.increment = 0;
+        return name_first_time(t);
+    }
+    t->column[0].kind = COLUMN_TEXT;
+    return SS_OK;
+}

@@ -1,0 +1,607 @@
+/* text.c -- text tables of data-acquisition systems.
+ *
+ * The first line with nothing but numbers, dates and times begins the data and shows the separator; a table with a
+ * column of words has none: there it is the first line, below one without numbers, that the next two lines are
+ * like, cell by cell.  The lines above it are searched for names and units (names.c).  A line of words below the
+ * rows begins another table if rows follow it again. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include "base/error.h"
+#include "base/list.h"
+#include "base/number.h"
+#include "base/utf8.h"
+#include "signal/header.h"
+#include "io/csv.h"
+#include "io/table/text.h"
+
+enum { HEADER_LINES = 1000 };
+
+/* --- lines --------------------------------------------------------------------------------- */
+
+/* The first letter that is no blank. */
+static char
+first_of(const char *line)
+{
+    return line[strspn(line, " \t")];
+}
+
+/* The next line that is not empty; comment is set if it is one.  NULL at the end. */
+static ss_status
+next_line(struct text *x, char **line, int *comment, ss_error *err)
+{
+    size_t length;
+    do {
+        ss_status st = ss_input_line(x->in, line, &length, err);
+        if (st != SS_OK || *line == NULL)
+            return st;
+        if (strlen(*line) != length)
+            return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte: this is not text of 8-bit characters",
+                           x->t.name, x->in->line);
+        if (strchr(*line, '\r') != NULL)
+            return ss_fail(err, SS_EDATA, "%s:%lu: a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' "
+                           "makes them)", x->t.name, x->in->line);
+    } while (first_of(*line) == '\0');
+    *comment = **line == '#';
+    return SS_OK;
+}
+
+static ss_status
+keep_line(struct text *x, const char *line, int comment)
+{
+    struct text_line *more = ss_list_room(x->head, &x->head_room, x->n_head, sizeof *more);
+    char *copy = more != NULL ? ss_utf8_text(line) : NULL;
+    x->head = more != NULL ? more : x->head;
+    if (copy == NULL)
+        return SS_ENOMEM;
+    more[x->n_head++] = (struct text_line){ copy, x->in->line, comment };
+    return SS_OK;
+}
+
+static void
+drop_lines(struct text *x)
+{
+    for (size_t i = 0; i < x->n_head; i++)
+        free(x->head[i].text);
+    x->n_head = 0;
+}
+
+/* --- where the data begin ------------------------------------------------------------------ */
+
+static const char candidate[] = { '\t', ';', ',', ' ' };
+enum { CANDIDATES = sizeof candidate / sizeof *candidate };
+
+/* The number of cells that belong to columns, if all of these but the last hold numbers; else 0.  LabVIEW leaves the
+ * cell of x empty, and writes comments behind some rows. */
+static size_t
+count_cells(const struct text *x, const char *line, const char *shape, size_t numbers)
+{
+    size_t n = strlen(shape), first = x->labview && line[0] == '\t';
+    const char *wrong = ss_text_may_lack(x) ? "t" : "te";
+    if (x->labview && n > 1 && shape[n - 1] == 't')
+        n--;
+    size_t full = n;
+    while (full > 1 && shape[full - 1] == 'e')
+        full--;
+    return numbers > 0 && n > first && strcspn(shape + first, wrong) >= full - first ? n : 0;
+}
+
+/* *yes becomes 1 if this is the first line of data; then separator and columns are set.  Empty cells at its end count
+ * if each has a name in the line above. */
+static ss_status
+is_data(struct text *x, const char *line, int *yes)
+{
+    size_t columns = x->t.n_columns, last = x->n_head;
+    while (last > 0 && x->head[last - 1].comment)
+        last--;
+    *yes = 0;
+    for (size_t i = 0; !*yes && i < CANDIDATES; i++) {
+        char separator = candidate[i];
+        size_t numbers, names = 0;
+        if (separator == ' ' ? x->labview : strchr(line, separator) == NULL)
+            continue;
+        if (last > 0 && (ss_text_may_lack(x) || !x->labview))
+            names = ss_text_split(x, x->head[last - 1].text, separator);
+        x->t.n_columns = ss_text_may_lack(x) || !x->labview ? names : columns;
+        char *shape = names != NONE ? ss_text_shape(x, line, separator, &numbers) : NULL;
+        x->t.n_columns = columns;
+        if (shape == NULL)
+            return SS_ENOMEM;
+        size_t n = count_cells(x, line, shape, numbers);
+        free(shape);
+        if (n == 0 || (n == 1 && separator != ';' && separator != ' '))
+            continue;
+        x->separator = n > 1 || separator == ';' ? separator : '\0';
+        x->t.n_columns = n;
+        *yes = 1;
+    }
+    return SS_OK;
+}
+
+/* Keep the lines above the first row of data.  *row becomes this row; NULL: there is none. */
+static ss_status
+keep_header(struct text *x, char **row, ss_error *err)
+{
+    int comment = 0, found = 0;
+    char *line;
+    *row = NULL;
+    while (x->n_head < HEADER_LINES) {
+        ss_status st = next_line(x, &line, &comment, err);
+        if (st != SS_OK || line == NULL)
+            return st;
+        x->labview |= x->in->line == 1 && strncmp(line, "LabVIEW Measurement", 19) == 0;
+        if (!comment && (st = is_data(x, line, &found)) != SS_OK)
+            return st;
+        if (found) {
+            *row = line;
+            return SS_OK;
+        }
+        st = keep_line(x, line + (comment ? strspn(line, "# ") : 0), comment);
+        if (st != SS_OK)
+            return st;
+    }
+    return SS_OK;
+}
+
+/* 1 if two rows have cells of the same kinds.  The second may lack its empty cells at the end. */
+static int
+is_like(const char *shape, const char *row)
+{
+    for (; *shape != '\0' && *row != '\0'; shape++, row++)
+        if (*shape != *row && *row != 'e')
+            return 0;
+    return *row == '\0' && strchr(shape, 'n') == NULL;
+}
+
+/* The first line with numbers and words that has two lines like it below, or one if there are no more; shape is NULL
+ * for a comment. */
+static size_t
+find_like(const struct text *x, char *const *shape)
+{
+    for (size_t i = 0; i < x->n_head; i++) {
+        if (shape[i] == NULL || strchr(shape[i], 'n') == NULL || strpbrk(shape[i], "te") == NULL)
+            continue;
+        if (i > 0 && shape[i - 1] != NULL && strchr(shape[i - 1], 'n') != NULL)
+            continue;
+        size_t alike = 0, below = i + 1;
+        for (; below < x->n_head && alike < 2; below++)
+            if (shape[below] != NULL && !is_like(shape[i], shape[below]))
+                break;
+            else
+                alike += shape[below] != NULL;
+        if (alike == 2 || (below == x->n_head && i > 0))
+            return i;
+    }
+    return x->n_head;
+}
+
+/* Find the first of the kept lines that is a row of data with words in it, as the lines below it are too, or n_head;
+ * then separator and columns are set. */
+static ss_status
+find_mixed(struct text *x, size_t *found)
+{
+    size_t numbers;
+    ss_status st = SS_OK;
+    char **shape = calloc(x->n_head + 1, sizeof *shape);
+    *found = x->n_head;
+    for (size_t i = 0; shape != NULL && st == SS_OK && *found == x->n_head && i < CANDIDATES; i++) {
+        for (size_t k = 0; st == SS_OK && k < x->n_head; k++)
+            if (!x->head[k].comment && (shape[k] = ss_text_shape(x, x->head[k].text, candidate[i], &numbers)) == NULL)
+                st = SS_ENOMEM;
+        if (st == SS_OK && (*found = find_like(x, shape)) < x->n_head) {
+            x->separator = candidate[i];
+            x->t.n_columns = strlen(shape[*found]);
+        }
+        for (size_t k = 0; k < x->n_head; k++) {
+            free(shape[k]);
+            shape[k] = NULL;
+        }
+    }
+    st = shape != NULL ? st : SS_ENOMEM;
+    free(shape);
+    return st;
+}
+
+/* --- rows ---------------------------------------------------------------------------------- */
+
+/* SS_EDATA if a number has another decimal mark than those before: beside 0.5, 1,234 may be either of two
+ * numbers. */
+static ss_status
+check_mark(struct text *x, size_t column, ss_error *err)
+{
+    const char *cell = x->cell[column];
+    char mark = cell[strcspn(cell, x->separator == ',' ? "." : ".,")];
+    if (x->mark == '\0')
+        x->mark = mark;
+    if (mark == '\0' || mark == x->mark)
+        return SS_OK;
+    return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' has a decimal %s, numbers before it "
+                   "have a %s", x->t.name, x->in->line, x->t.names->column[column].name, cell,
+                   mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
+}
+
+/* Read the value of one cell of the line that was split.  A missing cell of an unneeded column is read as 0, with one
+ * warning. */
+static ss_status
+read_cell(struct text *x, size_t i, double *value, ss_error *err)
+{
+    struct sheet_column *c = &x->t.column[i];
+    const char *name = x->t.names->column[i].name;
+    char *cell = x->cell[i];
+    *value = 0;
+    if (c->kind == COLUMN_TEXT && !c->begins_empty)
+        return SS_OK;
+    enum cell_kind kind = ss_cell_read(cell, x->separator, value);
+    if (c->kind == COLUMN_TEXT)
+        return kind != CELL_NUMBER ? SS_OK : ss_fail(err, SS_EGAPS, "%s:%.0f: column %s: '' is not a number",
+                                                     x->t.name, x->t.first[x->t.n_columns], name);
+    int missing = kind == CELL_NOT_FINITE || cell[0] == '\0';
+    if (c->spare && kind != CELL_NUMBER) {
+        if (!c->incomplete)
+            ss_sheet_warn(&x->t, SS_OK, "%s:%lu: column %s has no number here; it is not needed, and read as 0 "
+                          "where it has none", x->t.name, x->in->line, name);
+        c->incomplete = 1;
+        *value = 0;
+        return SS_OK;
+    }
+    if (missing && x->t.opts->gaps != SS_GAPS_REFUSE) {
+        *value = NAN;
+        return SS_OK;
+    }
+    if (c->kind == COLUMN_STAMPS && !isnan(*value = ss_stamp_next(&c->stamps, cell)))
+        return SS_OK;
+    if (c->kind == COLUMN_NUMBERS && kind == CELL_NUMBER)
+        return check_mark(x, i, err);
+    const char *what = c->kind == COLUMN_STAMPS ? "time as those above it" : kind == CELL_NOT_FINITE
+        ? "finite number" : "number";
+    return ss_fail(err, missing ? SS_EGAPS : SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %s",
+                   x->t.name, x->in->line, name, cell, what);
+}
+
+/* Read a row of plain numbers only, as most are.  Returns 0 if the row must be read cell by cell. */
+static int
+read_plain(const struct text *x, const char *p, double *row)
+{
+    const char point = x->separator == ',' || x->mark == '\0' ? '.' : x->mark;
+    char *end;
+    if (x->separator != ',' && x->mark == '\0' && strpbrk(p, ".,") != NULL)
+        return 0;
+    for (size_t i = 0; i < x->t.n_columns; i++, p = end + 1) {
+        while (*p == ' ')
+            p++;
+        const char *digit = p + (*p == '-');
+        if (x->t.column[i].kind != COLUMN_NUMBERS || *digit < '0' || *digit > '9')
+            return 0;
+        row[i] = ss_number_parse_point(p, point, &end);
+        if (*end != (i + 1 < x->t.n_columns ? x->separator : '\0') || !isfinite(row[i]))
+            return 0;
+    }
+    return 1;
+}
+
+static ss_status
+append_row(struct text *x, const char *line, ss_error *err)
+{
+    double *row;
+    size_t columns = x->t.n_columns;
+    ss_status st = ss_sheet_new_row(&x->t, x->in->line, &row, err);
+    if (st == SS_OK && !read_plain(x, line, row)) {
+        size_t n = ss_text_split(x, line, x->separator);
+        if (n == NONE)
+            return SS_ENOMEM;
+        if (n != columns && !(n == columns + 1 && (x->comments || x->labview)))
+            return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", x->t.name, x->in->line, columns,
+                           PLURAL(columns), n);
+        for (size_t i = 0; st == SS_OK && i < columns; i++)
+            st = read_cell(x, i, &row[i], err);
+    }
+    return st == SS_OK ? ss_sheet_add_row(&x->t, row, err) : st;
+}
+
+/* --- one table ----------------------------------------------------------------------------- */
+
+/* Find the kinds of the columns from the cells of the first row. */
+static ss_status
+find_kinds(struct text *x, const char *row)
+{
+    size_t numbers, n = x->t.n_columns;
+    char *shape = ss_text_shape(x, row, x->separator, &numbers);
+    struct sheet_column *column = x->t.column = calloc(n, sizeof *column);
+    for (size_t i = 0; shape != NULL && column != NULL && i < n; i++) {
+        unsigned parts = ss_stamp_read(x->cell[i]).parts;
+        int empty = shape[i] == 'e' && !ss_text_may_lack(x);
+        column[i].kind = shape[i] == 't' || empty ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS : COLUMN_NUMBERS;
+        column[i].begins_empty = empty && !x->labview;
+        column[i].stamps = ss_stamp_column(parts);
+    }
+    ss_status st = shape != NULL && column != NULL ? SS_OK : SS_ENOMEM;
+    free(shape);
+    return st;
+}
+
+/* Begin a table with this row, below the lines that were kept. */
+static ss_status
+begin_table(struct text *x, const char *row, ss_error *err)
+{
+    struct sheet *t = &x->t;
+    if (t->n_columns > MAX_COLUMNS)
+        return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->name, x->in->line);
+    ss_status st = find_kinds(x, row);
+    if (st == SS_OK)
+        st = ss_text_read_names(x, err);
+    if (st == SS_OK)
+        st = ss_sheet_mark_spare(t, err);
+    if (st != SS_OK)
+        return st;
+    for (size_t i = 0; i < t->n_columns; i++)
+        if (t->column[i].kind == COLUMN_TEXT && !(x->labview && row[0] == '\t' && i == 0))
+            ss_sheet_warn(t, SS_OK, "%s:%lu: column %zu (\"%s\") %s; it was skipped", t->name, x->in->line, i + 1,
+                          t->names->column[i].name, t->column[i].begins_empty ? "is empty" : "holds text");
+    ss_sheet_begin_rows(t);
+    return append_row(x, row, err);
+}
+
+/* Begin a table with a kept line as its first row, and the kept lines below it as further rows. */
+static ss_status
+begin_kept(struct text *x, size_t first, ss_error *err)
+{
+    size_t n = x->n_head;
+    unsigned long line = x->in->line;
+    x->n_head = first;                          /* names are sought above this line */
+    x->in->line = x->head[first].number;
+    ss_status st = begin_table(x, x->head[first].text, err);
+    for (size_t i = first + 1; st == SS_OK && i < n; i++) {
+        x->in->line = x->head[i].number;
+        st = x->head[i].comment ? SS_OK : append_row(x, x->head[i].text, err);
+    }
+    x->n_head = n;
+    if (st == SS_OK)
+        x->in->line = line;
+    return st;
+}
+
+/* Begin a table with the first row of numbers.  If there is none, or a line of words and numbers stands
+ * above it, begin with the first line of words and numbers that is like those below it. */
+static ss_status
+begin_first(struct text *x, const char *row, ss_error *err)
+{
+    size_t columns = x->t.n_columns, first, numbers;
+    char separator = x->separator;
+    int mixed = row == NULL;
+    if (!mixed && x->n_head > 0 && !x->head[x->n_head - 1].comment) {
+        char *shape = ss_text_shape(x, x->head[x->n_head - 1].text, separator, &numbers);
+        if (shape == NULL)
+            return SS_ENOMEM;
+        mixed = shape[0] == 'n' && strpbrk(shape, "te") != NULL;
+        free(shape);
+    }
+    if (!mixed)
+        return begin_table(x, row, err);
+    ss_status st = row != NULL ? keep_line(x, row, 0) : SS_OK;
+    if (st == SS_OK)
+        st = find_mixed(x, &first);
+    if (st != SS_OK)
+        return st;
+    if (first < x->n_head)
+        return begin_kept(x, first, err);
+    if (row == NULL)
+        return ss_fail(err, SS_EDATA, "%s:%lu: no row of numbers up to here; a table has them "
+                       "between commas, semicolons, tabs or blanks", x->t.name, x->in->line);
+    x->t.n_columns = columns;
+    x->separator = separator;
+    return begin_kept(x, x->n_head - 1, err);
+}
+
+/* --- several tables ------------------------------------------------------------------------ */
+
+/* *yes becomes 1 if this line may be a heading, and not a row. */
+static ss_status
+is_heading(struct text *x, const char *line, int *yes)
+{
+    size_t numbers;
+    *yes = 0;
+    if (strchr("0123456789-.+", first_of(line)) != NULL)
+        return SS_OK;
+    char *shape = ss_text_shape(x, line, x->separator, &numbers);
+    if (shape == NULL)
+        return SS_ENOMEM;
+    size_t n = strlen(shape);
+    if (shape[0] == 't' && x->t.column[0].kind != COLUMN_TEXT)
+        *yes = n != x->t.n_columns || (n > 1 && strchr(shape, 'n') == NULL);
+    *yes |= x->labview && strncmp(line, "Channels", 8) == 0;
+    free(shape);
+    return SS_OK;
+}
+
+/* Are the lines from a heading to the end of the file nothing but words, in other columns than those of rows? */
+static ss_status
+is_footer(struct text *x, int *yes)
+{
+    size_t numbers;
+    *yes = x->n_head < HEADER_LINES;
+    for (size_t i = 0; *yes && i < x->n_head; i++) {
+        char *shape = ss_text_shape(x, x->head[i].text, x->separator, &numbers);
+        if (shape == NULL)
+            return SS_ENOMEM;
+        *yes = strlen(shape) != x->t.n_columns && strchr(shape, 'n') == NULL;
+        free(shape);
+    }
+    return SS_OK;
+}
+
+/* Keep the lines from a heading on, up to the first row of another table, which becomes *row.  If none
+ * follows, the heading is a footer or a malformed row. */
+static ss_status
+read_heading(struct text *x, const char *heading, char **row, ss_error *err)
+{
+    unsigned long number = x->in->line;
+    size_t columns = x->t.n_columns;
+    char separator = x->separator;
+    int footer = 0;
+    drop_lines(x);
+    ss_status st = keep_line(x, heading, 0);
+    if (st == SS_OK)
+        st = keep_header(x, row, err);
+    x->next_columns = x->t.n_columns;
+    x->next_separator = x->separator;
+    x->t.n_columns = columns;
+    x->separator = separator;
+    if (st != SS_OK || *row != NULL)
+        return st;
+    x->in->line = number;
+    if ((st = is_footer(x, &footer)) != SS_OK)
+        return st;
+    if (!footer)
+        return append_row(x, x->head[0].text, err);
+    ss_sheet_warn(&x->t, SS_OK, "%s:%lu: the rows end here; the words below them were skipped", x->t.name, number);
+    return SS_OK;
+}
+
+/* Read rows up to the end, or up to the first row of another table, which becomes *row. */
+static ss_status
+read_body(struct text *x, char **row, ss_error *err)
+{
+    char *line;
+    int comment, heading = 0;
+    ss_status st;
+    *row = NULL;
+    while ((st = next_line(x, &line, &comment, err)) == SS_OK && line != NULL) {
+        if (!comment)
+            st = is_heading(x, line, &heading);
+        if (st == SS_OK && heading)
+            return read_heading(x, line, row, err);
+        if (st == SS_OK && !comment)
+            st = append_row(x, line, err);
+        if (st != SS_OK)
+            return st;
+    }
+    return st;
+}
+
+/* Discard the columns of a table before the next one. */
+static ss_status
+clear_table(struct text *x)
+{
+    struct sheet *t = &x->t;
+    free(t->column);
+    ss_header_free(t->names);
+    t->column = NULL;
+    t->names = ss_header_new(0, 0);
+    t->n_columns = x->next_columns;
+    t->counted.increment = 0;
+    t->named = 0;
+    x->separator = x->next_separator;
+    x->mark = '\0';
+    x->comments = 0;
+    return t->names != NULL ? SS_OK : SS_ENOMEM;
+}
+
+/* Append a description of a table: "2 from line 17, 1200 rows of t Fx Fz". */
+static void
+list_table(const struct sheet *t, size_t number, char *list, size_t size)
+{
+    size_t n = strlen(list);
+    int more = snprintf(list + n, size - n, "%s%zu from line %.0f, %llu row%s of", number > 1 ? "; " : "",
+                        number, t->first[t->n_columns], (unsigned long long)t->rows.n, PLURAL(t->rows.n));
+    for (size_t c = 0; c < t->n_columns && more >= 0 && n + (size_t)more < size; c++) {
+        n += (size_t)more;
+        more = snprintf(list + n, size - n, " %s", t->names->column[c].name);
+    }
+}
+
+static ss_status
+read_tables(struct text *x, ss_error *err)
+{
+    char *row, list[300] = "";
+    size_t number = 1, wanted = x->t.opts->table;
+    ss_status st = keep_header(x, &row, err);
+    if (st == SS_OK)
+        st = begin_first(x, row, err);
+    for (; st == SS_OK && (st = read_body(x, &row, err)) == SS_OK && row != NULL; number++) {
+        if (number == wanted)
+            return SS_OK;
+        list_table(&x->t, number, list, sizeof list);
+        st = clear_table(x);
+        if (st == SS_OK)
+            st = begin_table(x, row, err);
+    }
+    if (st != SS_OK || number == wanted || (number == 1 && wanted == 0))
+        return st;
+    list_table(&x->t, number, list, sizeof list);
+    return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", x->t.name, number, PLURAL(number), list);
+}
+
+/* --- the format ---------------------------------------------------------------------------- */
+
+static int
+is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/* Does a line have this word with a digit somewhere behind it?  A longer word that begins so counts if the word has
+ * more than four letters. */
+static int
+has_number_of(const char *line, const char *word)
+{
+    size_t n = strlen(word);
+    for (const char *p = line; *p != '\0'; p++)
+        if ((p == line || !is_letter(p[-1])) && strncasecmp(p, word, n) == 0 && (n > 4 || !is_letter(p[n])))
+            return strpbrk(p, "0123456789") != NULL;
+    return 0;
+}
+
+/* The line above the data that most probably gives the clock; NULL: there is none.  It is shown, not read: whether
+ * a number is the rate of this table, its period or a rate of flow, and in what unit, only its writer knows. */
+static const struct text_line *
+find_rate_line(const struct text *x)
+{
+    static const char *const word[] = { "sampling", "samplerate", "samples per", "samples/s", "abtast", "chantillonnage",
+                                        "muestreo", "campionamento", "rate", "interval", "fs", "dt" };
+    for (size_t w = 0; w < sizeof word / sizeof *word; w++)
+        for (size_t i = 0; i < x->n_head; i++)
+            if (has_number_of(x->head[i].text, word[w]))
+                return &x->head[i];
+    return NULL;
+}
+
+static ss_status
+open_text(ss_source **out, const struct opening *o, ss_error *err)
+{
+    struct input *in = o->in;
+    struct text x = { .in = in, .layout = LAYOUT_ONE };
+    ss_status st = ss_sheet_begin(&x.t, in->name, o->opts);
+    in->share = 0.5;                            /* of the work; the other half is to give the rows */
+    if (st == SS_OK)
+        st = ss_input_need(in, 3, err);
+    if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
+        in->lo += 3;                            /* skip the byte-order mark */
+    if (st == SS_OK)
+        st = read_tables(&x, err);
+    if (st == SS_OK)
+        st = ss_kept_end(&x.t.rows, err);
+    if (st == SS_OK)
+        st = ss_text_check_times(&x, err);
+    const struct text_line *clue = find_rate_line(&x);
+    x.t.clue = clue != NULL ? clue->text : NULL;
+    x.t.clue_line = clue != NULL ? clue->number : 0;
+    if (st == SS_OK)
+        st = ss_sheet_give(out, &x.t, in->size > 0 ? in->progress : (ss_progress){ NULL, NULL }, err);
+    drop_lines(&x);
+    free(x.head);
+    free(x.cell);
+    free(x.copy);
+    ss_sheet_free(&x.t);
+    return st == SS_ENOMEM ? ss_fail_memory(err, in->name) : st;
+}
+
+const struct format ss_format_delimited = {
+    .name = "csv",
+    .open = open_text,
+    .begin = ss_csv_begin,
+    .number = ss_csv_number,
+    .has_time = 1,
+    .separator = ',',
+    .word = ss_csv_word,
+};

@@ -1,0 +1,57 @@
+/* text.h -- a table of text while it is read: its lines, its cells, the names of its columns. */
+#ifndef TEXT_H
+#define TEXT_H
+
+#include "io/table/sheet.h"
+
+enum cell_kind { CELL_TEXT, CELL_NUMBER, CELL_NOT_FINITE, CELL_STAMP };
+
+struct text_line {              /* above the data, to be freed */
+    char *text;
+    unsigned long number;
+    int comment;
+};
+
+struct text {
+    struct sheet t;             /* what becomes of it */
+    struct input *in;
+    char mark;                  /* decimal point or comma, '\0': none seen */
+    char separator;             /* '\t' ';' ',' or ' ' (any blanks); '\0': one column */
+    size_t next_columns;        /* columns and separator of the next table in the file */
+    char next_separator;
+    char *copy, **cell;         /* of the line that was split last, and its cells */
+    size_t copy_room, cell_room;
+    struct text_line *head;     /* lines above the data */
+    size_t n_head, head_room;
+    int comments;               /* cells too many are comments, which LabVIEW writes behind its rows */
+    int labview;                /* does it begin as the files of LabVIEW do? */
+    enum { LAYOUT_NO, LAYOUT_ONE, LAYOUT_MULTI } layout;        /* of its columns of x */
+    int first_x;                /* is the first column no channel? */
+};
+
+/* The functions below return SS_ENOMEM without a text. */
+
+/* Cells (cells.c). */
+
+/* A cell without the blanks around it, cut in place. */
+char *ss_cell_trim(char *p);
+/* The number in a cell, with a decimal comma unless commas separate cells. */
+enum cell_kind ss_cell_read(char *cell, char separator, double *number);
+/* May a cell of a row be empty? */
+int ss_text_may_lack(const struct text *x);
+/* Split a copy of a line into x->cell and return the number of cells, without surplus empty cells at the
+ * end.  NONE: no memory. */
+size_t ss_text_split(struct text *x, const char *line, char separator);
+/* A letter for each cell of a line, to be freed: n for a number, a stamp, or a word for a missing
+ * number, e for an empty cell, t for text.  *numbers counts the finite numbers.  NULL: no memory. */
+char *ss_text_shape(struct text *x, const char *line, char separator, size_t *numbers);
+
+/* Names (names.c): find names, units and a clock in the lines above the data.
+ *
+ * A line with numbers in it is either a word about the record ("Rate;1000") or a row of data with
+ * a bad cell: the latter if it begins with a number or stands below a row of names. */
+ss_status ss_text_read_names(struct text *x, ss_error *err);
+/* When all rows are there: check the columns of times that LabVIEW writes, of each channel and against the header. */
+ss_status ss_text_check_times(struct text *x, ss_error *err);
+
+#endif

@@ -1,0 +1,446 @@
+/* time.c -- find the column of time of a table, and the clock that its numbers, dates or times of day show. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include "base/error.h"
+#include "signal/resample.h"
+#include "io/table/clock.h"
+#include "io/table/sheet.h"
+#include "io/table/time_unit.h"
+
+enum { GAPS_MOST = 1000 };      /* at most so many samples for each one that is not missing */
+#define LONGEST 10              /* usual steps; stamps farther apart have a gap between them */
+/* A short file cannot claim much memory by two time stamps that lie far apart. */
+enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
+
+#define LEAST_RATE (1 / 3600. * (1 - 1e-9))     /* a sample an hour */
+#define MOST_RATE 1e10
+#define MOST_IN_SECONDS 1e6     /* [Hz] a faster clock that begins with the number of a day counts days */
+#define LEAST_IN_DAYS .1        /* [Hz] slower records of days are not looked for */
+enum { ROUND = 4 };             /* digits of a rate in days; those of scattered stamps have more */
+#define DOUBTED_RATE 100.       /* [Hz] a slower clock without a unit may count milliseconds */
+
+/* --- the stamps of the rows ---------------------------------------------------------------- */
+
+/* What the stamps of a table are read from. */
+struct times {
+    struct sheet *t;
+    struct time_column of;
+};
+
+static ss_status
+rewind_times(void *user, ss_error *err)
+{
+    struct times *times = user;
+    return ss_kept_rewind(&times->t->rows, err);
+}
+
+static ss_status
+next_stamp(void *user, int *there, double *stamp, unsigned long *line, ss_error *err)
+{
+    struct times *times = user;
+    const double *row;
+    ss_status st = ss_sheet_next(&times->t->rows, times->of.column, &row, err);
+    *there = row != NULL;
+    if (*there) {
+        *stamp = ss_sheet_stamp(&times->of, row);
+        *line = (unsigned long)row[times->t->n_columns];
+    }
+    return st;
+}
+
+static struct stamps
+stamps_of(struct times *times)
+{
+    return (struct stamps){ times->t->name, rewind_times, next_stamp, times };
+}
+
+/* Find the clock on which the rows are samples. */
+static ss_status
+find_uniform(struct sheet *t, const struct stamps *s, double taken, double digit, double *usual, ss_error *err)
+{
+    int gaps = t->opts->gaps != SS_GAPS_REFUSE;
+    struct clock clock = { .taken = taken, .digit = gaps ? 0 : digit };
+    ss_status st = gaps ? ss_usual_step(s, usual, err) : SS_OK;
+    clock.usual = *usual;
+    if (st == SS_OK)
+        st = ss_find_clock(s, &clock, err);
+    t->names->rate = clock.rate;
+    t->names->start = clock.start;
+    if (st == SS_OK && (clock.last + 1) / GAPS_MOST >= (double)clock.n + 1)
+        st = ss_fail(err, SS_EDATA, "%s: of %.15g samples only %zu are there", t->name, clock.last + 1, clock.n);
+    return st;
+}
+
+/* The clock is opts->resample; check that the stamps can be resampled to it.  *own becomes their rate. */
+static ss_status
+find_resampled(struct sheet *t, const struct stamps *s, double *longest, double *own, ss_error *err)
+{
+    double usual, stamp = 0, last = 0, start = 0, gap = -1, rate = t->names->rate = t->opts->resample;
+    size_t n = 0;
+    unsigned long line;
+    int there = 1;
+    ss_status st = ss_usual_step(s, &usual, err);
+    if (st == SS_OK)
+        st = s->rewind(s->source, err);
+    *longest = LONGEST * usual;
+    for (; st == SS_OK && (st = s->next(s->source, &there, &stamp, &line, err)) == SS_OK && there; n++) {
+        if (n == 0)
+            start = stamp;
+        else if (gap < 0 && stamp - last > *longest)
+            gap = ss_resample_gap(last - start, stamp - start, rate);
+        last = stamp;
+    }
+    if (st != SS_OK)
+        return st;
+    *own = 1 / usual;
+    t->names->start = start;
+    double samples = ss_resample_count(start, last, rate);
+    if (samples > MOST_SAMPLES && samples / MOST_PER_STAMP >= (double)n + 1)
+        return ss_fail(err, SS_EDATA, "%s: %zu time stamps would become %.15g samples at %g Hz", t->name, n, samples,
+                       rate);
+    if (t->opts->gaps != SS_GAPS_REFUSE || gap < 0)
+        return SS_OK;
+    return ss_fail(err, SS_EGAPS, "%s: a gap around %g s, of more than ten usual steps of %g s", t->name,
+                   start + gap / rate, usual);
+}
+
+/* Find the clock of the times in a column, which have this last digit, or 0.  *own becomes their rate. */
+static ss_status
+read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, ss_error *err)
+{
+    const struct time_column *time = &timing->time;
+    struct times times = { t, *time };
+    const struct stamps s = stamps_of(&times);
+    if (t->opts->resample > 0)
+        return find_resampled(t, &s, &timing->longest, own, err);
+    ss_status st = find_uniform(t, &s, time->zero * time->factor / time->divisor, digit, &timing->usual, err);
+    *own = t->names->rate;
+    return st;
+}
+
+/* --- a column of numbers ------------------------------------------------------------------- */
+
+/* The unit of a column of numbers that are times, from `first` on: given by the caller, the file or the column's
+ * name, or that of a date (*is_date is 1); NULL if it is not known. */
+static ss_status
+unit_of_times(const struct sheet *t, size_t column, double first, const struct time_unit **unit, int *is_date,
+              ss_error *err)
+{
+    size_t length;
+    const ss_column *c = &t->names->column[column];
+    const char *own = t->opts->time_unit != NULL ? t->opts->time_unit : c->unit;
+    *unit = *own != '\0' ? ss_time_unit_find(own) : strcasecmp(c->name, "x_value") == 0
+        ? ss_time_unit_find("s") : ss_time_unit_in(c->name, &length);
+    if (*unit == NULL && *own != '\0')
+        return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->name,
+                       c->name, own);
+    *is_date = *unit == NULL && (*unit = ss_time_unit_of_date(first)) != NULL;
+    return SS_OK;
+}
+
+/* Are times from `first` on, which give this rate if they are seconds, rather days?  Seconds that begin late may
+ * have such numbers, but then not a rate that is round in days only. */
+static int
+are_days(double first, double rate)
+{
+    if (!ss_is_day_now(first) || !(rate >= LEAST_IN_DAYS * SECONDS_A_DAY * (1 - 1e-9)))
+        return 0;
+    int digits = ss_clock_digits(rate / SECONDS_A_DAY);
+    return rate > MOST_IN_SECONDS || (digits <= ROUND && digits < ss_clock_digits(rate));
+}
+
+static ss_status
+ask_about_days(const struct sheet *t, const char *name, double first, double rate, ss_error *err)
+{
+    return ss_fail(err, SS_EUNIT, "%s: column %s has no unit and looks like days, %.3g Hz from day %.9g on; "
+                   "seconds would give %.3g Hz", t->name, name, rate / SECONDS_A_DAY, first, rate);
+}
+
+/* SS_EUNIT for a clock that no laboratory has, unless the caller gave its unit.  Warn of a clock without a
+ * unit that would be usual in another unit. */
+static ss_status
+check_rate(const struct sheet *t, const char *name, const struct time_unit *given, double first, double rate,
+           ss_error *err)
+{
+    const char *unit = given == NULL ? "s" : given->name;
+    if (t->opts->time_unit != NULL)
+        return SS_OK;
+    if (given == NULL && are_days(first, rate))
+        return ask_about_days(t, name, first, rate, err);
+    if (!(rate >= LEAST_RATE && rate <= MOST_RATE))
+        return ss_fail(err, SS_EUNIT, "%s: column %s, read in %s, gives a clock of %.3g Hz, which no laboratory "
+                       "has", t->name, name, unit, rate);
+    if (given == NULL && rate < DOUBTED_RATE)
+        ss_sheet_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in seconds: %.3g Hz", t->name,
+                          name, rate);
+    return SS_OK;
+}
+
+/* The first time in a column of numbers; NaN: there is none. */
+static ss_status
+first_time(struct sheet *t, size_t column, double *first, ss_error *err)
+{
+    const double *row = NULL;
+    ss_status st = ss_kept_rewind(&t->rows, err);
+    if (st == SS_OK)
+        st = ss_sheet_next(&t->rows, column, &row, err);
+    *first = st == SS_OK && row != NULL ? row[column] : NAN;
+    return st;
+}
+
+/* Find what 1 in the last digit of the times in a column of days is [s], as far as doubles have it. */
+static ss_status
+find_digit(struct sheet *t, size_t column, double zero, double *digit, ss_error *err)
+{
+    const double *row;
+    double days = 1, apart = nextafter(fabs(zero), INFINITY) - fabs(zero);
+    ss_status st = ss_kept_rewind(&t->rows, err);
+    while (st == SS_OK && (st = ss_sheet_next(&t->rows, column, &row, err)) == SS_OK && row != NULL)
+        while (days > 10 * apart && fabs(remainder(row[column] - zero, days)) > apart)
+            days /= 10;
+    *digit = SECONDS_A_DAY * days;
+    return st;
+}
+
+/* The status of times without a unit, from `first` on, that are not uniform: SS_EUNIT if their usual step shows
+ * days. */
+static ss_status
+doubt_stamps(struct sheet *t, const struct time_column *time, double first, ss_status refused, ss_error *err)
+{
+    double step;
+    struct times times = { t, *time };
+    const struct stamps s = stamps_of(&times);
+    ss_status st = ss_is_day_now(first) ? ss_usual_step(&s, &step, NULL) : refused;
+    if (st == SS_ENOMEM)
+        return ss_fail_memory(err, t->name);
+    return st == SS_OK && are_days(first, 1 / step)
+        ? ask_about_days(t, t->names->column[time->column].name, first, 1 / step, err) : refused;
+}
+
+static ss_status
+read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
+{
+    const struct time_unit *known;
+    const char *name = t->names->column[column].name;
+    int is_date = 0;
+    double rate = 0, first, digit = 0;
+    char text[32];
+    ss_status st = first_time(t, column, &first, err);
+    if (st == SS_OK)
+        st = unit_of_times(t, column, first, &known, &is_date, err);
+    if (st != SS_OK)
+        return st;
+    if (is_date)
+        ss_sheet_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in %s since 1970", t->name, name,
+                      known->name);
+    const struct time_unit *unit = known != NULL ? known : ss_time_unit_find("s");
+    double zero = ss_time_unit_zero(unit, first);
+    timing->time = (struct time_column){ column, t->counted.origin, zero, unit->factor, unit->divisor };
+    if (fabs(zero) > 0 && (st = find_digit(t, column, zero, &digit, err)) != SS_OK)
+        return st;
+    st = read_stamps(t, timing, digit, &rate, err);
+    if (st == SS_OK)
+        st = check_rate(t, name, known, first, rate, err);
+    else if ((st == SS_EUNEVEN || st == SS_EGAPS) && known == NULL)
+        st = doubt_stamps(t, &timing->time, first, st, err);
+    if (st != SS_OK || !(fabs(zero) > 0))
+        return st;
+    snprintf(text, sizeof text, "%.0f", zero);  /* the day from whose midnight on seconds are counted */
+    return ss_header_note(t->names, "day", text) == SS_OK ? SS_OK : ss_fail_memory(err, t->name);
+}
+
+/* --- dates and times of day ---------------------------------------------------------------- */
+
+static ss_status
+note_date(struct sheet *t, double day)
+{
+    char text[80];
+    long n = (long)day + 719468, era = (n >= 0 ? n : n - 146096) / 146097, of_era = n - era * 146097;
+    long year = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
+    long of_year = of_era - (365 * year + year / 4 - year / 100), month = (5 * of_year + 2) / 153;
+    snprintf(text, sizeof text, "%04ld-%02ld-%02ld", year + 400 * era + (month > 9),
+             month > 9 ? month - 9 : month + 3, of_year - (153 * month + 2) / 5 + 1);
+    return ss_header_note(t->names, "date", text);
+}
+
+/* Find the clock of a column of dates, times of day or both. */
+static ss_status
+read_stamp_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
+{
+    double rate, day = NAN, own = ss_stamp_day(&t->column[column].stamps);
+    if (t->opts->time_unit != NULL)
+        return ss_fail(err, SS_EDATA, "%s: column %s holds times of day or dates, so it has no unit to choose",
+                       t->name, t->names->column[column].name);
+    for (size_t i = t->n_columns; i-- > 0;)
+        if (t->column[i].kind == COLUMN_STAMPS && !isnan(ss_stamp_day(&t->column[i].stamps)))
+            day = ss_stamp_day(&t->column[i].stamps);
+    day = isnan(own) ? day : own;
+    timing->time = (struct time_column){ column, t->counted.origin, 0, 1, 1 };
+    ss_status st = read_stamps(t, timing, 0, &rate, err);
+    if (st == SS_OK && !isnan(day) && note_date(t, day) != SS_OK)
+        st = ss_fail_memory(err, t->name);
+    return st;
+}
+
+/* The first column of stamps with these parts, or NONE. */
+static size_t
+find_stamps(const struct sheet *t, unsigned parts)
+{
+    for (size_t i = 0; i < t->n_columns; i++)
+        if (t->column[i].kind == COLUMN_STAMPS && t->column[i].stamps.parts == parts)
+            return i;
+    return NONE;
+}
+
+/* The first column of dates with times, or else of times, or else of dates; NONE if there is none. */
+static size_t
+find_any_stamps(const struct sheet *t)
+{
+    size_t both = find_stamps(t, STAMP_DATE | STAMP_TIME), time = find_stamps(t, STAMP_TIME);
+    return both != NONE ? both : time != NONE ? time : find_stamps(t, STAMP_DATE);
+}
+
+/* --- the choice ---------------------------------------------------------------------------- */
+
+static ss_status
+no_such_column(const struct sheet *t, const char *name, ss_error *err)
+{
+    char list[300] = "";
+    size_t length = 0, room = sizeof list - sizeof " ...";
+    for (size_t i = 0; i < t->n_columns && length < room; i++) {
+        size_t before = length;
+        length += (size_t)snprintf(list + length, room - length, "%s%s", i > 0 ? ", " : "",
+                                   t->names->column[i].name);
+        if (length >= room)
+            strcpy(list + before, " ...");
+    }
+    return ss_fail(err, SS_EDATA, "%s: no column '%.40s', there are %s", t->name, name, list);
+}
+
+static ss_status
+refuse_text(const struct sheet *t, size_t column, ss_status st, ss_error *err)
+{
+    return ss_fail(err, st, "%s: column %s holds text, not times such as 10:12:13.5, 12:13.5, 2024-03-05 10:12:13.5",
+                   t->name, t->names->column[column].name);
+}
+
+/* The column of time, or NONE.  *guessed becomes 1 if only its place suggests that it is one. */
+static size_t
+find_time(const struct sheet *t, int *guessed)
+{
+    const ss_read_opts *opts = t->opts;
+    const ss_column *column = t->names->column;
+    int chosen = opts->time != NULL ? ss_header_column(t->names, opts->time) : -1;
+    *guessed = 0;
+    if (opts->time != NULL || opts->rate > 0)
+        return chosen >= 0 ? (size_t)chosen : NONE;
+    if (t->counted.increment > 0)
+        return t->counted.numbered ? 0 : NONE;
+    for (size_t i = 0; i < t->n_columns; i++)
+        if (t->column[i].kind == COLUMN_NUMBERS && ss_is_called_time(column[i].name))
+            return i;
+    size_t stamps = find_any_stamps(t);
+    if (stamps != NONE)
+        return stamps;
+    if (t->n_columns < 2 || t->column[0].kind != COLUMN_NUMBERS)
+        return NONE;
+    if (*column[0].unit != '\0' && ss_time_unit_find(column[0].unit) != NULL)
+        return 0;
+    *guessed = !t->named;                       /* if named, it may be a deflection that ascends */
+    return *guessed ? 0 : NONE;
+}
+
+/* The columns that may become channels, and their header, in which they have the numbers of the signal.  A column
+ * of time that is only guessed leaves these open: then there are none. */
+static ss_status
+list_channels(const struct sheet *t, size_t *channel, size_t *n, ss_header **head)
+{
+    int guessed;
+    size_t time = find_time(t, &guessed);
+    *n = 0;
+    for (size_t c = 0; c < t->n_columns && !guessed; c++)
+        if (c != time && t->column[c].kind == COLUMN_NUMBERS)
+            channel[(*n)++] = c;
+    return ss_header_select(head, t->names, channel, *n, 0);
+}
+
+ss_status
+ss_sheet_mark_spare(struct sheet *t, ss_error *err)
+{
+    if (t->opts->n_needed == 0)
+        return SS_OK;
+    ss_header *head = NULL;
+    size_t n, *channel = malloc(t->n_columns * sizeof *channel);
+    if (channel == NULL || list_channels(t, channel, &n, &head) != SS_OK) {
+        free(channel);
+        return ss_fail_memory(err, t->name);
+    }
+    for (size_t i = 0; i < n; i++)
+        t->column[channel[i]].spare = 1;
+    for (size_t i = 0; i < t->opts->n_needed; i++) {
+        int found = ss_header_column(head, t->opts->needed[i]);
+        if (found >= 0)
+            t->column[channel[found]].spare = 0;
+    }
+    ss_header_free(head);
+    free(channel);
+    return SS_OK;
+}
+
+/* Find the clock of a column that the caller has named, or that shows that it is one of time. */
+static ss_status
+read_column(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
+{
+    switch (t->column[column].kind) {
+    case COLUMN_STAMPS:  return read_stamp_clock(t, column, timing, err);
+    case COLUMN_NUMBERS: return read_clock(t, column, timing, err);
+    case COLUMN_TEXT:    break;
+    }
+    return refuse_text(t, column, SS_EDATA, err);
+}
+
+ss_status
+ss_sheet_find_clock(struct sheet *t, struct timing *timing, ss_error *err)
+{
+    int guessed;
+    const ss_read_opts *opts = t->opts;
+    size_t column = find_time(t, &guessed);
+    double rate, step = t->counted.increment;
+    *timing = (struct timing){ .time = { NONE, 0, 0, 1, 1 } };
+    if (opts->time != NULL) {
+        t->counted.origin = 0;
+        return column != NONE ? read_column(t, column, timing, err) : no_such_column(t, opts->time, err);
+    }
+    if (opts->rate > 0) {
+        t->names->rate = opts->rate;
+        return SS_OK;
+    }
+    if (step > 0 && opts->time_unit != NULL)
+        return ss_fail(err, SS_EDATA, "%s: its header gives the clock in seconds: no unit of time can be chosen",
+                       t->name);
+    if (step > 0 && t->counted.numbered) {
+        timing->time = (struct time_column){ 0, t->counted.origin, 0, step, 1 };
+        return read_stamps(t, timing, 0, &rate, err);
+    }
+    if (step > 0) {                             /* rows follow each other at a step that the header gives */
+        t->names->rate = 1 / step;
+        t->names->start = t->counted.origin;
+        return SS_OK;
+    }
+    if (column != NONE && !guessed)
+        return read_column(t, column, timing, err);
+    ss_status st = guessed ? read_clock(t, column, timing, NULL) : SS_ECLOCK;
+    if (st == SS_EUNIT)
+        return read_clock(t, column, timing, err);      /* again, with its message */
+    if (st == SS_OK || st == SS_ENOMEM)
+        return st == SS_OK ? SS_OK : ss_fail_memory(err, t->name);
+    if (t->clue != NULL)
+        return ss_fail(err, SS_ECLOCK, "%s: no column of time, but line %lu may give the rate: '%.80s'", t->name,
+                       t->clue_line, t->clue);
+    for (size_t i = 0; i < t->n_columns; i++)
+        if (t->column[i].kind == COLUMN_TEXT && ss_is_called_time(t->names->column[i].name))
+            return refuse_text(t, i, SS_ECLOCK, err);
+    return ss_fail(err, SS_ECLOCK, "%s: no column of time", t->name);
+}

@@ -1,0 +1,179 @@
+/* source.c -- what all sources of rows have in common. */
+#include "signal/source.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+
+/* A source with this header, which is its own from here on, also after a failure. */
+static void *
+make(size_t size, const struct source_calls *calls, const char *name, ss_header *head, ss_error *err)
+{
+    ss_source *s = calloc(1, size);
+    char *copy = strdup(name);
+    if (s == NULL || copy == NULL || head == NULL) {
+        free(s);
+        free(copy);
+        ss_header_free(head);
+        ss_fail_memory(err, name);
+        return NULL;
+    }
+    *s = (ss_source){ .calls = calls, .name = copy, .head = head, .length = UINT64_MAX,
+                    .rewinds = calls->rewind != NULL };
+    return s;
+}
+
+void *
+ss_source_new(size_t size, const struct source_calls *calls, const char *name, ss_error *err)
+{
+    return make(size, calls, name, ss_header_new(0, 0), err);
+}
+
+void *
+ss_source_wrap(ss_source **s, size_t size, const struct source_calls *calls, ss_error *err)
+{
+    ss_source *outer = make(size, calls, (*s)->name, ss_header_copy((*s)->head), err);
+    if (outer == NULL)
+        return NULL;
+    outer->length = (*s)->length;
+    outer->rewinds = (*s)->rewinds;
+    outer->inner = *s;
+    return *s = outer;
+}
+
+void
+ss_source_free(ss_source *s)
+{
+    while (s != NULL) {
+        ss_source *inner = s->inner;
+        if (s->calls->free != NULL)
+            s->calls->free(s);
+        free(s->name);
+        ss_header_free(s->head);
+        free(s);
+        s = inner;
+    }
+}
+
+ss_status
+ss_source_rows(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
+{
+    *n = 0;
+    return s->calls->next(s, column, max, n, err);
+}
+
+ss_status
+ss_source_rewind(ss_source *s, ss_error *err)
+{
+    if (!s->rewinds)
+        return ss_fail(err, SS_EINVAL, "%s: its rows are not kept to be read again", s->name);
+    return s->calls->rewind != NULL ? s->calls->rewind(s, err) : ss_source_rewind(s->inner, err);
+}
+
+int
+ss_source_waits(const ss_source *s)
+{
+    while (s->calls->waits == NULL && s->inner != NULL)
+        s = s->inner;
+    return s->calls->waits != NULL && s->calls->waits(s);
+}
+
+size_t
+ss_source_piece(const ss_source *s)
+{
+    enum { ROWS = 4096, VALUES = 1 << 16 };
+    size_t rows = s->head->n_columns > 0 ? VALUES / s->head->n_columns : ROWS;
+    return rows > ROWS ? ROWS : rows > 1 ? rows : 1;
+}
+
+int
+ss_is_on_clock(double time, double rate, double start, uint64_t row)
+{
+    double expected = start + (double)row / rate;
+    return fabs(time - expected) <= 1e-6 / rate + 1e-15 * fabs(expected);
+}
+
+/* --- as a whole signal --------------------------------------------------------------------- */
+
+/* Give each column of a signal room for `more` rows in place of *room. */
+static ss_status
+set_room(ss_signal *signal, size_t *room, size_t more, const char *name, ss_error *err)
+{
+    size_t columns = signal->head->n_columns, n = signal->n;
+    double *values = signal->values;
+    for (size_t c = 1; more < *room && c < columns; c++)
+        memmove(values + c * more, values + c * *room, n * sizeof *values);
+    int fits = more < SIZE_MAX / sizeof *values / (columns + 1);
+    values = fits ? realloc(values, (columns * more + 1) * sizeof *values) : NULL;
+    if (values == NULL)
+        return ss_fail(err, SS_ENOMEM, "%s: no memory for a record this long", name);
+    signal->values = values;
+    for (size_t c = columns; more > *room && c-- > 1;)
+        memmove(values + c * more, values + c * *room, n * sizeof *values);
+    *room = more;
+    return SS_OK;
+}
+
+ss_status
+ss_source_all(ss_signal **out, ss_source *s, ss_error *err)
+{
+    size_t columns = s->head->n_columns, room = 0, got = 1;
+    size_t first = s->length < UINT64_MAX ? (size_t)s->length + 1 : 1 + 16384 / (columns + 1);
+    ss_signal *signal = NULL;
+    double **column = malloc((columns + 1) * sizeof *column);
+    ss_status st = column != NULL ? ss_signal_new(&signal, s->head, 0) : SS_ENOMEM;
+    if (st != SS_OK)
+        ss_fail_memory(err, s->name);
+    while (st == SS_OK && got > 0) {
+        if (signal->n == room)
+            st = set_room(signal, &room, room > 0 ? 2 * room : first, s->name, err);
+        for (size_t c = 0; c < columns; c++)
+            column[c] = signal->values + c * room + signal->n;
+        if (st == SS_OK)
+            st = ss_source_rows(s, column, room - signal->n, &got, err);
+        signal->n += st == SS_OK ? got : 0;
+    }
+    if (st == SS_OK)
+        st = set_room(signal, &room, signal->n, s->name, err);
+    free(column);
+    if (st == SS_OK)
+        *out = signal;
+    else
+        ss_signal_free(signal);
+    return st;
+}
+
+/* --- of a signal in memory ----------------------------------------------------------------- */
+
+struct held {
+    ss_source base;
+    const ss_signal *signal;
+    size_t next;
+};
+
+static ss_status
+give_held(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
+{
+    struct held *h = (struct held *)s;
+    size_t left = h->signal->n - h->next;
+    (void)err;
+    *n = left < max ? left : max;
+    for (size_t c = 0; c < s->head->n_columns; c++)
+        if (column[c] != NULL)
+            memcpy(column[c], h->signal->values + c * h->signal->n + h->next, *n * sizeof *column[c]);
+    h->next += *n;
+    return SS_OK;
+}
+
+ss_source *
+ss_source_of_signal(const ss_signal *signal, const char *name, ss_error *err)
+{
+    static const struct source_calls calls = { .next = give_held };
+    struct held *h = make(sizeof *h, &calls, name, ss_header_copy(signal->head), err);
+    if (h == NULL)
+        return NULL;
+    h->base.length = signal->n;
+    h->signal = signal;
+    return &h->base;
+}

@@ -1,0 +1,54 @@
+/* source.h -- a source of rows: each format that is read, and each step between a format and its reader.
+ *
+ * A source gives the rows of its header, column by column, from the first to the last.  Steps wrap each
+ * other: a source of filled gaps has the source with the gaps as its inner one. */
+#ifndef SOURCE_H
+#define SOURCE_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stickslip/signal.h>
+
+typedef struct source ss_source;
+
+struct source_calls {
+    /* At most max rows, as ss_reader_rows gives them; *n is 0 before the call. */
+    ss_status (*next)(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err);
+    /* Back to the first row; NULL: as the inner source goes back, or, if there is none, it cannot. */
+    ss_status (*rewind)(ss_source *s, ss_error *err);
+    int (*waits)(const ss_source *s);      /* as ss_reader_waits; NULL: as the inner source, or never */
+    void (*free)(ss_source *s);            /* what the source itself holds; NULL: nothing */
+};
+
+/* The first member of each source. */
+struct source {
+    const struct source_calls *calls;
+    char *name;                 /* of the file, for messages */
+    ss_header *head;
+    uint64_t length;            /* rows; UINT64_MAX: not known before the last */
+    int rewinds;                /* 1: it can go back */
+    unsigned long line;         /* of text, where the last row stood; 0: rows have no lines */
+    ss_source *inner;              /* the one whose rows these are made of, or NULL */
+};
+
+/* A source of this size, all zeros behind its first member, with an empty header.  NULL: no memory. */
+void *ss_source_new(size_t size, const struct source_calls *calls, const char *name, ss_error *err);
+/* Wrap *s, whose header is copied, and let *s be the new one.  Returns it; NULL: no memory, *s stays. */
+void *ss_source_wrap(ss_source **s, size_t size, const struct source_calls *calls, ss_error *err);
+void ss_source_free(ss_source *s);                 /* with the inner ones; NULL is allowed */
+
+ss_status ss_source_rows(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err);
+/* SS_EINVAL: it cannot. */
+ss_status ss_source_rewind(ss_source *s, ss_error *err);
+int ss_source_waits(const ss_source *s);
+/* The rows to read at a time, as ss_reader_piece. */
+size_t ss_source_piece(const ss_source *s);
+/* All rows that are left, as a signal. */
+ss_status ss_source_all(ss_signal **out, ss_source *s, ss_error *err);
+/* The rows of a signal in memory, which must live as long. */
+ss_source *ss_source_of_signal(const ss_signal *signal, const char *name, ss_error *err);
+
+/* Is the time start + row / rate, but for rounding and 1e-6 sample periods? */
+int ss_is_on_clock(double time, double rate, double start, uint64_t row);
+
+#endif
