@@ -24,7 +24,6 @@
 #include <stickslip/spikes.h>
 #include <stickslip/rank.h>
 #include <stickslip/store.h>
-#include <stickslip/load.h>
 #include <stickslip/overlay.h>
 #include <stickslip/table.h>
 #include <stickslip/overview.h>

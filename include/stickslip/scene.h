@@ -107,6 +107,13 @@ ss_status ss_scene_write(const ss_scene *scene, FILE *out);
  * the scene's: its t = 0 is the start of settling.  The caller frees *base with ss_base_free.
  * SS_EDATA: the column's unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
 ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
+/* The same from a column of a file, of any format that ss_reader_load opens.  column is its name or number;
+ * NULL or "": the column z, or the only column. */
+ss_status ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err);
+/* If the scene names a base_file, read it and set scene->base to *base; else *base becomes NULL.
+ * The name is relative to the folder of scene_path, the file from which the scene was read.  The
+ * caller frees *base after the last use of the scene. */
+ss_status ss_scene_load_base(ss_base **base, ss_scene *scene, const char *scene_path, ss_error *err);
 void ss_base_free(ss_base *base);                   /* NULL is allowed */
 
 /* The number that key names, of the scene or of its model.  NaN: the model has no such number. */

@@ -136,6 +136,13 @@ typedef struct ss_reader ss_reader;
  * temporary file, 8 bytes for each number and each row.  Memory grows with gaps only. */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);
+/* Open the file at path, of any format; the reader closes it.  Of HDF5, "FILE" is /signal, as this library
+ * writes it, and "FILE:/path/to/dataset" a real dataset of one or two dimensions, of MATLAB v7.3 files too; in
+ * one of two dimensions the columns are the shorter one.
+ *
+ * A dataset takes its clock from opts->rate or opts->time.  SS_EDATA: /signal has a clock, and opts ask for
+ * another.  HDF5 is read chunk by chunk, in constant memory. */
+ss_status ss_reader_load(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err);
 const ss_header *ss_reader_header(const ss_reader *reader);     /* owned by the reader */
 
 /* Read at most max rows: the value of row i in column c becomes column[c][i].  NULL for a column: its
@@ -166,10 +173,11 @@ typedef struct ss_signal {
     double *values;             /* column after column: row i of column c is values[c * n + i] */
 } ss_signal;
 
-/* Read all rows, as ss_reader_new and ss_reader_rows do.  The caller frees each signal that a
+/* Read all rows of a stream, or of a file, as ss_reader_new, ss_reader_load and ss_reader_rows do.  The caller frees each signal that a
  * function makes with ss_signal_free. */
 ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts,
                          ss_error *err);
+ss_status ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err);
 /* Make a signal of n rows of zeros, with a copy of head. */
 ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n);
 /* Copy the columns of these indices, in this order, and of them the rows first ... end - 1. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <stickslip/load.h>
+#include <stickslip/scene.h>
 #include "base/error.h"
 #include "scene/model.h"
 

@@ -37,7 +37,7 @@ awk -v list="$list" '
         sub(/^stickslip\/(features|spikes)$/, "find/", file)
         sub(/^stickslip\/rank$/, "fit/", file)
         sub(/^stickslip\/(sweep|trade)$/, "study/", file)
-        sub(/^stickslip\/(overlay|table|store|load)$/, "io/", file)
+        sub(/^stickslip\/(overlay|table|store)$/, "io/", file)
         sub(/^stickslip\/(status|number)$/, "base/", file)
         sub(/^stickslip\//, "", file)
         sub(/\/.*/, "", file)

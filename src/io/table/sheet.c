@@ -1,7 +1,5 @@
-/* sheet.c -- the rows of a table, which are kept: only all stamps together show the rate, and all cells the gaps.
- *
- * Then they are a source: a row is the sample that its stamp shows, and samples without a row are NaN; with
- * opts->resample, a spline leads from the rows to the samples. */
+/* sheet.c -- the columns and rows of a table, which are kept: only all stamps together show the rate, and all cells the
+ * gaps. */
 #include "io/table/sheet.h"
 
 #include <math.h>
@@ -9,10 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/number.h"
-#include "base/progress.h"
-#include "io/table/clock.h"
-#include "signal/gaps.h"
-#include "signal/resample.h"
 
 ss_status
 ss_sheet_begin(struct sheet *t, const char *name, const ss_read_opts *opts)
@@ -98,7 +92,7 @@ ss_sheet_add_columns(struct sheet *t, double *const column[], size_t first, size
     return st;
 }
 
-/* --- samples ------------------------------------------------------------------------------- */
+/* --- reading them -------------------------------------------------------------------------- */
 
 ss_status
 ss_sheet_next(struct kept *rows, size_t time, const double **row, ss_error *err)
@@ -114,129 +108,4 @@ double
 ss_sheet_stamp(const struct time_column *c, const double *row)
 {
     return c->origin + (row[c->column] - c->zero) * c->factor / c->divisor;
-}
-
-struct samples {
-    ss_source base;
-    struct kept rows;
-    struct timing timing;
-    size_t *of, n;              /* the columns of the table that are given */
-    struct sample_count count;
-    const double *row;          /* that is given next, as this sample; NULL: it is not read yet */
-    size_t sample, given;       /* given: samples so far */
-    ss_progress progress;
-};
-
-/* Give the values of a row, NaN where there is none, as number `at`. */
-static void
-give_row(const struct samples *s, const double *row, double *const column[], size_t at)
-{
-    for (size_t c = 0; c < s->n; c++)
-        if (column[c] != NULL)
-            column[c][at] = row != NULL ? row[s->of[c]] : NAN;
-}
-
-static ss_status
-give_samples(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
-{
-    struct samples *s = (struct samples *)base;
-    const struct time_column *time = &s->timing.time;
-    ss_status st = SS_OK;
-    for (; *n < max; ++*n, s->given++) {
-        if (s->row == NULL) {
-            st = ss_sheet_next(&s->rows, time->column, &s->row, err);
-            if (st != SS_OK || s->row == NULL)
-                break;
-            s->sample = s->timing.usual > 0 ? ss_clock_sample(&s->count, ss_sheet_stamp(time, s->row)) : s->given;
-        }
-        int there = s->sample == s->given;
-        give_row(s, there ? s->row : NULL, column, *n);
-        s->row = there ? NULL : s->row;
-    }
-    ss_progress_at(&s->progress, (1 + (double)s->rows.given / (double)s->rows.n) / 2);
-    return st;
-}
-
-/* Each row as it is, and its time in the last column. */
-static ss_status
-give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
-{
-    struct samples *s = (struct samples *)base;
-    const struct time_column *time = &s->timing.time;
-    const double *row;
-    ss_status st = SS_OK;
-    for (; *n < max && (st = ss_sheet_next(&s->rows, time->column, &row, err)) == SS_OK && row != NULL; ++*n) {
-        give_row(s, row, column, *n);
-        column[s->n - 1][*n] = ss_sheet_stamp(time, row);
-    }
-    ss_progress_at(&s->progress, (1 + (double)s->rows.given / (double)s->rows.n) / 2);
-    return st;
-}
-
-static ss_status
-rewind_samples(ss_source *base, ss_error *err)
-{
-    struct samples *s = (struct samples *)base;
-    s->count = (struct sample_count){ .usual = s->timing.usual };
-    s->row = NULL;
-    s->given = 0;
-    return ss_kept_rewind(&s->rows, err);
-}
-
-static void
-free_samples(ss_source *base)
-{
-    struct samples *s = (struct samples *)base;
-    ss_kept_free(&s->rows);
-    free(s->of);
-}
-
-/* The columns of numbers without that of time, and, if stamped, that one behind them. */
-static ss_status
-choose_columns(struct samples *s, const struct sheet *t, int stamped, ss_error *err)
-{
-    size_t time = s->timing.time.column;
-    ss_header *head = NULL;
-    s->of = malloc((t->n_columns + 1) * sizeof *s->of);
-    if (s->of == NULL)
-        return ss_fail_memory(err, t->name);
-    for (size_t c = 0; c < t->n_columns; c++)
-        if (c != time && t->column[c].kind == COLUMN_NUMBERS)
-            s->of[s->n++] = c;
-    if (s->n == 0)
-        return ss_fail(err, SS_EDATA, "%s: no column but time", t->name);
-    if (stamped)
-        s->of[s->n++] = time;
-    if (ss_header_select(&head, t->names, s->of, s->n, 0) != SS_OK)
-        return ss_fail_memory(err, t->name);
-    ss_header_free(s->base.head);
-    s->base.head = head;
-    return SS_OK;
-}
-
-ss_status
-ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *err)
-{
-    static const struct source_calls samples = { give_samples, rewind_samples, NULL, free_samples };
-    static const struct source_calls rows = { give_rows, rewind_samples, NULL, free_samples };
-    struct timing timing = { .usual = 0 };
-    ss_status st = ss_sheet_find_clock(t, &timing, err);
-    if (st != SS_OK)
-        return st;
-    int stamped = timing.longest > 0;
-    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : &samples, t->name, err);
-    if (s == NULL)
-        return SS_ENOMEM;
-    *out = &s->base;
-    s->timing = timing;
-    s->progress = progress;
-    s->rows = t->rows;
-    s->rows.name = s->base.name;
-    t->rows = (struct kept){ 0 };
-    st = choose_columns(s, t, stamped, err);
-    if (st == SS_OK)
-        st = rewind_samples(&s->base, err);
-    if (st == SS_OK && stamped)
-        st = ss_source_resample(out, t->names->rate, 1, timing.longest, err);
-    return st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE ? ss_source_fill_gaps(out, t->opts->gaps, err) : st;
 }
