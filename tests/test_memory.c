@@ -13,6 +13,8 @@
 #include <unistd.h>
 #include <stickslip.h>
 
+#include "find/drops.h"
+#include "find/events.h"
 #include "store_samples.h"
 #include "unit.h"
 
@@ -477,8 +479,8 @@ features(int variant)
 {
     ss_maximum *maxima = NULL;
     size_t n;
-    ss_status st = variant == 0 ? ss_maxima_find(&maxima, &n, coefficients, 1)
-                   : ss_maxima_along(&maxima, &n, coefficients, 1, 60, 1);
+    ss_status st = variant == 0 ? ss_maxima_find(&maxima, &n, coefficients, 1, &err)
+                   : ss_maxima_along(&maxima, &n, coefficients, 1, 60, 1, &err);
     free(maxima);
     return st;
 }
@@ -492,10 +494,10 @@ searches(int variant)
     size_t n;
     const double *a = cycles->values + 2 * cycles->n, *f = cycles->values + 3 * cycles->n;
     double rate = cycles->head->rate;
-    ss_status st = variant == 0 ? ss_spikes_find(&spikes, a, cycles->n, rate, &ss_spike_defaults,
-                                                 &err)
-        : variant == 1 ? ss_bursts_find(&bursts, a, cycles->n, rate,
-                                        &(ss_burst_opts){ .range = 20 }, &err)
+    row_source source;
+    assert_int_equal(ss_row_source_init(&source, a, cycles->n, rate, NULL, 0, NULL), SS_OK);
+    ss_status st = variant == 0 ? ss_spikes_find(&spikes, &source, &err)
+        : variant == 1 ? ss_bursts_find(&bursts, &source, 20, &err)
         : ss_drops_find(&drops, &n, f, cycles->n, rate, &(ss_drop_opts){ .height = 1 }, &err);
     ss_spikes_free(spikes);
     ss_bursts_free(bursts);

@@ -4,17 +4,26 @@
 #include <float.h>
 #include <math.h>
 #include <stickslip.h>
+#include "find/drops.h"
 #include "spike_score.h"
 #include "unit.h"
 
 #define RATE 2000.
+
+static ss_status
+bursts_of(ss_bursts **out, const double *x, size_t n, double rate, double range, const ss_span *gap, size_t n_gaps)
+{
+    row_source source;
+    ss_status st = ss_row_source_init(&source, x, n, rate, gap, n_gaps, NULL);
+    return st == SS_OK ? ss_bursts_find(out, &source, range, NULL) : st;
+}
 
 static ss_spikes *
 find(const double *x, size_t n, double rate)
 {
     ss_spikes *found = NULL;
     ss_error err = { 0 };
-    if (ss_spikes_find(&found, x, n, rate, &ss_spike_defaults, &err) != SS_OK)
+    if (spikes_of(&found, x, n, rate, NULL, 0, &err) != SS_OK)
         fail_msg("%s", err.text);
     return found;
 }
@@ -270,8 +279,6 @@ short_constant_and_improper_records_are_answered(void **state)
 {
     double x[64] = { 0 };
     ss_spikes *found = NULL;
-    ss_spike_opts bad[] = { ss_spike_defaults, ss_spike_defaults, ss_spike_defaults,
-                            ss_spike_defaults };
     ss_bursts *bursts = NULL;
     ss_error err;
     (void)state;
@@ -281,23 +288,18 @@ short_constant_and_improper_records_are_answered(void **state)
             found = find(x, n, RATE);
             assert_true(last == 1 || found->n == 0);
             ss_spikes_free(found);
-            assert_int_equal(ss_bursts_find(&bursts, x, n, RATE, &(ss_burst_opts){ .range = 15 },
-                                            NULL), SS_OK);
+            assert_int_equal(bursts_of(&bursts, x, n, RATE, 15, NULL, 0), SS_OK);
             ss_bursts_free(bursts);
         }
         x[n - 1] = 0;
     }
-    bad[0].fmax = 700, bad[1].false_alarms = 0, bad[2].precision = NAN, bad[3].fmax = -1;
-    for (size_t i = 0; i < 4; i++)
-        assert_int_equal(ss_spikes_find(&found, x, 64, RATE, &bad[i], &err), SS_EINVAL);
-    assert_int_equal(ss_spikes_find(&found, x, 0, RATE, &ss_spike_defaults, &err), SS_EINVAL);
-    assert_int_equal(ss_spikes_find(&found, x, 64, NAN, &ss_spike_defaults, &err), SS_EINVAL);
-    assert_int_equal(ss_bursts_find(&bursts, x, 64, RATE, &(ss_burst_opts){ .range = -1 }, &err), SS_EINVAL);
+    assert_int_equal(spikes_of(&found, x, 0, RATE, NULL, 0, &err), SS_EINVAL);
+    assert_int_equal(spikes_of(&found, x, 64, NAN, NULL, 0, &err), SS_EINVAL);
     x[3] = NAN;
-    assert_int_equal(ss_spikes_find(&found, x, 64, RATE, &ss_spike_defaults, &err), SS_EINVAL);
+    assert_int_equal(spikes_of(&found, x, 64, RATE, NULL, 0, &err), SS_EINVAL);
     assert_string_equal(err.text, "sample 4 is not a finite number");
     x[3] = -DBL_MAX, x[4] = DBL_MAX;
-    assert_int_equal(ss_spikes_find(&found, x, 64, RATE, &ss_spike_defaults, &err), SS_EINVAL);
+    assert_int_equal(spikes_of(&found, x, 64, RATE, NULL, 0, &err), SS_EINVAL);
     ss_spikes_free(NULL);
     ss_bursts_free(NULL);
 }
@@ -319,12 +321,12 @@ finds_the_one_event(void **state)
     for (size_t i = 0; i < N; i++)
         x[i] += 1e-4 * (double)i + 1 / cosh(((double)i - 3000) / 20)
             + 0.1 / cosh(((double)i - 7000) / 20);
-    assert_int_equal(ss_bursts_find(&found, x, N, 50000, &(ss_burst_opts){ .range = 15 }, NULL), SS_OK);
+    assert_int_equal(bursts_of(&found, x, N, 50000, 15, NULL, 0), SS_OK);
     assert_int_equal(found->n, 1);
     assert_true(fabs(found->burst[0].t * 50000 - 3000) <= 20 && found->burst[0].level == 0);
     assert_true(fabs(found->next + 20) <= 0.5);
     ss_bursts_free(found);
-    assert_int_equal(ss_bursts_find(&found, x, N, 50000, &(ss_burst_opts){ .range = 25 }, NULL), SS_OK);
+    assert_int_equal(bursts_of(&found, x, N, 50000, 25, NULL, 0), SS_OK);
     assert_int_equal(found->n, 2);
     assert_true(fabs(found->burst[1].level + 20) <= 0.5 && found->next < -25);
     ss_bursts_free(found);
@@ -346,16 +348,13 @@ a_gap_is_no_event(void **state)
         x[i] += 5 + 1 / cosh(((double)i - 7000) / 20);
         x[i] = ss_gaps_near(gap, 2, t + 0.5 / 50000, 0) ? 0 : x[i];
     }
-    assert_int_equal(ss_bursts_find(&found, x, N, 50000,
-                                    &(ss_burst_opts){ .range = 15, .gap = gap, .n_gaps = 2 }, NULL), SS_OK);
+    assert_int_equal(bursts_of(&found, x, N, 50000, 15, gap, 2), SS_OK);
     assert_int_equal(found->n, 1);
     assert_true(fabs(found->burst[0].t * 50000 - 7000) <= 20);
     ss_bursts_free(found);
-    ss_spike_opts opts = ss_spike_defaults;
     ss_spikes *spikes = NULL;
-    opts.gap = gap, opts.n_gaps = 2;
     x[6000] += 1;
-    assert_int_equal(ss_spikes_find(&spikes, x, N, 50000, &opts, NULL), SS_OK);
+    assert_int_equal(spikes_of(&spikes, x, N, 50000, gap, 2, NULL), SS_OK);
     assert_true(spikes->n == 1 && spikes->spike[0].kind == SS_SPIKE_GLITCH);
     assert_true(fabs(spikes->spike[0].t * 50000 - 6000) <= 1);
     ss_spikes_free(spikes);

@@ -88,7 +88,8 @@ print_maxima(const ss_coefficients *c)
 {
     ss_maximum *maximum = NULL;
     size_t n = 0;
-    tool_check(ss_maxima_find(&maximum, &n, c, PROMINENCE), NULL);
+    ss_error err = { 0 };
+    tool_check(ss_maxima_find(&maximum, &n, c, PROMINENCE, &err), &err);
     n = keep(maximum, n, LOWEST);
     printf("  local maxima: %zu", n);
     print_ranges(maximum, n);
@@ -116,9 +117,10 @@ static void
 print_spikes(const ss_coefficients *c)
 {
     size_t n, shortest = c->n_scales - 1;
+    ss_error err = { 0 };
     ss_maximum *spike;
     double half = half_cycle(c->head);
-    tool_check(ss_maxima_along(&spike, &n, c, shortest, RANGE, PROMINENCE), NULL);
+    tool_check(ss_maxima_along(&spike, &n, c, shortest, RANGE, PROMINENCE, &err), &err);
     printf("  spikes at %.0f Hz: %zu", c->scale[shortest].f, n);
     if (half > 0)
         print_counts(spike, n, half, (double)c->n / c->head->rate);

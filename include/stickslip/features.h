@@ -29,13 +29,13 @@ typedef struct ss_maximum {
  * the border of the map (its first and last scale, or beside the cone) is no maximum.  Nor is a
  * point near a gap (ss_coefficients_edge), but a saddle may lie there. */
 ss_status ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
-                    double min_prominence);
+                         double min_prominence, ss_error *err);
 
 /* Find the maxima of |W| over time along one scale: the spikes that reach this scale.  They lie
  * outside the cone of influence, have at least this prominence along the scale, and are at most
  * range dB below the highest of them.  All have the same f. */
 ss_status ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
-                    double range, double min_prominence);
+                          double range, double min_prominence, ss_error *err);
 
 /* --- transitions --------------------------------------------------------------------------- */
 
@@ -132,7 +132,7 @@ typedef struct ss_features_opts {
     double threshold;           /* [dB] > 0: the least prominence of a local maximum */
     ss_norm norm;               /* of the |W| whose maxima are taken */
     double mass, stiffness;     /* m [kg], k [N/m]; 0: not known */
-    double drop;                /* > 0: transitions are the falls by more than this (ss_drops_find) */
+    double drop;                /* > 0: transitions are the falls by more than this */
     double fmin;                /* [Hz] the lowest frequency of the map; 0: the lowest usable one */
     int displacement, force;    /* columns for contact_stiffness_slope; -1: there is none */
     int threads;                /* 1 ... SS_THREADS_MAX */
@@ -150,11 +150,11 @@ extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no colu
  *   at its frequency, from the onset of the oscillation to the last spike within a period of its
  *   end.
  * - Else, if the signal repeats itself: strong spikes begin transitions, weaker spikes end them.
- * - Else they are the single events of ss_bursts_find, from the first to the last sample that lies
+ * - Else they are the single events of a record that is quiet elsewhere, from the first to the last sample that lies
  *   off lines through the quiet parts before and after.
  *
  * Nothing is found near gaps (ss_header_gaps of the signal): no local maximum nearer than sqrt(2)
- * a, no spike, event or fall where ss_spikes_find, ss_bursts_find and ss_drops_find find none;
+ * a, no spike nearer than 12 of its scales, no single event nearer than 6, no fall over a gap;
  * fits end before a gap.  A record that is too short for any scale, or in which nothing happens,
  * has no transitions: SS_OK.  A number is NaN if its error is not reliable, for the reasons that
  * ss-features(1) gives.  opts may be NULL.  The caller frees *out with ss_features_free. */

@@ -5,9 +5,8 @@
  * next lower maximum tells how certain this is. */
 #include <math.h>
 #include <stdlib.h>
-#include "base/error.h"
 #include "base/sort.h"
-#include "find/scale_rows.h"
+#include "find/events.h"
 
 #define LONGEST 20.0            /* fewest scales in the record: some of them must be quiet */
 
@@ -26,7 +25,7 @@ label_of(const row_source *source, size_t i)
 
 /* Keep the row and its peaks if it is clearer than the best. */
 static void
-keep_clearer(row *best, row *r)
+keep_clearer(scale_row *best, scale_row *r)
 {
     if (!(r->n > 0 && r->top / r->rms > best->top / best->rms)) {
         free(r->peak);
@@ -38,19 +37,19 @@ keep_clearer(row *best, row *r)
 
 /* Find the clearest row, *best, and the number of rows.  The heads come first. */
 static ss_status
-find_clearest(row *best, row_source *source, size_t rows, ss_error *err)
+find_clearest(scale_row *best, row_source *source, size_t rows, ss_error *err)
 {
     ss_status st = SS_OK;
-    *best = (row){ .rms = 1 };
+    *best = (scale_row){ .rms = 1 };
     for (size_t i = 0; i < rows; i++) {
-        const row *head = ss_row_head(source, label_of(source, i));
+        const scale_row *head = ss_row_head(source, label_of(source, i));
         if (head != NULL)
-            keep_clearer(best, &(row){ .f = head->f, .rms = head->rms, .top = head->top, .n = head->n });
+            keep_clearer(best, &(scale_row){ .f = head->f, .rms = head->rms, .top = head->top, .n = head->n });
     }
     if (best->n > 0)
         st = ss_row_new(best, source, best->f, NULL, err);
     for (size_t i = 0; st == SS_OK && i < rows; i++) {
-        row r = { 0 };
+        scale_row r = { 0 };
         if (ss_row_head(source, label_of(source, i)) != NULL)
             continue;
         st = ss_row_new(&r, source, label_of(source, i), NULL, err);
@@ -62,7 +61,7 @@ find_clearest(row *best, row_source *source, size_t rows, ss_error *err)
 
 /* Find the peaks of the row that are above the threshold and within range. */
 static ss_status
-collect_bursts(ss_bursts *found, row *r, double threshold, double range)
+collect_bursts(ss_bursts *found, scale_row *r, double threshold, double range)
 {
     size_t n = 0;
     if (r->n > 1)
@@ -86,25 +85,9 @@ collect_bursts(ss_bursts *found, row *r, double threshold, double range)
 }
 
 ss_status
-ss_bursts_find(ss_bursts **out, const double *x, size_t n, double rate, const ss_burst_opts *opts,
-               ss_error *err)
+ss_bursts_find(ss_bursts **out, row_source *source, double range, ss_error *err)
 {
-    if (out == NULL || x == NULL || opts == NULL)
-        return SS_FAIL_NULL(err);
-    row_source source;
-    if (!(opts->range >= 0))
-        return ss_fail(err, SS_EINVAL, "range: 0 dB or more are needed");
-    ss_status st = ss_row_source_init(&source, x, n, rate, ss_spike_defaults.precision, opts->gap,
-                                      opts->n_gaps, err);
-    if (st != SS_OK)
-        return st;
-    return ss_bursts_in(out, &source, opts->range, err);
-}
-
-ss_status
-ss_bursts_in(ss_bursts **out, row_source *source, double range, ss_error *err)
-{
-    row best = { .rms = 1 };
+    scale_row best = { .rms = 1 };
     double length = (double)(source->n - 1) / source->rate;
     double shortest = ROW_CENTER / (M_PI * ROW_HIGHEST * source->rate);
     double octaves = source->constant ? -1 : log2(length / (LONGEST * shortest));
@@ -114,9 +97,7 @@ ss_bursts_in(ss_bursts **out, row_source *source, double range, ss_error *err)
         return SS_ENOMEM;
     ss_status st = find_clearest(&best, source, rows, err);
     if (st == SS_OK)
-        st = collect_bursts(found, &best,
-                            ss_row_threshold(length, shortest, rows, ss_spike_defaults.false_alarms),
-                            range);
+        st = collect_bursts(found, &best, ss_row_threshold(length, shortest, rows), range);
     ss_row_source_free(source);
     free(best.peak);
     if (st != SS_OK) {

@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "find/maxima.h"
 #include "find/numbers.h"
-#include "find/scale_rows.h"
+#include "find/events.h"
 #include "find/search.h"
 #include "signal/gaps.h"
 
@@ -165,11 +165,10 @@ find_before_map(search *s)
     ss_status st = find_repetition(s);
     if (st != SS_OK)
         return st;
-    st = ss_row_source_init(s->rows, s->x, s->n, s->rate, ss_spike_defaults.precision, s->gap, s->n_gaps,
-                            NULL);
+    st = ss_row_source_init(s->rows, s->x, s->n, s->rate, s->gap, s->n_gaps, NULL);
     s->rows->keeps_heads =
         isnan(s->out->number[SS_REPETITION_FREQUENCY].value);   /* single events may be sought */
-    return st == SS_OK ? ss_spikes_in(&s->out->spikes, s->rows, &ss_spike_defaults, NULL) : st;
+    return st == SS_OK ? ss_spikes_find(&s->out->spikes, s->rows, NULL) : st;
 }
 
 static ss_status

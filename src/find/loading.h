@@ -3,6 +3,7 @@
 #define LOADING_H
 
 #include "find/search.h"
+#include "find/drops.h"
 
 /* Write the loadings before the n drops of x, which is the signal in s or its negative, into s->out, with
  * their medians. */

@@ -12,6 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/error.h"
 #include "find/basins.h"
 #include "find/maxima.h"
 #include "map/plan.h"
@@ -186,20 +187,25 @@ ss_maxima_of_row(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t
 }
 
 ss_status
-ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, double min_prominence)
+ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, double min_prominence,
+               ss_error *err)
 {
-    if (out == NULL || n == NULL || coefficients == NULL)
-        return SS_EINVAL;
     double top;
-    return ss_maxima_above(out, n, coefficients, min_prominence, 0, &top);
+    if (out == NULL || n == NULL || coefficients == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_maxima_above(out, n, coefficients, min_prominence, 0, &top);
+    return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
 }
 
 ss_status
 ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
-          double range, double min_prominence)
+                double range, double min_prominence, ss_error *err)
 {
-    if (out == NULL || n == NULL || coefficients == NULL || scale >= coefficients->n_scales)
-        return SS_EINVAL;
-    return ss_maxima_of_row(out, n, coefficients, scale,
-                            ss_coefficients_max(coefficients), range, min_prominence);
+    if (out == NULL || n == NULL || coefficients == NULL)
+        return SS_FAIL_NULL(err);
+    if (scale >= coefficients->n_scales)
+        return ss_fail(err, SS_EINVAL, "scale %zu of %zu", scale + 1, coefficients->n_scales);
+    ss_status st = ss_maxima_of_row(out, n, coefficients, scale, ss_coefficients_max(coefficients), range,
+                                    min_prominence);
+    return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
 }

@@ -5,7 +5,7 @@
 #include "find/edge.h"
 #include "find/hum.h"
 #include "find/ringdown.h"
-#include "find/scale_rows.h"
+#include "find/events.h"
 #include "find/search.h"
 #include "signal/gaps.h"
 

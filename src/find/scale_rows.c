@@ -6,7 +6,7 @@
  *
  * Threshold: |W| of Gaussian noise crosses the level u (in units of its rms) upwards u exp(-u^2) /
  * (a sqrt(2 pi)) times a second (Rice 1945, with the spectral width 1 / (sqrt(2) a) of the Morlet
- * wavelet); summed over the rows that is to be false_alarms.  Neighbouring rows are not
+ * wavelet); summed over the rows that is to be FALSE_ALARMS.  Neighbouring rows are not
  * independent, so there are fewer.
  *
  * The record is continued oddly about its end points, so that it goes on with the same value and
@@ -21,6 +21,8 @@
 #include "find/scale_rows.h"
 #include <stickslip/morlet.h>
 
+#define FALSE_ALARMS 0.01       /* maxima above the threshold that a record of noise has */
+#define PRECISION 1e-7          /* of a sample, relative to the largest change: weaker spikes do not count */
 #define ACCURACY 1e-10          /* of W: 200 dB */
 #define QUIET 3.0               /* scales from a spike within which it raises the level */
 #define LEAST 0.1               /* the least part of a row from which its noise is found */
@@ -78,8 +80,8 @@ converter_step(const row_source *source)
 }
 
 ss_status
-ss_row_source_init(row_source *source, const double *x, size_t n, double rate, double precision,
-                   const ss_span *gap, size_t n_gaps, ss_error *err)
+ss_row_source_init(row_source *source, const double *x, size_t n, double rate, const ss_span *gap,
+                   size_t n_gaps, ss_error *err)
 {
     double lo = INFINITY, hi = -INFINITY;
     if (n == 0 || n > SIZE_MAX / 64)
@@ -99,7 +101,7 @@ ss_row_source_init(row_source *source, const double *x, size_t n, double rate, d
         return ss_fail(err, SS_EINVAL, "the samples differ by more than a double holds");
     source->constant = !(hi > lo);
     if (hi > lo)
-        source->rounding = fmax(precision * (hi - lo), converter_step(source) / sqrt(12))
+        source->rounding = fmax(PRECISION * (hi - lo), converter_step(source) / sqrt(12))
             / sqrt(rate);
     return SS_OK;
 }
@@ -168,7 +170,7 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
 /* Find the peaks of the row whose |W| source->level holds.  Levels before t = 0 and behind the record are
  * not the record's own. */
 static ss_status
-fill_row(row *r, row_source *source, const ss_spikes *loud, const ss_scale *scale,
+fill_row(scale_row *r, row_source *source, const ss_spikes *loud, const ss_scale *scale,
          double margin)
 {
     double *level = source->level;
@@ -191,7 +193,7 @@ fill_row(row *r, row_source *source, const ss_spikes *loud, const ss_scale *scal
     r->rms = noise_of(source, loud, level + first, last - first + 1,
                       ss_scale_b(scale, first) - margin, step, r->a);
     if (source->keeps_heads && source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
-        row *head = &source->head[source->n_heads++];
+        scale_row *head = &source->head[source->n_heads++];
         *head = *r;
         head->peak = NULL;
         if (loud != NULL && loud->n > 0)
@@ -239,7 +241,7 @@ number_of(double f)
 }
 
 ss_status
-ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error *err)
+ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud, ss_error *err)
 {
     double j = number_of(f), octave = floor(j / ROW_VOICES);
     ss_status st = SS_OK;
@@ -251,12 +253,12 @@ ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud, ss_error
     const ss_scale *scale = &source->rows->scale[index];
     if (scale->n + 1 > source->room && (st = make_room(source, scale->n + 1)) != SS_OK)
         return st;
-    *r = (row){ .a = scale->a, .f = scale->f };
+    *r = (scale_row){ .a = scale->a, .f = scale->f };
     st = ss_map_read(source->rows, &(ss_map_part){ index, 0, scale->n, NULL, source->level }, 1, NULL);
     return st == SS_OK ? fill_row(r, source, loud, scale, (double)source->margin / source->rate) : st;
 }
 
-const row *
+const scale_row *
 ss_row_head(const row_source *source, double f)
 {
     for (size_t i = 0; i < source->n_heads; i++)
@@ -276,12 +278,12 @@ ss_row_source_free(row_source *source)
 }
 
 double
-ss_row_threshold(double length, double shortest, size_t rows, double false_alarms)
+ss_row_threshold(double length, double shortest, size_t rows)
 {
     double count = 0, u = 4;
     for (size_t i = 0; i < rows; i++)
         count += length / (shortest * exp2((double)i / ROW_VOICES) * sqrt(2 * M_PI));
     for (int pass = 0; pass < 30; pass++)
-        u = sqrt(fmax(log(u * count / false_alarms), 1));
+        u = sqrt(fmax(log(u * count / FALSE_ALARMS), 1));
     return u;
 }

@@ -16,13 +16,13 @@ typedef struct peak {
     double t, level;            /* [s], |W| */
 } peak;
 
-typedef struct row {
+typedef struct scale_row {
     double a, f;
     double rms, top;            /* rms of the noise; level of the largest peak */
     size_t n;
     peak *peak;                 /* all maxima outside the cone of influence and out of the
                                    reach of gaps, in time order */
-} row;
+} scale_row;
 
 enum { ROW_HEADS = 32 };
 
@@ -35,40 +35,34 @@ typedef struct row_source {
     const ss_span *gap;         /* in time order [s]: samples in them are not of the signal */
     size_t n_gaps;
     /* computes the rows of scales from 2^octave s up to 2^end s, from x with margin samples before it; NULL
-     * before the first row */
+     * before the first scale_row */
     ss_coefficients *rows;
     double octave, end;
     size_t margin;
-    double *level;              /* room for so many of a row */
+    double *level;              /* room for so many of a scale_row */
     size_t room;
     int keeps_heads;            /* 1: the first rows are kept when their peaks are freed */
-    row head[ROW_HEADS];        /* these rows, with the noise of the whole row and without their peaks */
+    scale_row head[ROW_HEADS];        /* these rows, with the noise of the whole row and without their peaks */
     size_t n_heads;
 } row_source;
 
-/* Prepare a source, and check the samples and the rate.  precision: of a sample, relative to the largest
- * change. */
-ss_status ss_row_source_init(row_source *source, const double *x, size_t n, double rate,
-                             double precision, const ss_span *gap, size_t n_gaps, ss_error *err);
+/* Prepare a source, and check the samples and the rate. */
+ss_status ss_row_source_init(row_source *source, const double *x, size_t n, double rate, const ss_span *gap,
+                             size_t n_gaps, ss_error *err);
 /* Free its memory.  It can be used again, and its heads stay. */
 void ss_row_source_free(row_source *source);
 
 /* Compute the row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows should be asked
  * for from short to long scales, as some octaves share spectra.  The noise is found where no spike of loud
  * is near; NULL: everywhere.  r->peak is to be freed with free(). */
-ss_status ss_row_new(row *r, row_source *source, double f, const ss_spikes *loud,
+ss_status ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud,
                      ss_error *err);
 
 /* The head of the row nearest to f; NULL: it is not known. */
-const row *ss_row_head(const row_source *source, double f);
+const scale_row *ss_row_head(const row_source *source, double f);
 
-/* ss_spikes_find and ss_bursts_find in a source, whose precision and gaps count; its memory is freed, but
- * both may use it, one after the other. */
-ss_status ss_spikes_in(ss_spikes **out, row_source *source, const ss_spike_opts *opts, ss_error *err);
-ss_status ss_bursts_in(ss_bursts **out, row_source *source, double range, ss_error *err);
-
-/* The level, in units of the noise's rms, that Gaussian noise is expected to reach false_alarms
+/* The level, in units of the noise's rms, that Gaussian noise is expected to reach FALSE_ALARMS (scale_rows.c)
  * times in so many rows, the first of scale shortest, of a record of that length [s]. */
-double ss_row_threshold(double length, double shortest, size_t rows, double false_alarms);
+double ss_row_threshold(double length, double shortest, size_t rows);
 
 #endif

@@ -12,8 +12,7 @@
 #include "base/list.h"
 #include "base/sort.h"
 #include "find/breakpoint.h"
-#include "find/scale_rows.h"
-#include <stickslip/spikes.h>
+#include "find/events.h"
 
 #define DEEPEST 5.0             /* octaves in which the first spike is sought: 100 samples are smooth */
 #define REACH 2.0               /* octaves in which spikes are sought from the first row with a spike on */
@@ -22,13 +21,10 @@
 #define CONCLUSIVE 6.0          /* the least level of the clearest spike above the threshold [dB] */
 #define FIT 2.0                 /* scales on either side that the fit of a break sees */
 
-const ss_spike_opts ss_spike_defaults = { 0, 0.01, 1e-7, NULL, 0 };
-
 typedef struct spike_search {
     row_source *source;
-    const ss_spike_opts *opts;
     size_t n_rows;
-    row *row;
+    scale_row *row;
     double threshold;
     size_t room;
     ss_spikes *found;
@@ -66,7 +62,7 @@ ss_spike_kind_name(ss_spike_kind kind)
 
 /* The peak of the row nearest to t, or NULL if it is farther than within. */
 static const peak *
-nearest(const row *r, double t, double within)
+nearest(const scale_row *r, double t, double within)
 {
     size_t lo = ss_list_from(r->peak, r->n, sizeof *r->peak, t);
     const peak *best = NULL;
@@ -79,7 +75,7 @@ nearest(const row *r, double t, double within)
 }
 
 static int
-stands_out(const spike_search *s, const row *r, const peak *p)
+stands_out(const spike_search *s, const scale_row *r, const peak *p)
 {
     return p != NULL && p->level > s->threshold * r->rms;
 }
@@ -124,7 +120,7 @@ static ss_status
 add_spike(spike_search *s, size_t i, const peak *p)
 {
     ss_spikes *found = s->found;
-    const row *r = &s->row[i];
+    const scale_row *r = &s->row[i];
     ss_spike *spike = ss_list_room(found->spike, &s->room, found->n, sizeof *spike);
     if (spike == NULL)
         return SS_ENOMEM;
@@ -152,7 +148,7 @@ is_clear(const ss_spikes *found, size_t n, double t, double distance)
 
 /* Does a gap reach the row, or the rows from which its slope is found? */
 static int
-sees_gap(const spike_search *s, const row *r, double t)
+sees_gap(const spike_search *s, const scale_row *r, double t)
 {
     const row_source *source = s->source;
     return ss_gaps_near(source->gap, source->n_gaps, t, 2 * ROW_REACH * r->a);
@@ -162,7 +158,7 @@ sees_gap(const spike_search *s, const row *r, double t)
 static ss_status
 add_row_spikes(spike_search *s, size_t i)
 {
-    const row *r = &s->row[i], *next = &s->row[i + 1];
+    const scale_row *r = &s->row[i], *next = &s->row[i + 1];
     size_t before = s->found->n;
     for (size_t k = 0; k < r->n; k++) {
         const peak *p = &r->peak[k];
@@ -187,7 +183,7 @@ search_rows(spike_search *s, double f, ss_error *err)
         return SS_OK;           /* it is too short to have spikes */
     size_t rows = (size_t)(fmin(octaves, DEEPEST) * ROW_VOICES) + 1, last = rows - 1;
     const size_t reach = (size_t)(REACH * ROW_VOICES);
-    s->threshold = ss_row_threshold(length, shortest, rows, s->opts->false_alarms);
+    s->threshold = ss_row_threshold(length, shortest, rows);
     s->row = calloc(rows, sizeof *s->row);
     if (s->row == NULL)
         return SS_ENOMEM;
@@ -253,42 +249,16 @@ finish(spike_search *s)
     found->conclusive = found->floor <= -CONCLUSIVE;
 }
 
-static ss_status
-check(double rate, const ss_spike_opts *opts, ss_error *err)
-{
-    if (!(opts->fmax >= 0 && opts->fmax <= ROW_HIGHEST * rate / 2 * (1 + 1e-12)))
-        return ss_fail(err, SS_EINVAL, "fmax %g Hz is not at most %g of Nyquist", opts->fmax,
-                       ROW_HIGHEST);
-    if (!(opts->false_alarms > 0 && opts->false_alarms <= 1))
-        return ss_fail(err, SS_EINVAL, "false alarms: %g is not in (0, 1]", opts->false_alarms);
-    if (!(opts->precision >= 0 && opts->precision <= 1))
-        return ss_fail(err, SS_EINVAL, "precision: %g is not in [0, 1]", opts->precision);
-    return SS_OK;
-}
-
 ss_status
-ss_spikes_find(ss_spikes **out, const double *x, size_t n, double rate,
-               const ss_spike_opts *opts, ss_error *err)
+ss_spikes_find(ss_spikes **out, row_source *source, ss_error *err)
 {
-    if (out == NULL || x == NULL || opts == NULL)
-        return SS_FAIL_NULL(err);
-    row_source source;
-    ss_status st = check(rate, opts, err);
-    if (st == SS_OK)
-        st = ss_row_source_init(&source, x, n, rate, opts->precision, opts->gap, opts->n_gaps, err);
-    return st == SS_OK ? ss_spikes_in(out, &source, opts, err) : st;
-}
-
-ss_status
-ss_spikes_in(ss_spikes **out, row_source *source, const ss_spike_opts *opts, ss_error *err)
-{
-    spike_search s = { .source = source, .opts = opts };
+    spike_search s = { .source = source };
     s.found = calloc(1, sizeof *s.found);
     if (s.found == NULL)
         return SS_ENOMEM;
     ss_status st = SS_OK;
     if (!source->constant)
-        st = search_rows(&s, opts->fmax > 0 ? opts->fmax : ROW_HIGHEST * source->rate / 2, err);
+        st = search_rows(&s, ROW_HIGHEST * source->rate / 2, err);
     ss_row_source_free(source);
     if (st == SS_OK)
         finish(&s);

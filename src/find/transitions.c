@@ -1,9 +1,9 @@
 /* transitions.c -- where the transitions of a signal begin and end. */
 #include <math.h>
 #include <stdlib.h>
+#include "find/events.h"
 #include "find/extent.h"
 #include "find/force.h"
-#include "find/scale_rows.h"
 #include "find/search.h"
 
 #define SPIKES 60.0             /* [dB] range of the spikes that are counted in a transition */
@@ -114,7 +114,7 @@ find_single(search *s)
     ss_bursts *found = NULL;
     ss_coefficients_free(s->map);
     s->map = NULL;
-    ss_status st = ss_bursts_in(&found, s->rows, CLEAR, NULL);
+    ss_status st = ss_bursts_find(&found, s->rows, CLEAR, NULL);
     if (st == SS_OK && is_clipped_between(s, found))
         say(s->out, SS_SLIPS,
             "two events may be one that is clipped: it stands still at an extreme between them");

@@ -1,0 +1,45 @@
+/* events.h -- find the spikes of a signal, and the single events of one that is quiet elsewhere.
+ *
+ * Both are maxima of |W| along single scales (scale_rows.h).  Nothing is found near the source's gaps. */
+#ifndef EVENTS_H
+#define EVENTS_H
+
+#include <stickslip/spikes.h>
+#include "find/scale_rows.h"
+
+/* Find all spikes of a source, whose memory is freed.  n = 0 if no |W| exceeds the noise. */
+ss_status ss_spikes_find(ss_spikes **out, row_source *source, ss_error *err);
+void ss_spikes_free(ss_spikes *found);          /* NULL is allowed */
+
+/* The spikes of a transition. */
+typedef struct ss_spike_group {
+    size_t n;                   /* spikes from onset to end, these two included */
+    size_t inside;              /* spikes between them; > 0: the transition is grouped */
+} ss_spike_group;
+/* Count the spikes of a transition that begins at onset and ends, with its last release, at end,
+ * both in seconds from the first sample.  Jumps and kinks count that are at most range dB below
+ * the strongest.  A spike nearer to onset or end than its scale is that of onset or end. */
+ss_spike_group ss_spikes_within(const ss_spikes *found, double onset, double end, double range);
+
+typedef struct ss_burst {
+    double t;                   /* [s] from the first sample */
+    double level;               /* [dB] re the strongest, <= 0 */
+    double snr;                 /* |W| over the rms of the noise */
+} ss_burst;
+
+typedef struct ss_bursts {
+    size_t n;
+    ss_burst *burst;            /* in time order */
+    double f;                   /* label of the scale that shows the events best [Hz] */
+    double next;                /* [dB] re the strongest, of the strongest event beyond range; -infinity
+                                   if there is none above the noise */
+    double floor;               /* [dB] re the strongest: noise hides weaker events */
+} ss_bursts;
+
+/* Find the events of a source that is quiet for most of the time; its memory is freed.  They may have any
+ * length and shape.  They are the maxima of |W| at the scale where they exceed the noise most, at most range dB
+ * below the strongest. */
+ss_status ss_bursts_find(ss_bursts **out, row_source *source, double range, ss_error *err);
+void ss_bursts_free(ss_bursts *found);          /* NULL is allowed */
+
+#endif
