@@ -249,8 +249,6 @@ simulations_refuse_null(void **state)
     assert_refused(ss_needs_parse(NULL, &n, "x=1", &e), &e);
     assert_refused(ss_needs_parse(need, NULL, "x=1", &e), &e);
     assert_refused(ss_needs_parse(need, &n, NULL, &e), &e);
-    assert_int_equal(ss_models_keeps(NULL, need, 1), 0);
-    assert_null(ss_models_cheapest(NULL, need, 1));
     assert_null(ss_compared_name(SS_COMPARED_MOST));
     assert_null(ss_compared_name(SIZE_MAX));
 }
@@ -379,6 +377,36 @@ conclusions_refuse_null(void **state)
     ss_header_free(head);
 }
 
+/* Options of a caller whose header had fewer fields get defaults for the rest. */
+static void
+options_know_their_size(void **state)
+{
+    ss_features_opts features;
+    ss_steady_opts steady;
+    ss_sweep_opts sweep;
+    ss_trade_opts trade;
+    ss_models_opts models;
+    ss_error e = { 0 };
+    (void)state;
+    ss_features_opts_init(&features, sizeof features);
+    ss_steady_opts_init(&steady, sizeof steady);
+    ss_sweep_opts_init(&sweep, sizeof sweep);
+    ss_trade_opts_init(&trade, sizeof trade);
+    ss_models_opts_init(&models, sizeof models);
+    assert_true(features.size == sizeof features && features.displacement == -1 && features.threads == 1);
+    assert_true(steady.size == sizeof steady && steady.max_period == 8);
+    assert_true(sweep.size == sizeof sweep && sweep.shards == 1 && sweep.steady == NULL);
+    assert_true(trade.size == sizeof trade && trade.budget == 10);
+    assert_true(models.size == sizeof models && models.span == 80);
+    steady.max_steps = 0;
+    ss_steady_opts_init(&steady, offsetof(ss_steady_opts, max_steps));
+    assert_true(steady.size == offsetof(ss_steady_opts, max_steps) && steady.max_steps == 0);
+    assert_int_equal(ss_steady_check(&steady, &scene, &e), SS_OK);
+    steady.size = sizeof steady + 1;
+    assert_int_equal(ss_steady_check(&steady, &scene, &e), SS_EINVAL);
+    assert_non_null(strstr(e.text, "initialised"));
+}
+
 static void
 sweeps_refuse_null(void **state)
 {
@@ -386,7 +414,9 @@ sweeps_refuse_null(void **state)
     FILE *in = tmpfile();
     ss_axis axis = { .n = 0 };
     ss_steady steady = { .n_strobes = 0 };
-    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = &axis, .n_axes = 1, .shards = 1,
+    ss_steady_opts how;
+    ss_steady_opts_init(&how, sizeof how);
+    ss_sweep_opts opts = { .size = sizeof opts, .steady = &how, .axis = &axis, .n_axes = 1, .shards = 1,
                            .threads = 1, .sink = no_rows }, no_axis = opts, no_sink = opts;
     size_t n;
     (void)state;
@@ -394,14 +424,12 @@ sweeps_refuse_null(void **state)
     no_sink.sink = NULL;
     assert_refused(ss_axis_parse(NULL, "mass=1:2:3", &e), &e);
     assert_refused(ss_axis_parse(&axis, NULL, &e), &e);
-    assert_true(isnan(ss_axis_value(NULL, 0)));
-    assert_refused(ss_steady_find(NULL, &scene, &ss_steady_defaults, &e), &e);
-    assert_refused(ss_steady_find(&steady, NULL, &ss_steady_defaults, &e), &e);
-    assert_refused(ss_steady_find(&steady, &scene, NULL, &e), &e);
-    assert_refused(ss_steady_check(NULL, &scene, &e), &e);
-    assert_refused(ss_sweep_points(NULL, &n, &e), &e);
-    assert_refused(ss_sweep_points(&opts, NULL, &e), &e);
-    assert_refused(ss_sweep_points(&no_axis, &n, &e), &e);
+    assert_refused(ss_steady_find(NULL, &scene, NULL, &e), &e);
+    assert_refused(ss_steady_find(&steady, NULL, NULL, &e), &e);
+    assert_int_equal(ss_steady_find(&steady, &scene, &(ss_steady_opts){ .size = 1 }, &e), SS_EINVAL);
+    assert_refused(ss_steady_check(&how, NULL, &e), &e);
+    assert_int_equal(ss_steady_check(&(ss_steady_opts){ .tol = 1 }, &scene, &e), SS_EINVAL);
+    assert_int_equal(ss_sweep_check(&scene, &(ss_sweep_opts){ .shards = 1 }, &e), SS_EINVAL);
     assert_refused(ss_sweep_check(NULL, &opts, &e), &e);
     assert_refused(ss_sweep_check(&scene, NULL, &e), &e);
     assert_refused(ss_sweep_check(&scene, &no_axis, &e), &e);
@@ -413,14 +441,14 @@ sweeps_refuse_null(void **state)
     ss_sweep_row row = { .index = 0, .reason = "ok" };
     char *header = NULL;
     long end;
-    assert_int_equal(ss_sweep_header(NULL, &numbers), SS_EINVAL);
-    assert_int_equal(ss_sweep_header(&header, NULL), SS_EINVAL);
-    assert_int_equal(ss_sweep_header(&header, &text), SS_EINVAL);
-    assert_int_equal(ss_sweep_header(&header, &none), SS_EINVAL);
-    assert_int_equal(ss_sweep_header(&header, &numbers), SS_EINVAL);
+    assert_int_equal(ss_sweep_header(NULL, &numbers, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_header(&header, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_header(&header, &text, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_header(&header, &none, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_header(&header, &numbers, NULL), SS_EINVAL);
     assert_null(header);
-    assert_int_equal(ss_sweep_row_write(&text, &row, in), SS_EINVAL);
-    assert_int_equal(ss_sweep_row_write(&numbers, &row, in), SS_EINVAL);
+    assert_int_equal(ss_sweep_row_write(&text, &row, in, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_row_write(&numbers, &row, in, NULL), SS_EINVAL);
     assert_refused(ss_sweep_resume(NULL, in, "in", &n, &end, &e), &e);
     assert_refused(ss_sweep_resume(&text, NULL, "in", &n, &end, &e), &e);
     assert_int_equal(ss_sweep_resume(&text, in, "in", &n, &end, &e), SS_EINVAL);
@@ -488,7 +516,7 @@ writers_of_rows_refuse_null(void **state)
     ss_event event = { .kind = (ss_event_kind)7 };
     ss_features features = { .n = 0 };
     ss_signal signal = { .head = head };
-    const ss_features_opts *const opts = &ss_features_defaults;
+    const ss_features_opts *const opts = NULL;
     static const ss_trade trade;
     static const ss_models models;
     char *sentence = NULL;
@@ -688,7 +716,7 @@ refuses_what_is_no_known_choice(void **state)
         assert_null(ss_model_at((size_t)k));
         assert_int_equal(ss_scene_supported(&copy, NULL), SS_EINVAL);
         assert_null(ss_sim_method_for(&copy, NULL));
-        assert_int_equal(ss_steady_check(&ss_steady_defaults, &copy, NULL), SS_EINVAL);
+        assert_int_equal(ss_steady_check(NULL, &copy, NULL), SS_EINVAL);
         assert_int_equal(ss_morlet_new(&plan, 64, 1, &norm, NULL), SS_EINVAL);
         assert_int_equal(ss_morlet_new(&plan, 64, 1, &detrend, NULL), SS_EINVAL);
         assert_int_equal(ss_morlet_new(&plan, 64, 1, &engine, NULL), SS_EINVAL);
@@ -791,6 +819,7 @@ main(void)
         cmocka_unit_test(conclusions_refuse_null),
         cmocka_unit_test(sweeps_refuse_null),
         cmocka_unit_test(writers_of_rows_refuse_null),
+        cmocka_unit_test(options_know_their_size),
         cmocka_unit_test(overlays_refuse_null),
         cmocka_unit_test(plots_refuse_null),
         cmocka_unit_test(refuses_what_is_no_known_choice),

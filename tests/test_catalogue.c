@@ -23,7 +23,8 @@ run_of(const ss_scene *scene)
 static ss_steady
 steady_of(const ss_scene *scene)
 {
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     ss_steady out;
     ss_error err = { 0 };
     opts.tol = 1e-12;
@@ -140,9 +141,11 @@ stops_come_in_the_published_numbers(void **state)
     (void)state;
     assert_int_equal(ss_axis_parse(&axis[0], "base_frequency=0.05:0.95:91", &err), SS_OK);
     assert_int_equal(ss_axis_parse(&axis[1], "friction=0.02:0.98:49", &err), SS_OK);
-    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
+    ss_steady_opts how;
+    ss_steady_opts_init(&how, sizeof how);
+    ss_sweep_opts opts = { .size = sizeof opts, .steady = &how, .axis = axis, .n_axes = 2, .shards = 1,
                            .threads = 1, .sink = count_stops, .user = seen };
-    opts.steady.measures = BIT(SS_STOPS);
+    how.measures = BIT(SS_STOPS);
     assert_int_equal(ss_sweep_run(&s, &opts, &err), SS_OK);
     for (int i = 0; i < 64; i++) {
         int published = i == 0 || i == 1 || (i % 2 == 0 && i <= 14);

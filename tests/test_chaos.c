@@ -84,7 +84,8 @@ exponents_are_those_of_two_neighbours(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof r / sizeof *r; i++) {
         ss_scene s = rig(r[i]);
-        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady_opts opts;
+        ss_steady_opts_init(&opts, sizeof opts);
         ss_steady at;
         opts.measures = BIT(SS_LYAPUNOV) | BIT(SS_LYAPUNOV_ERROR);
         opts.settle = 20;               /* and 2 to turn the difference, and 20 */
@@ -109,7 +110,8 @@ contacts_have_their_multipliers_by_all_ways(void **state)
     (void)state;
     for (double r = 0.55; r < 0.61; r += 0.01) {
         ss_scene s = rig(r);
-        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady_opts opts;
+        ss_steady_opts_init(&opts, sizeof opts);
         ss_steady at[3];
         ss_scene_set_text(&s, "model", "compliant", NULL);
         ss_scene_set(&s, "contact_stiffness", 300, NULL);
@@ -133,7 +135,8 @@ errors_are_honest(void **state)
     (void)state;
     for (int i = 0; i < N; i++) {
         ss_scene s = rig(0.6);
-        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady_opts opts;
+        ss_steady_opts_init(&opts, sizeof opts);
         ss_steady at;
         s.x0 = 1.9 + 0.01 * i;
         opts.measures = BIT(SS_LYAPUNOV) | BIT(SS_LYAPUNOV_ERROR);
@@ -156,7 +159,8 @@ static void
 a_torus_has_none(void **state)
 {
     ss_scene s = rig((sqrt(5) + 1) / 2);
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     ss_steady at;
     (void)state;
     s.friction = s.static_friction = 0;
@@ -179,7 +183,8 @@ points_and_multipliers_are_those_of_the_map(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         ss_scene s = rig(row[i].r);
-        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady_opts opts;
+        ss_steady_opts_init(&opts, sizeof opts);
         ss_strobe strobe[64];
         ss_steady at = { .strobe = strobe };
         opts.measures = BIT(SS_PERIOD) | BIT(SS_FLOQUET) | BIT(SS_FLOQUET_ANGLE) | BIT(SS_LYAPUNOV)
@@ -210,7 +215,8 @@ periods_that_are_not_approached_are_not_found(void **state)
     (void)state;
     for (double r = 0.655; r < 0.685; r += 0.0029) {
         ss_scene s = rig(r);
-        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady_opts opts;
+        ss_steady_opts_init(&opts, sizeof opts);
         ss_steady shot, run;
         opts.max_cycles = 300;
         assert_int_equal(find(&shot, &s, &opts), SS_EDATA);

@@ -237,7 +237,8 @@ keys_and_options_of_10000_letters_are_refused(void **state)
         ss_scene scene = read_shipped_named("coulomb");
         ss_sim_opts sim = ss_sim_defaults;
         ss_steady steady;
-        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady_opts opts;
+        ss_steady_opts_init(&opts, sizeof opts);
         ss_read_opts timed = { .time = name[i] };
         ss_axis axis;
         ss_format format;
@@ -278,11 +279,13 @@ sweeps_keep_long_names(void **state)
     const ss_measure measure[] = { SS_AMPLITUDE };
     ss_axis axis;
     assert_int_equal(ss_axis_parse(&axis, "mass=1:2:2", NULL), SS_OK);
-    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = &axis, .n_axes = 1, .shards = 1,
+    ss_steady_opts how;
+    ss_steady_opts_init(&how, sizeof how);
+    ss_sweep_opts opts = { .size = sizeof opts, .steady = &how, .axis = &axis, .n_axes = 1, .shards = 1,
                            .threads = 1 };
     char *header = NULL;
-    opts.steady.measures = 1u << SS_AMPLITUDE;
-    ss_status st = ss_sweep_header(&header, &(ss_sweep_text){ longest, &scene, &opts, measure, 1, SS_TSV });
+    how.measures = 1u << SS_AMPLITUDE;
+    ss_status st = ss_sweep_header(&header, &(ss_sweep_text){ longest, &scene, &opts, measure, 1, SS_TSV }, NULL);
     assert_int_equal(st, SS_OK);
     assert_non_null(strstr(header, longest));
     free(header);

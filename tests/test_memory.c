@@ -324,7 +324,8 @@ static ss_status
 trades(int variant)
 {
     ss_trade *made = NULL;
-    ss_trade_opts opts = ss_trade_defaults;
+    ss_trade_opts opts;
+    ss_trade_opts_init(&opts, sizeof opts);
     ss_sim_opts chosen = ss_sim_defaults;
     ss_scene brief = scene[COULOMB];     /* as every allocation repeats what came before */
     opts.budget = 1e-3;
@@ -509,7 +510,8 @@ static ss_status
 transitions(int variant)
 {
     ss_features *found = NULL;
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     opts.drop = variant;
     opts.mass = scene[0].mass;
     opts.stiffness = scene[0].stiffness;
@@ -563,13 +565,15 @@ static ss_status
 sweeps(int variant)
 {
     static const ss_axis axis[] = { { "friction", 1, 2, 2, 0 }, { "mass", 2, 3, 2, 0 } };
-    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
+    ss_steady_opts how;
+    ss_steady_opts_init(&how, sizeof how);
+    ss_sweep_opts opts = { .size = sizeof opts, .steady = &how, .axis = axis, .n_axes = 2, .shards = 1,
                            .threads = 1 + variant % 2, .sink = drop_row };
-    opts.steady.measures = 1u << SS_AMPLITUDE | 1u << SS_PERIOD;
-    opts.steady.max_cycles = 20;
-    opts.steady.search = variant / 2 == 1 ? SS_SEARCH_SHOOT : SS_SEARCH_AUTO;
+    how.measures = 1u << SS_AMPLITUDE | 1u << SS_PERIOD;
+    how.max_cycles = 20;
+    how.search = variant / 2 == 1 ? SS_SEARCH_SHOOT : SS_SEARCH_AUTO;
     if (variant / 2 == 2)
-        opts.steady.method = "rk8pd";
+        how.method = "rk8pd";
     return ss_sweep_run(&scene[COMPLIANT], &opts, &err);
 }
 
@@ -775,7 +779,7 @@ set_up(void **state)
             ss_scene_set(&scene[m], own[i].key, own[i].value, NULL);    /* if the model has the key */
     }
     ss_scene slips = scene[COMPLIANT];
-    ss_trade_opts brief = { .budget = 1e-3 };
+    ss_trade_opts brief = { .size = sizeof brief, .budget = 1e-3 };
     pull = scene[COULOMB];
     pull.base_amplitude = 0;
     pull.base_velocity = 1e-3;

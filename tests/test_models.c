@@ -92,7 +92,8 @@ sweeps_measure_the_error_of_a_model(void **state)
         { 1, .409, .418, 1.0 }, { 10, .035, .0446, 1.0 }, { 100, .0035, .0139, .99 } };
     const unsigned all = 1u << SS_MODEL_ERROR_X | 1u << SS_MODEL_ERROR_V | 1u << SS_MODEL_ERROR_A
         | 1u << SS_MODEL_ERROR_X_RMS;
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     ss_steady found;
     (void)state;
     opts.measures = all;

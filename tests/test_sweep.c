@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include <stickslip.h>
+#include "study/sweep/grid.h"
 #include "shipped.h"
 #include "unit.h"
 
@@ -29,7 +30,8 @@ den_hartog(double r, double beta)
 static ss_steady
 steady_by(const char *method, const ss_scene *scene, unsigned measures, ss_search search)
 {
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     ss_steady out;
     ss_error err = { 0 };
     opts.measures = measures;
@@ -144,11 +146,13 @@ stops_where_den_hartog_says(void **state)
     (void)state;
     assert_int_equal(ss_axis_parse(&axis[0], "base_frequency=0.31:2.01:35", NULL), SS_OK);
     assert_int_equal(ss_axis_parse(&axis[1], "friction=0.025:0.975:39", NULL), SS_OK);
-    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
+    ss_steady_opts how;
+    ss_steady_opts_init(&how, sizeof how);
+    ss_sweep_opts opts = { .size = sizeof opts, .steady = &how, .axis = axis, .n_axes = 2, .shards = 1,
                            .threads = 2, .sink = compare_with_limit, .user = &m };
-    opts.steady.search = SS_SEARCH_SHOOT;
-    opts.steady.measures = BIT(SS_STOPS) | BIT(SS_AMPLITUDE);
-    opts.steady.max_cycles = 2000;
+    how.search = SS_SEARCH_SHOOT;
+    how.measures = BIT(SS_STOPS) | BIT(SS_AMPLITUDE);
+    how.max_cycles = 2000;
     assert_int_equal(ss_sweep_run(&s, &opts, NULL), SS_OK);
     assert_int_equal(m.rows, 35 * 39);
     print_message("on the wrong side of the limit: %zu of %zu, farther than a step: %zu\n", m.wrong,
@@ -178,7 +182,7 @@ gives_the_settled_numbers(void **state)
             ss_scene s = read_shipped_named(row[i].name);
             ss_steady at = steady_of(&s, BIT(SS_X_MAX) | BIT(SS_V_MAX) | BIT(SS_STOPS)
                                      | BIT(SS_STICK_FRACTION) | BIT(SS_MICROSLIPS), way);
-            double tol = 2 * ss_steady_defaults.tol * s.base_amplitude;
+            double tol = 2 * 1e-9 * s.base_amplitude;
             is_near(at.value[SS_X_MAX], row[i].x, row[i].dx + tol, row[i].name);
             if (!isnan(row[i].v))
                 is_near(at.value[SS_V_MAX], row[i].v, 3.3e-7, row[i].name);
@@ -285,7 +289,8 @@ shooting_ends_a_slow_approach(void **state)
     for (double r = 0.9995; r < 1.001; r += 0.001) {
         double beta = 0.08, X = den_hartog_amplitude(r, beta);
         ss_scene s = den_hartog(r, beta);
-        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady_opts opts;
+        ss_steady_opts_init(&opts, sizeof opts);
         ss_steady at;
         opts.measures = BIT(SS_AMPLITUDE) | BIT(SS_PERIOD);
         opts.max_cycles = 100;
@@ -304,7 +309,8 @@ static void
 shooting_finds_a_resonance_that_simulation_needs_10000_cycles_for(void **state)
 {
     ss_scene s = read_shipped_named("coulomb");
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     ss_steady at, truth;
     (void)state;
     ss_scene_set_text(&s, "model", "stribeck", NULL);
@@ -443,7 +449,8 @@ finds_sub_harmonics(void **state)
 static void
 says_what_has_no_period(void **state)
 {
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     ss_scene s = den_hartog(sqrt(2), 0);
     ss_steady at;
     ss_error err = { 0 };
@@ -591,7 +598,8 @@ a_true_stick_forgets_every_difference(void **state)
         }
         for (int m = i & 2 ? 1 : 0; m < (i & 2 ? 2 : 4); m++)
             for (ss_search way = SS_SEARCH_AUTO; way <= SS_SEARCH_SHOOT; way++) {
-                ss_steady_opts opts = ss_steady_defaults;
+                ss_steady_opts opts;
+                ss_steady_opts_init(&opts, sizeof opts);
                 ss_steady at;
                 ss_error err = { 0 };
                 opts.method = method[m];
@@ -667,7 +675,8 @@ says_what_has_no_cycle(void **state)
         { 0, 0, 0, SS_EINVAL, "base_frequency is 0 and base_velocity is surface_velocity: nothing keeps it "
           "moving" },
         { 0.1, 0, .2, SS_EDATA, "it slides on: no stick within" } };
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     ss_steady at;
     ss_error err = { 0 };
     (void)state;
@@ -690,7 +699,7 @@ says_what_has_no_cycle(void **state)
     assert_int_equal(ss_steady_find(&at, &slider, &opts, &err), SS_EINVAL);
     assert_string_equal(err.text, "base_frequency is 0: without forcing, shooting, multipliers and exponents of "
                         "model compliant need method exact or taylor");
-    opts = ss_steady_defaults;
+    ss_steady_opts_init(&opts, sizeof opts);
     s.base_frequency = s.base_amplitude = 0;
     s.base_velocity = .1;
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
@@ -707,7 +716,8 @@ methods_agree(void **state)
     (void)state;
     for (size_t i = 0; i < 3; i++) {
         ss_scene s = read_shipped_named(name[i]);
-        ss_steady_opts opts = ss_steady_defaults;
+        ss_steady_opts opts;
+        ss_steady_opts_init(&opts, sizeof opts);
         ss_steady by_steps, exact = steady_of(&s, measures, 0);
         opts.measures = measures;
         opts.method = "rk8pd";
@@ -733,7 +743,8 @@ hears_the_transition_frequency(void **state)
         is_near(at.value[SS_TRANSITION] / f, 1, 2e-4, name[i]);
     }
     ss_scene s = read_shipped_named("compliant-light");
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     ss_steady at;
     ss_error err = { 0 };
     opts.measures = BIT(SS_TRANSITION);
@@ -761,7 +772,7 @@ every_value_is_there_or_the_status_says_why(void **state)
                     ss_scene s = read_shipped_named(name[i]);
                     ss_error err = { 0 };
                     ss_steady at;
-                    ss_steady_opts opts = { .measures = BIT(SS_PERIOD) * 2 - 1, .tol = 1e-6,
+                    ss_steady_opts opts = { .size = sizeof opts, .measures = BIT(SS_PERIOD) * 2 - 1, .tol = 1e-6,
                         .max_period = 4, .max_cycles = 100,
                         .search = way, .max_steps = 5000 };
                     double x = ss_scene_get(&s, key[k]);
@@ -787,7 +798,8 @@ refuses_what_cannot_be_measured(void **state)
     ss_error err = { 0 };
     ss_steady at;
     ss_scene s = read_shipped_named("state-variable");
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     (void)state;
     opts.measures = BIT(SS_STOPS);
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
@@ -800,13 +812,13 @@ refuses_what_cannot_be_measured(void **state)
     opts.search = SS_SEARCH_AUTO;
     opts.method = "exact";
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
-    opts = ss_steady_defaults;
+    ss_steady_opts_init(&opts, sizeof opts);
     opts.tol = NAN;
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
     opts.tol = 1e-9;
     opts.max_period = SS_PERIOD_MAX + 1;
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
-    opts = ss_steady_defaults;
+    ss_steady_opts_init(&opts, sizeof opts);
     s = read_shipped_named("coulomb");
     s.base_frequency = 0;
     assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
@@ -860,9 +872,11 @@ shards_threads_and_starts_give_the_same_rows(void **state)
     (void)state;
     assert_int_equal(ss_axis_parse(&axis[0], "friction=0.8:1.2:5", NULL), SS_OK);
     assert_int_equal(ss_axis_parse(&axis[1], "mass=2:3:8", NULL), SS_OK);
-    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
+    ss_steady_opts how;
+    ss_steady_opts_init(&how, sizeof how);
+    ss_sweep_opts opts = { .size = sizeof opts, .steady = &how, .axis = axis, .n_axes = 2, .shards = 1,
                            .threads = 1, .sink = see, .user = &whole };
-    opts.steady.measures = BIT(SS_AMPLITUDE);
+    how.measures = BIT(SS_AMPLITUDE);
     assert_int_equal(ss_sweep_run(&s, &opts, NULL), SS_OK);
     assert_int_equal(whole.n, 40);
     assert_true(fabs(whole.vary[9][0] - 0.9) < 1e-15 && fabs(whole.vary[9][1] - 15. / 7) < 1e-15);
@@ -899,7 +913,9 @@ refuses_grids_that_mean_nothing(void **state)
                                        "mass=1:2:3" };
     ss_axis axis[3];
     ss_scene s = read_shipped_named("coulomb");
-    ss_sweep_opts opts = { .steady = ss_steady_defaults, .axis = axis, .n_axes = 2, .shards = 1,
+    ss_steady_opts how;
+    ss_steady_opts_init(&how, sizeof how);
+    ss_sweep_opts opts = { .size = sizeof opts, .steady = &how, .axis = axis, .n_axes = 2, .shards = 1,
                            .threads = 1, .sink = see };
     size_t n;
     (void)state;

@@ -326,7 +326,7 @@ measures_every_method(void **state)
     (void)state;
     for (size_t i = 0; ss_shipped_scenes[i].name != NULL; i++) {
         ss_scene s = shipped(i, 0, 0.5, 4000);
-        const ss_trade_opts opts = { .budget = 0.01 };
+        const ss_trade_opts opts = { .size = sizeof opts, .budget = 0.01 };
         ss_trade *trade = NULL;
         int linear = s.model != ss_model_named("state-variable");
         assert_int_equal(ss_trade_measure(&trade, &s, &opts, NULL), SS_OK);
@@ -374,7 +374,7 @@ counts_the_events_that_a_method_loses(void **state)
     ss_trade *trade = NULL;
     (void)state;
     size_t events = truth(&s, &a);
-    assert_int_equal(ss_trade_measure(&trade, &s, &(ss_trade_opts){ .budget = 0.02 }, NULL), SS_OK);
+    assert_int_equal(ss_trade_measure(&trade, &s, &(ss_trade_opts){ .size = sizeof (ss_trade_opts), .budget = 0.02 }, NULL), SS_OK);
     const ss_trade_row *row = row_of(trade, "rk1imp", 1e-2);
     assert_int_equal(trade->events, events);
     assert_int_equal(row->status, SS_OK);
@@ -395,7 +395,7 @@ static void
 stops_when_asked(void **state)
 {
     ss_scene s = shipped(0, 0, 10, 2000);
-    ss_trade_opts opts = { .budget = 1, .progress = { stop, NULL } };
+    ss_trade_opts opts = { .size = sizeof opts, .budget = 1, .progress = { stop, NULL } };
     ss_trade *trade = NULL;
     (void)state;
     assert_int_equal(ss_trade_measure(&trade, &s, &opts, NULL), SS_STOP);
@@ -414,7 +414,8 @@ measures_every_engine_on_a_signal(void **state)
     enum { N = 1500 };
     double x[N];
     ss_trade *trade = NULL;
-    ss_trade_opts opts = ss_trade_defaults;
+    ss_trade_opts opts;
+    ss_trade_opts_init(&opts, sizeof opts);
     ss_morlet_opts grid = ss_morlet_defaults;
     (void)state;
     for (int i = 0; i < N; i++) {
@@ -445,7 +446,7 @@ measures_every_engine_on_a_signal(void **state)
     opts.budget = 0;
     assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_EINVAL);
     assert_int_equal(ss_trade_transform(&trade, x, 10, 2000, &grid, NULL, NULL), SS_ESCALE);
-    opts = (ss_trade_opts){ .budget = 1, .progress = { stop, NULL } };
+    opts = (ss_trade_opts){ .size = sizeof (ss_trade_opts), .budget = 1, .progress = { stop, NULL } };
     assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_STOP);
 }
 

@@ -22,7 +22,8 @@ scene_of(const char *name)
 static ss_features *
 features_in(const ss_scene *scene, double snr, unsigned long seed, double unit, double seconds)
 {
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     ss_features *f = NULL;
     ss_signal *signal = NULL;
     assert_int_equal(ss_sim_signal(&signal, scene, NULL), SS_OK);
@@ -443,7 +444,8 @@ reads_the_slope_of_force_over_displacement(void **state)
     (void)state;
     for (int i = 0; i < 2; i++) {
         ss_scene scene = scene_of(names[i]);
-        ss_features_opts opts = ss_features_defaults;
+        ss_features_opts opts;
+        ss_features_opts_init(&opts, sizeof opts);
         ss_features *f = NULL;
         ss_signal *signal = NULL;
         assert_int_equal(ss_sim_signal(&signal, &scene, NULL), SS_OK);
@@ -616,7 +618,7 @@ gaps_leave_out_what_they_reach_and_nothing_else(void **state)
 static void
 refuses_what_is_out_of_range(void **state)
 {
-    static const ss_features_opts good = { .threshold = 4, .displacement = -1, .force = -1,
+    static const ss_features_opts good = { .size = sizeof good, .threshold = 4, .displacement = -1, .force = -1,
                                            .threads = 1 };
     ss_features_opts bad[8];
     ss_signal *signal = plain(100, 1);

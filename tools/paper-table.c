@@ -175,7 +175,8 @@ print_contact(const char *path, const char *name, const char *column_name)
     ss_signal *signal = NULL;
     ss_features *f = NULL;
     ss_error err = { 0 };
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     int said = strncmp(name, "figure2", 7) != 0 && strncmp(name, "figure3", 7) != 0;
     tool_check(ss_signal_load(&signal, path, NULL, &err), &err);
     const ss_header *head = signal->head;

@@ -150,7 +150,8 @@ main(int argc, char *argv[])
     static const char *const norms[] = { "l2", "l1", NULL };    /* in the order of ss_norm */
     const ss_range prominences = { 1e-3, 1000 }, positive = { 1e-100, 1e100 }, springs = { 0, 1e100 };
     const ss_range heights = { 1e-300, 1e300 }, jobs = { 1, TOOL_JOBS_MAX };
-    request req = { .opts = ss_features_defaults, .kind = TOOL_TSV, .jobs = 1 };
+    request req = { .kind = TOOL_TSV, .jobs = 1 };
+    ss_features_opts_init(&req.opts, sizeof req.opts);
     const tool_option options[] = {
         TOOL_TEXT('c', "column", &req.column), TOOL_NUMBER(0, "threshold", &req.opts.threshold, prominences),
         TOOL_CHOICE(0, "norm", &req.opts.norm, norms), TOOL_NUMBER(0, "fmin", &req.opts.fmin, positive),

@@ -36,6 +36,7 @@ typedef struct request {
     tool_kind kind;
     tool_texts settings;
     ss_axis *axis;
+    ss_steady_opts steady;
     ss_sweep_opts opts;
     ss_measure pick[SS_MEASURES];       /* the measures, in the order of the command line */
     size_t n_picks;
@@ -54,9 +55,9 @@ pick_measure(request *req, const char *name, size_t length)
         const char *known = ss_measure_label(m)->name;
         if (strlen(known) != length || strncmp(known, name, length) != 0)
             continue;
-        if (req->opts.steady.measures & 1u << m)
+        if (req->steady.measures & 1u << m)
             tool_usage("--measure: '%s' is repeated", known);
-        req->opts.steady.measures |= 1u << m;
+        req->steady.measures |= 1u << m;
         req->pick[req->n_picks++] = m;
         return;
     }
@@ -70,7 +71,7 @@ static void
 set_measures(const tool_option *o, char *names)
 {
     request *req = o->to;
-    req->opts.steady.measures = 0;
+    req->steady.measures = 0;
     req->n_picks = 0;
     for (const char *name = names;; name++) {
         size_t length = strcspn(name, ",");
@@ -88,7 +89,8 @@ pick_usual(request *req, const ss_scene *scene)
     static const ss_measure usual[] = { SS_STOPS, SS_STICK_FRACTION, SS_AMPLITUDE, SS_V_MAX,
                                         SS_A_MAX, SS_ENERGY, SS_PERIOD };
     for (size_t i = 0; i < sizeof usual / sizeof *usual; i++) {
-        ss_steady_opts has = ss_steady_defaults;
+        ss_steady_opts has;
+        ss_steady_opts_init(&has, sizeof has);
         has.measures = 1u << usual[i];
         if (ss_steady_check(&has, scene, NULL) == SS_OK)
             pick_measure(req, ss_measure_label(usual[i])->name, strlen(ss_measure_label(usual[i])->name));
@@ -136,7 +138,7 @@ static void
 parse(request *req, int argc, char *argv[])
 {
     const ss_range periods = { 1, SS_PERIOD_MAX }, strobes = { 1, SS_STROBE_MAX };
-    ss_steady_opts *steady = &req->opts.steady;
+    ss_steady_opts *steady = &req->steady;
     const tool_option options[] = {
         TOOL_VALUE('y', "vary", add_axis, req), TOOL_VALUE('m', "measure", set_measures, req),
         TOOL_TEXTS('s', "set", &req->settings), TOOL_CALL(0, "simulate", simulate, &steady->search),
@@ -173,7 +175,7 @@ check_due(request *req, const ss_sweep_row *row)
     char *text = NULL;
     size_t length;
     FILE *again = open_memstream(&text, &length);
-    if (again == NULL || ss_sweep_row_write(&req->text, row, again) != SS_OK || fclose(again) != 0)
+    if (again == NULL || ss_sweep_row_write(&req->text, row, again, NULL) != SS_OK || fclose(again) != 0)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     if (strncmp(text, req->due, strlen(req->due)) != 0)
         tool_die("%s: another sweep than this: its last point, %zu, has other numbers", req->resume, row->index);
@@ -193,7 +195,7 @@ write_row(const ss_sweep_row *row, void *user)
         check_due(req, row);
     req->rows++;
     req->failed += row->status != SS_OK;
-    return ss_sweep_row_write(&req->text, row, req->out) != SS_OK;
+    return ss_sweep_row_write(&req->text, row, req->out, NULL) != SS_OK;
 }
 
 /* Called between batches: flush the rows, which must outlive a kill. */
@@ -237,7 +239,7 @@ open_rows(request *req)
             tool_cut(req->out, end);
         tool_note("%s: rows that are there: %zu", req->resume, req->opts.first);
     }
-    tool_check(ss_sweep_header(&header, &req->text), NULL);
+    tool_check(ss_sweep_header(&header, &req->text, &err), &err);
     if (end == 0)
         fputs(header, req->out);
     free(header);
@@ -284,9 +286,13 @@ read_scene(const request *req)
 int
 main(int argc, char *argv[])
 {
-    request req = { .kind = TOOL_TSV, .opts = { .steady = ss_steady_defaults, .shards = 1, .threads = 1,
-                              .sink = write_row, .progress.function = report } };
+    request req = { .kind = TOOL_TSV };
     ss_error err = { 0 };
+    ss_steady_opts_init(&req.steady, sizeof req.steady);
+    ss_sweep_opts_init(&req.opts, sizeof req.opts);
+    req.opts.steady = &req.steady;
+    req.opts.sink = write_row;
+    req.opts.progress.function = report;
 
     tool_begin(argv, "ss-sweep", usage);
     parse(&req, argc, argv);

@@ -191,7 +191,8 @@ static void
 compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
 {
     ss_models *models = NULL;
-    ss_models_opts opts = ss_models_defaults;
+    ss_models_opts opts;
+    ss_models_opts_init(&opts, sizeof opts);
     ss_error err = { 0 };
     ss_scene scene = tool_read_scene(req->path, &req->settings);
     req->name = tool_name_scene(req->path, &req->settings);
@@ -229,7 +230,8 @@ int
 main(int argc, char *argv[])
 {
     const ss_range budgets = { 1e-6, DBL_MAX }, targets = { 1e-14, 1 };
-    request req = { .kind = TOOL_TSV, .opts = ss_trade_defaults };
+    request req = { .kind = TOOL_TSV };
+    ss_trade_opts_init(&req.opts, sizeof req.opts);
     ss_plot_opts plot = ss_plot_defaults;
     const tool_option options[] = {
         TOOL_TEXTS('s', "set", &req.settings), TOOL_TEXT('c', "column", &req.column),

@@ -129,6 +129,7 @@ typedef struct ss_features {
 } ss_features;
 
 typedef struct ss_features_opts {
+    size_t size;                /* set by ss_features_opts_init */
     double threshold;           /* [dB] > 0: the least prominence of a local maximum */
     ss_norm norm;               /* of the |W| whose maxima are taken */
     double mass, stiffness;     /* m [kg], k [N/m]; 0: not known */
@@ -138,7 +139,8 @@ typedef struct ss_features_opts {
     int threads;                /* 1 ... SS_THREADS_MAX */
     ss_progress progress;
 } ss_features_opts;
-extern const ss_features_opts ss_features_defaults;     /* 80/18 dB, l2, no columns, one thread */
+/* 80/18 dB, l2, no columns, one thread.  size: sizeof (ss_features_opts). */
+void ss_features_opts_init(ss_features_opts *opts, size_t size);
 
 /* Find the transitions of one column, whose values must be finite, and the numbers that they have
  * in common.  The rule depends on the column:

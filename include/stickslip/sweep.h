@@ -61,6 +61,7 @@ typedef enum ss_search {
 } ss_search;
 
 typedef struct ss_steady_opts {
+    size_t size;                /* set by ss_steady_opts_init */
     unsigned measures;          /* the measures wanted: a set of 1u << ss_measure */
     double tol;                 /* within ss_steady_tolerances; see ss_steady_find */
     int max_period;             /* the longest period that is searched, 1 ... SS_PERIOD_MAX cycles */
@@ -78,7 +79,8 @@ typedef struct ss_steady_opts {
 } ss_steady_opts;
 enum { SS_PERIOD_MAX = 64, SS_STROBE_MAX = 1000 };
 extern const ss_range ss_steady_tolerances;     /* of tol */
-extern const ss_steady_opts ss_steady_defaults; /* 1e-9, 8, 10000, 0, simulation, 10^7 steps */
+/* No measures, 1e-9, 8, 10000, 0, simulation and shooting, 10^7 steps.  size: sizeof (ss_steady_opts). */
+void ss_steady_opts_init(ss_steady_opts *opts, size_t size);
 
 /* A point of the stroboscopic map. */
 typedef struct ss_strobe {
@@ -133,7 +135,6 @@ typedef struct ss_axis {
 
 /* Read "key=from:to:n" or "key=from:to:n:log". */
 ss_status ss_axis_parse(ss_axis *axis, const char *text, ss_error *err);
-double ss_axis_value(const ss_axis *axis, size_t i);    /* the i-th value, from 0 */
 
 typedef struct ss_sweep_row {
     size_t index;               /* of the point in the grid, whose last axis varies fastest */
@@ -148,7 +149,8 @@ typedef struct ss_sweep_row {
 typedef int ss_sweep_sink(const ss_sweep_row *row, void *user);
 
 typedef struct ss_sweep_opts {
-    ss_steady_opts steady;
+    size_t size;                /* set by ss_sweep_opts_init */
+    const ss_steady_opts *steady;       /* NULL: its defaults */
     const ss_axis *axis;        /* n_axes of them */
     size_t n_axes;
     size_t shard, shards;       /* compute only the points with index mod shards = shard; shards >= 1 */
@@ -158,9 +160,8 @@ typedef struct ss_sweep_opts {
     void *user;                 /* passed to the sink */
     ss_progress progress;       /* called as the sink is */
 } ss_sweep_opts;
-
-/* The number of points in the grid; SS_EINVAL if there are none or too many. */
-ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
+/* No axes, all points, one thread.  size: sizeof (ss_sweep_opts). */
+void ss_sweep_opts_init(ss_sweep_opts *opts, size_t size);
 
 /* SS_EINVAL if no point can be computed: the model lacks the number of an axis or a measure, an
  * axis belongs to the record, or an option is out of its range. */
@@ -186,9 +187,9 @@ typedef struct ss_sweep_text {
 /* Make the header of the text; the caller frees it with free().  It holds everything on which the
  * rows depend, and nothing else: files with the same header are parts of the same sweep.
  * SS_EINVAL: a field is missing, or the format holds numbers only. */
-ss_status ss_sweep_header(char **header, const ss_sweep_text *sweep);
+ss_status ss_sweep_header(char **header, const ss_sweep_text *sweep, ss_error *err);
 /* Write one row; if starts of cycles are wanted, one for each, with its own x_phase and v_phase. */
-ss_status ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *out);
+ss_status ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *out, ss_error *err);
 /* Find where to continue a file of such rows that may have been cut off anywhere.  *rows becomes
  * the number of whole rows of the shard (use it as opts->first), and *end the byte behind them,
  * where the next row belongs; if *end is 0, the header belongs there first.  The last row is not

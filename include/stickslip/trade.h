@@ -38,6 +38,7 @@ typedef struct ss_trade {
 } ss_trade;
 
 typedef struct ss_trade_opts {
+    size_t size;                /* set by ss_trade_opts_init */
     double budget;              /* [s] > 0: CPU time of a row; a run of the reference may take 100
                                    times as long, else SS_EBUDGET */
     double target;              /* > 0: an error; rows slower than twice the fastest row that reaches it
@@ -45,7 +46,8 @@ typedef struct ss_trade_opts {
     ss_progress progress;
 } ss_trade_opts;
 extern const ss_range ss_trade_accuracies;          /* the accuracies that ss_trade_choose can keep */
-extern const ss_trade_opts ss_trade_defaults;       /* 10 s, no target */
+/* 10 s, no target.  size: sizeof (ss_trade_opts). */
+void ss_trade_opts_init(ss_trade_opts *opts, size_t size);
 
 /* Run the scene with every method at the tolerances 1e-2, 1e-3, ... 1e-13, on this machine.  A
  * record of more than 20000 samples is compared at a lower rate; its events stay the same.  A row
@@ -122,11 +124,13 @@ typedef struct ss_models {
 } ss_models;
 
 typedef struct ss_models_opts {
+    size_t size;                /* set by ss_models_opts_init */
     double span;                /* [dB] > 0: the maps show |W| from this far below the largest on */
     int threads;                /* of the transforms, 1 ... SS_THREADS_MAX */
     ss_progress progress;
 } ss_models_opts;
-extern const ss_models_opts ss_models_defaults;     /* 80 dB, one thread */
+/* 80 dB, one thread.  size: sizeof (ss_models_opts). */
+void ss_models_opts_init(ss_models_opts *opts, size_t size);
 
 /* Compare a scene with each simpler scene that it contains (ss_scene_simpler), and with its own
  * periodic state at the same phase (ss_steady_find).  Each is run in closed form if it has one,
@@ -147,11 +151,6 @@ typedef struct ss_need {
  * that must not change.  *n becomes their number. */
 ss_status ss_needs_parse(ss_need need[SS_COMPARED_MOST], size_t *n, const char *list, ss_error *err);
 
-/* 1 if a row keeps all n needs. */
-int ss_models_keeps(const ss_models_row *row, const ss_need *need, size_t n);
-/* The cheapest row that keeps the needs; among rows whose times differ by less than a fifth, the
- * simplest scene.  The settled state is left out: it is the same model. */
-const ss_models_row *ss_models_cheapest(const ss_models *models, const ss_need *need, size_t n);
 /* Write a sentence such as "coulomb suffices for x within 1 %; a within 10 % needs compliant".  The
  * caller frees it with free().  SS_EDATA: the scene itself has no such number; for example, a model
  * without events has no micro-slips. */

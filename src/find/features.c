@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/error.h"
+#include "base/options.h"
 #include "base/progress.h"
 #include "find/maxima.h"
 #include "find/numbers.h"
@@ -12,8 +12,14 @@
 #include "find/search.h"
 #include "signal/gaps.h"
 
-const ss_features_opts ss_features_defaults = { .threshold = 80. / 18, .displacement = -1,
-                                                .force = -1, .threads = 1 };
+static const ss_features_opts usual = { .size = sizeof usual, .threshold = 80. / 18, .displacement = -1, .force = -1,
+                                        .threads = 1 };
+
+void
+ss_features_opts_init(ss_features_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &usual, sizeof usual);
+}
 
 #define SPAN 80.0               /* [dB] of the paper's contours */
 #define SIGMAS 3.0              /* of the noise: maxima that rise less above the saddle are left out */
@@ -278,14 +284,17 @@ find(ss_features **out, const ss_signal *signal, size_t column, const double *x,
 
 ss_status
 ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
-                 const ss_features_opts *opts, ss_error *err)
+                 const ss_features_opts *given, ss_error *err)
 {
     if (out == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
-    opts = opts != NULL ? opts : &ss_features_defaults;
+    ss_features_opts own;
     ss_features *found = NULL;
     double *cleaned = NULL;
-    ss_status st = check(signal, column, opts, err);
+    ss_status st = ss_options_take(&own, sizeof own, &usual, given, err);
+    const ss_features_opts *opts = &own;
+    if (st == SS_OK)
+        st = check(signal, column, opts, err);
     if (st == SS_OK)
         st = find(&found, signal, column, signal->values + column * signal->n, opts, &cleaned, err);
     if (cleaned != NULL) {              /* the hum has changed the period and the slips, too */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/options.h"
 #include "find/numbers.h"
 #include "find/search.h"
 #include "io/record.h"
@@ -102,15 +103,19 @@ write_spikes(struct rows *rows, const ss_spikes *found, double start)
 
 ss_status
 ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
-                  const ss_features_opts *opts, FILE *out, ss_format format, ss_error *err)
+                  const ss_features_opts *given, FILE *out, ss_format format, ss_error *err)
 {
     struct rows rows;
     char threshold[SS_NUMBER_MAX];
-    if (f == NULL || signal == NULL || opts == NULL || out == NULL)
+    if (f == NULL || signal == NULL || out == NULL)
         return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
-    ss_status st = column < head->n_columns ? ss_rows_begin(&rows, out, format, SS_KIND_FEATURES, err)
-        : ss_fail_column(err, column, head->n_columns);
+    ss_features_opts own, *opts = &own, usual;
+    ss_features_opts_init(&usual, sizeof usual);
+    ss_status st = ss_options_take(&own, sizeof own, &usual, given, err);
+    if (st == SS_OK)
+        st = column < head->n_columns ? ss_rows_begin(&rows, out, format, SS_KIND_FEATURES, err)
+            : ss_fail_column(err, column, head->n_columns);
     if (st != SS_OK)
         return st;
     unsigned has = ss_features_have(f, opts);

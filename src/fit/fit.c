@@ -55,7 +55,8 @@ static ss_status
 narrow_ranges(candidate *c, int *is_narrow, const ss_signal *signal, size_t column, ss_error *err)
 {
     ss_features *f = NULL;
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     opts.mass = c->scene.mass;
     opts.stiffness = c->scene.stiffness;
     ss_status st = ss_features_find(&f, signal, column, &opts, err);

@@ -69,7 +69,8 @@ static ss_status
 measure_features(observation *l, const ss_signal *signal, size_t column, double half, ss_error *err)
 {
     ss_features *f = NULL;
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     opts.displacement = ss_header_column(signal->head, "x");
     opts.force = ss_header_column(signal->head, "f");
     ss_status st = ss_features_find(&f, signal, column, &opts, err);

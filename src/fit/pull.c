@@ -197,7 +197,8 @@ ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scen
                        "the same falls");
     if (st != SS_OK)
         return st;
-    ss_features_opts how = ss_features_defaults;
+    ss_features_opts how;
+    ss_features_opts_init(&how, sizeof how);
     how.progress = opts->progress;
     ss_pull *p = calloc(1, sizeof *p);
     if (p == NULL)

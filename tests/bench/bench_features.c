@@ -28,7 +28,8 @@ features_of(const ss_signal *clean, double snr, unsigned long seed, const ss_sce
     size_t column = (size_t)ss_header_column(clean->head, "a");
     ss_signal *signal = NULL;
     ss_features *out = NULL;
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     opts.mass = scene->mass;
     opts.stiffness = scene->stiffness;
     if (ss_signal_select(&signal, clean, &column, 1, 0, clean->n, NULL) != SS_OK)

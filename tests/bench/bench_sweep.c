@@ -31,20 +31,22 @@ typedef struct grid {
 } grid;
 
 static ss_sweep_opts
-options(const grid *g, kept *out)
+options(const grid *g, ss_steady_opts *how, kept *out)
 {
     *out = (kept){ .n = 0 };
-    return (ss_sweep_opts){ .steady = ss_steady_defaults, .axis = g->axis, .n_axes = 2, .shards = 1,
+    ss_steady_opts_init(how, sizeof *how);
+    return (ss_sweep_opts){ .size = sizeof (ss_sweep_opts), .steady = how, .axis = g->axis, .n_axes = 2, .shards = 1,
                             .threads = 1, .sink = keep, .user = out };
 }
 
 static void
 sweep_shard(const grid *g, size_t shard, size_t shards, kept *out)
 {
-    ss_sweep_opts opts = options(g, out);
+    ss_steady_opts how;
+    ss_sweep_opts opts = options(g, &how, out);
     opts.shard = shard;
     opts.shards = shards;
-    opts.steady.measures = 1u << SS_X_PHASE | 1u << SS_CYCLES;
+    how.measures = 1u << SS_X_PHASE | 1u << SS_CYCLES;
     if (ss_sweep_run(&g->scene, &opts, NULL) != SS_OK)
         exit(2);
 }
@@ -52,15 +54,16 @@ sweep_shard(const grid *g, size_t shard, size_t shards, kept *out)
 static double
 sweep(const grid *g, double tol, ss_search search, int threads, kept *out)
 {
-    ss_sweep_opts opts = options(g, out);
+    ss_steady_opts how;
+    ss_sweep_opts opts = options(g, &how, out);
     opts.threads = threads;
-    opts.steady.tol = tol;
-    opts.steady.search = search;
-    opts.steady.measures = 1u << SS_X_PHASE | 1u << SS_AMPLITUDE | 1u << SS_PERIOD;
+    how.tol = tol;
+    how.search = search;
+    how.measures = 1u << SS_X_PHASE | 1u << SS_AMPLITUDE | 1u << SS_PERIOD;
     if (g->scene.model != ss_model_named("state-variable"))
-        opts.steady.measures |= 1u << SS_STOPS | 1u << SS_STICK_FRACTION;
+        how.measures |= 1u << SS_STOPS | 1u << SS_STICK_FRACTION;
     if (search == SS_SEARCH_SIMULATE)
-        opts.steady.measures |= 1u << SS_CYCLES;
+        how.measures |= 1u << SS_CYCLES;
     double seconds = bench_seconds();
     if (ss_sweep_run(&g->scene, &opts, NULL) != SS_OK)
         exit(2);

@@ -330,7 +330,8 @@ read_one(tally *t, const condition *c, const draw *d, int verbose)
     size_t column = (size_t)ss_header_column(d->signal->head, c->column), n = d->signal->n;
     ss_signal *signal = NULL;
     ss_features *f = NULL;
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     opts.mass = d->scene.mass;
     if (ss_signal_select(&signal, d->signal, &column, 1, 0, n, NULL) != SS_OK)
         exit(1);

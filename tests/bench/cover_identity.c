@@ -519,7 +519,8 @@ read_record(tally *t, record *r, const sensor *by, const char *where)
     by->apply(r, by->by);
     ss_signal *signal = signal_of(r, with_x_and_f);
     ss_features *found = NULL;
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     ss_error err = { 0 };
     opts.mass = (double)r->rig.m;
     opts.stiffness = (double)r->rig.k;

@@ -36,7 +36,8 @@ main(int argc, char *argv[])
     ss_signal *signal = NULL;
     ss_features *features = NULL;
     ss_error err = { 0 };
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     char *rest[2] = { "", "" };
     if (argc == 5) {
         opts.mass = ss_number_parse(argv[3], &rest[0]);

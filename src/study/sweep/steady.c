@@ -3,15 +3,21 @@
 
 #include <math.h>
 #include <string.h>
-#include "base/error.h"
+#include "base/options.h"
 #include "base/range.h"
 #include "motion/method.h"
 #include "study/curve.h"
 #include "study/sweep/periodic.h"
 
 const ss_range ss_steady_tolerances = { 1e-13, 0.1 };
-const ss_steady_opts ss_steady_defaults = { .tol = 1e-9, .max_period = 8, .max_cycles = 10000,
-                                            .max_steps = 10000000 };
+static const ss_steady_opts usual = { .size = sizeof usual, .tol = 1e-9, .max_period = 8, .max_cycles = 10000,
+                                      .max_steps = 10000000 };
+
+void
+ss_steady_opts_init(ss_steady_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &usual, sizeof usual);
+}
 
 /* What a measure needs of a model. */
 enum { STICKS = 1, RINGS = 2, DIFFERS = 4, LIMIT = 8 };
@@ -72,12 +78,10 @@ method_of(const ss_steady_opts *opts, const ss_scene *scene)
     return how;
 }
 
-ss_status
-ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err)
+static ss_status
+check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err)
 {
     const struct method *given;
-    if (opts == NULL || scene == NULL)
-        return SS_FAIL_NULL(err);
     const ss_model *m = scene->model;
     if (m == NULL)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
@@ -105,6 +109,16 @@ ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err
         return ss_fail(err, SS_EINVAL, "shooting does not wait for the motion to settle: it leaves "
                        "no cycles to count");
     return SS_OK;
+}
+
+ss_status
+ss_steady_check(const ss_steady_opts *given, const ss_scene *scene, ss_error *err)
+{
+    ss_steady_opts opts;
+    if (scene == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_options_take(&opts, sizeof opts, &usual, given, err);
+    return st == SS_OK ? check(&opts, scene, err) : st;
 }
 
 /* --- the model in the limit ------------------------------------------------------------------ */
@@ -201,16 +215,22 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, const struct meth
 }
 
 ss_status
-ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *opts, ss_error *err)
+ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *given, ss_error *err)
 {
-    if (out == NULL || scene == NULL || opts == NULL || (opts->strobe > 0 && out->strobe == NULL))
+    ss_steady_opts own, *opts = &own;
+    if (out == NULL || scene == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status limit = SS_OK, st = ss_options_take(&own, sizeof own, &usual, given, err);
+    if (st != SS_OK)
+        return st;
+    if (opts->strobe > 0 && out->strobe == NULL)
         return SS_FAIL_NULL(err);
     for (int i = 0; i < SS_MEASURES; i++)
         out->value[i] = NAN;
     out->n_strobes = 0;
-    ss_status limit = SS_OK, st = ss_scene_check(scene, err);
+    st = ss_scene_check(scene, err);
     if (st == SS_OK)
-        st = ss_steady_check(opts, scene, err);
+        st = check(opts, scene, err);
     if (st != SS_OK)
         return st;
     finder f = { .c = { .scene = scene, .opts = opts, .err = err, .how = method_of(opts, scene) }, .out = out };

@@ -9,10 +9,33 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip/signal.h>
-#include "base/error.h"
+#include "base/options.h"
 #include "scene/key.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "study/sweep/grid.h"
+
+static const ss_sweep_opts usual = { .size = sizeof usual, .shards = 1, .threads = 1 };
+
+void
+ss_sweep_opts_init(ss_sweep_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &usual, sizeof usual);
+}
+
+ss_status
+ss_sweep_opts_take(ss_sweep_opts *own, ss_steady_opts *steady, const ss_sweep_opts *given, ss_error *err)
+{
+    ss_steady_opts usual_steady;
+    ss_steady_opts_init(&usual_steady, sizeof usual_steady);
+    if (given == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_options_take(own, sizeof *own, &usual, given, err);
+    if (st == SS_OK)
+        st = ss_options_take(steady, sizeof *steady, &usual_steady, own->steady, err);
+    own->steady = steady;
+    return st == SS_OK && own->axis == NULL && own->n_axes > 0 ? SS_FAIL_NULL(err) : st;
+}
 
 /* --- the grid ------------------------------------------------------------------------------ */
 
@@ -54,8 +77,6 @@ ss_axis_parse(ss_axis *out, const char *text, ss_error *err)
 double
 ss_axis_value(const ss_axis *axis, size_t i)
 {
-    if (axis == NULL)
-        return NAN;
     if (i == 0)
         return axis->from;
     if (i + 1 >= axis->n)
@@ -72,8 +93,6 @@ ss_axis_value(const ss_axis *axis, size_t i)
 ss_status
 ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err)
 {
-    if (opts == NULL || n == NULL || (opts->axis == NULL && opts->n_axes > 0))
-        return SS_FAIL_NULL(err);
     size_t all = 1;
     if (opts->n_axes == 0)
         return ss_fail(err, SS_EINVAL, "nothing to vary");
@@ -89,14 +108,12 @@ ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err)
     return SS_OK;
 }
 
-ss_status
-ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
+static ss_status
+check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
 {
-    if (scene == NULL || opts == NULL)
-        return SS_FAIL_NULL(err);
     ss_scene copy = *scene;
     size_t all;
-    ss_status st = ss_steady_check(&opts->steady, scene, err);
+    ss_status st = ss_steady_check(opts->steady, scene, err);
     if (st == SS_OK)
         st = ss_sweep_points(opts, &all, err);
     for (size_t i = 0; st == SS_OK && i < opts->n_axes; i++) {
@@ -114,6 +131,17 @@ ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
     if (st == SS_OK && (opts->shards < 1 || opts->shard >= opts->shards))
         return ss_fail(err, SS_EINVAL, "no shard %zu of %zu", opts->shard, opts->shards);
     return st;
+}
+
+ss_status
+ss_sweep_check(const ss_scene *scene, const ss_sweep_opts *given, ss_error *err)
+{
+    ss_sweep_opts opts;
+    ss_steady_opts steady;
+    if (scene == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_sweep_opts_take(&opts, &steady, given, err);
+    return st == SS_OK ? check(scene, &opts, err) : st;
 }
 
 /* --- its points ---------------------------------------------------------------------------- */
@@ -145,8 +173,8 @@ work_out(size_t i, void *result, void *user)
         p->values[k] = ss_axis_value(&opts->axis[k], index % opts->axis[k].n);
     for (size_t k = 0; k < opts->n_axes; k++)
         ss_scene_set(&here, opts->axis[k].key, p->values[k], NULL);
-    p->row.steady.strobe = opts->steady.strobe > 0 ? (ss_strobe *)(p->values + opts->n_axes) : NULL;
-    p->row.status = ss_steady_find(&p->row.steady, &here, &opts->steady, &p->reason);
+    p->row.steady.strobe = opts->steady->strobe > 0 ? (ss_strobe *)(p->values + opts->n_axes) : NULL;
+    p->row.status = ss_steady_find(&p->row.steady, &here, opts->steady, &p->reason);
     if (p->row.status == SS_OK)
         strcpy(p->reason.text, "ok");
     p->row.reason = p->reason.text;
@@ -169,16 +197,19 @@ send(size_t i, void *result, void *user)
 }
 
 ss_status
-ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
+ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *given, ss_error *err)
 {
-    if (scene == NULL || opts == NULL || opts->sink == NULL)
-        return SS_FAIL_NULL(err);
+    ss_sweep_opts own, *opts = &own;
+    ss_steady_opts steady, *o = &steady;
     size_t all;
-    ss_status st = ss_sweep_check(scene, opts, err);
+    if (scene == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_sweep_opts_take(opts, o, given, err);
+    if (st == SS_OK)
+        st = own.sink != NULL ? check(scene, opts, err) : SS_FAIL_NULL(err);
     if (st != SS_OK)
         return st;
     ss_sweep_points(opts, &all, NULL);
-    const ss_steady_opts *o = &opts->steady;
     size_t of_shard = all > opts->shard ? (all - opts->shard - 1) / opts->shards + 1 : 0;
     size_t strobes = o->strobe == 0 ? 0 : (size_t)(o->strobe > o->max_period ? o->strobe : o->max_period);
     sweep w = { scene, opts, of_shard > opts->first ? of_shard - opts->first : 0 };

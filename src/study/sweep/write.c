@@ -10,6 +10,7 @@
 #include "io/input.h"
 #include "io/record.h"
 #include "motion/method.h"
+#include "study/sweep/grid.h"
 
 /* 1 if this key is varied, or is not about the motion but about its record. */
 static int
@@ -91,67 +92,88 @@ write_row(struct rows *rows, const ss_sweep_text *sweep, const ss_sweep_row *row
     ss_rows_end(rows);
 }
 
-static int
-is_complete(const ss_sweep_text *sweep)
+/* A text with options as the library takes them. */
+typedef struct own_text {
+    ss_sweep_text text;
+    ss_sweep_opts opts;
+    ss_steady_opts steady;
+} own_text;
+
+/* SS_EINVAL: something is missing. */
+static ss_status
+take(own_text *own, const ss_sweep_text *given, ss_error *err)
 {
-    if (sweep == NULL || sweep->name == NULL || sweep->scene == NULL || sweep->opts == NULL
-        || (sweep->opts->axis == NULL && sweep->opts->n_axes > 0)
-        || (sweep->measure == NULL && sweep->n_measures > 0))
-        return 0;
-    for (size_t i = 0; i < sweep->n_measures; i++)
-        if ((unsigned)sweep->measure[i] >= SS_MEASURES)
-            return 0;
-    for (size_t i = 0; i < sweep->opts->n_axes; i++)
-        if (ss_scene_unit(sweep->scene, sweep->opts->axis[i].key) == NULL)
-            return 0;
-    return 1;
+    if (given == NULL || given->name == NULL || given->scene == NULL
+        || (given->measure == NULL && given->n_measures > 0))
+        return SS_FAIL_NULL(err);
+    own->text = *given;
+    own->text.opts = &own->opts;
+    ss_status st = ss_sweep_opts_take(&own->opts, &own->steady, given->opts, err);
+    for (size_t i = 0; st == SS_OK && i < given->n_measures; i++)
+        if ((unsigned)given->measure[i] >= SS_MEASURES)
+            st = ss_fail(err, SS_EINVAL, "no measure %d", given->measure[i]);
+    for (size_t i = 0; st == SS_OK && i < own->opts.n_axes; i++)
+        if (ss_scene_unit(given->scene, own->opts.axis[i].key) == NULL)
+            st = ss_fail(err, SS_EINVAL, "the scene has no number '%s'", own->opts.axis[i].key);
+    if (st == SS_OK && !ss_format_has_words(given->format))
+        st = ss_fail(err, SS_EINVAL, "this format holds numbers only");
+    return st;
 }
 
-ss_status
-ss_sweep_header(char **out, const ss_sweep_text *sweep)
+static ss_status
+make_header(char **out, const ss_sweep_text *sweep, ss_error *err)
 {
     struct rows rows;
     size_t size;
-    if (out == NULL || !is_complete(sweep))
-        return SS_EINVAL;
     *out = NULL;
     FILE *text = open_memstream(out, &size);
     if (text == NULL)
-        return SS_ENOMEM;
-    ss_status st = ss_rows_begin(&rows, text, sweep->format, SS_KIND_SWEEP, NULL);
+        return ss_fail_memory(err, NULL);
+    ss_status st = ss_rows_begin(&rows, text, sweep->format, SS_KIND_SWEEP, err);
     if (st == SS_OK) {
         ss_rows_note(&rows, "scene: %s", sweep->name);
         st = write_scene(&rows, sweep);
-    }
-    if (st == SS_OK) {
         for (size_t i = 0; i < sweep->opts->n_axes; i++)
             write_axis(&rows, &sweep->opts->axis[i]);
-        write_options(&rows, &sweep->opts->steady, sweep->scene);
+        write_options(&rows, sweep->opts->steady, sweep->scene);
         write_row(&rows, sweep, &(ss_sweep_row){ .index = 0 }, NULL);           /* the names */
     }
     int whole = !ferror(text);
     if (fclose(text) != 0 || !whole)
         st = st != SS_OK ? st : SS_ENOMEM;
-    if (st != SS_OK) {
-        free(*out);
-        *out = NULL;
-    }
-    return st;
+    if (st == SS_OK)
+        return SS_OK;
+    free(*out);
+    *out = NULL;
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }
 
 ss_status
-ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *out)
+ss_sweep_header(char **out, const ss_sweep_text *given, ss_error *err)
 {
-    if (!is_complete(sweep) || row == NULL || out == NULL || ss_format_table(sweep->format) == NULL
-        || ss_format_table(sweep->format)->separator == '\0')
-        return SS_EINVAL;
-    struct rows rows = { .out = out, .format = ss_format_table(sweep->format) };
-    size_t n = sweep->opts->steady.strobe > 0 ? row->steady.n_strobes : 0;
+    own_text own;
+    if (out == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = take(&own, given, err);
+    return st == SS_OK ? make_header(out, &own.text, err) : st;
+}
+
+ss_status
+ss_sweep_row_write(const ss_sweep_text *given, const ss_sweep_row *row, FILE *out, ss_error *err)
+{
+    own_text own;
+    if (row == NULL || out == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = take(&own, given, err);
+    if (st != SS_OK)
+        return st;
+    struct rows rows = { .out = out, .format = ss_format_table(given->format) };
+    size_t n = own.steady.strobe > 0 ? row->steady.n_strobes : 0;
     if (n == 0)
-        write_row(&rows, sweep, row, NULL);
+        write_row(&rows, &own.text, row, NULL);
     for (size_t i = 0; i < n; i++)
-        write_row(&rows, sweep, row, &row->steady.strobe[i]);
-    return ferror(out) ? SS_EIO : SS_OK;
+        write_row(&rows, &own.text, row, &row->steady.strobe[i]);
+    return ferror(out) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
 }
 
 /* --- going on ------------------------------------------------------------------------------ */
@@ -261,14 +283,14 @@ count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t header
     const ss_sweep_opts *opts = sweep->opts;
     const struct format *format = ss_format_table(sweep->format);
     char line[LONGEST_ROW], *behind;
-    int leaves_last = opts->steady.strobe > 0 || !format->has_notes;
+    int leaves_last = opts->steady->strobe > 0 || !format->has_notes;
     size_t points = 0, all, number = header_lines + 1;
     long at = *end;
     ss_status st = ss_sweep_points(opts, &all, err);
     for (long n; st == SS_OK && (n = read_line(in, line)) > 0; at += n, number++) {
         size_t due = opts->shard + points * opts->shards, index = strtoul(line, &behind, 10);
         const char *wrong, *column = "index";
-        int again = opts->steady.strobe > 0 && points > 0 && index == due - opts->shards;
+        int again = opts->steady->strobe > 0 && points > 0 && index == due - opts->shards;
         if ((size_t)n != strlen(line) + 1)
             return ss_fail(err, SS_EDATA, "%s:%zu: a NUL byte, or longer than a row", name, number);
         if (line[0] < '0' || line[0] > '9' || (*behind != format->separator && *behind != '\0') || (index != due && !again)
@@ -290,16 +312,20 @@ count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t header
 }
 
 ss_status
-ss_sweep_resume(const ss_sweep_text *sweep, FILE *in, const char *name, size_t *rows, long *end,
+ss_sweep_resume(const ss_sweep_text *given, FILE *in, const char *name, size_t *rows, long *end,
                 ss_error *err)
 {
     char *header = NULL;
     size_t got = 0;
-    if (sweep == NULL || in == NULL || name == NULL || rows == NULL || end == NULL)
+    own_text own;
+    const ss_sweep_text *sweep = &own.text;
+    if (in == NULL || name == NULL || rows == NULL || end == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_sweep_header(&header, sweep);
+    ss_status st = take(&own, given, err);
+    if (st == SS_OK)
+        st = make_header(&header, sweep, err);
     if (st != SS_OK)
-        return ss_fail(err, st, "%s: %s", name, ss_strerror(st));
+        return st;
     size_t length = strlen(header);
     char *start = malloc(length + 1);
     *rows = 0;

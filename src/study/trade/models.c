@@ -8,14 +8,20 @@
 #include <stdlib.h>
 #include <stickslip/features.h>
 #include <stickslip/sweep.h>
-#include "base/error.h"
+#include "base/options.h"
 #include "base/progress.h"
 #include "find/numbers.h"
 #include "motion/method.h"
 #include "study/curve.h"
 #include "study/trade/common.h"
 
-const ss_models_opts ss_models_defaults = { .span = 80, .threads = 1 };
+static const ss_models_opts usual = { .size = sizeof usual, .span = 80, .threads = 1 };
+
+void
+ss_models_opts_init(ss_models_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &usual, sizeof usual);
+}
 
 /* --- what is compared ---------------------------------------------------------------------- */
 
@@ -146,7 +152,8 @@ make_map(portrait *p, const ss_models_opts *how, ss_error *err)
 static ss_status
 find_features(portrait *p, const ss_scene *scene, const ss_models_opts *how, ss_error *err)
 {
-    ss_features_opts opts = ss_features_defaults;
+    ss_features_opts opts;
+    ss_features_opts_init(&opts, sizeof opts);
     opts.mass = scene->mass;
     opts.stiffness = scene->stiffness;
     opts.displacement = 0;
@@ -244,7 +251,8 @@ compare(ss_models_row *row, const portrait *p, const portrait *ref, const ss_sce
 static ss_status
 settle(ss_scene *settled, const ss_scene *scene, const ss_sim_stats *stats, ss_error *err)
 {
-    ss_steady_opts opts = ss_steady_defaults;
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
     ss_steady found;
     if (scene->base_frequency == 0)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
@@ -349,21 +357,22 @@ measure_rows(ss_models *models, const ss_scene *scene, const ss_models_opts *how
 }
 
 ss_status
-ss_models_measure(ss_models **out, const ss_scene *scene, const ss_models_opts *opts, ss_error *err)
+ss_models_measure(ss_models **out, const ss_scene *scene, const ss_models_opts *given, ss_error *err)
 {
+    ss_models_opts opts;
     if (out == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
-    if (opts == NULL)
-        opts = &ss_models_defaults;
-    if (!(opts->span > 0))
+    ss_status st = ss_options_take(&opts, sizeof opts, &usual, given, err);
+    if (st == SS_OK && !(opts.span > 0))
         return ss_fail(err, SS_EINVAL, "a span is more than 0 dB");
-    ss_status st = ss_record_check(scene, err);
+    if (st == SS_OK)
+        st = ss_record_check(scene, err);
     if (st == SS_OK && ss_scene_samples(scene) == 0)
         return ss_fail(err, SS_EINVAL, "the record has no samples to compare");
     if (st != SS_OK)
         return st;
     ss_models *models = calloc(1, sizeof *models);
-    st = models != NULL ? measure_rows(models, scene, opts, err) : SS_ENOMEM;
+    st = models != NULL ? measure_rows(models, scene, &opts, err) : SS_ENOMEM;
     if (st == SS_OK) {
         *out = models;
         return SS_OK;

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/error.h"
+#include "base/options.h"
 #include "base/sort.h"
 #include "motion/method.h"
 #include "study/trade/common.h"
@@ -17,7 +17,20 @@ enum { REPEATS = 5 };               /* short rows are measured so many times */
  * machine, limits its runs by right-hand sides only. */
 #define REFERENCE_BUDGET 100
 
-const ss_trade_opts ss_trade_defaults = { .budget = 10 };
+static const ss_trade_opts usual = { .size = sizeof usual, .budget = 10 };
+
+void
+ss_trade_opts_init(ss_trade_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &usual, sizeof usual);
+}
+
+ss_status
+ss_trade_opts_take(ss_trade_opts *own, const ss_trade_opts *given, ss_error *err)
+{
+    ss_status st = ss_options_take(own, sizeof *own, &usual, given, err);
+    return st != SS_OK || own->budget > 0 ? st : ss_fail(err, SS_EINVAL, "a budget is more than 0 s");
+}
 
 typedef struct measurement {
     ss_trade *trade;
@@ -189,19 +202,18 @@ measure_rows(measurement *t, ss_error *err)
 }
 
 ss_status
-ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opts, ss_error *err)
+ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *given, ss_error *err)
 {
+    ss_trade_opts opts;
     if (out == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_record_check(scene, err);
+    if (st == SS_OK)
+        st = ss_trade_opts_take(&opts, given, err);
     if (st != SS_OK)
         return st;
-    if (opts == NULL)
-        opts = &ss_trade_defaults;
-    if (!(opts->budget > 0))
-        return ss_fail(err, SS_EINVAL, "a budget is more than 0 s");
-    run empty = { .wants_events = 1, .progress = opts->progress };
-    measurement t = { calloc(1, sizeof *t.trade), opts, ss_trade_probe(scene), empty, empty };
+    run empty = { .wants_events = 1, .progress = opts.progress };
+    measurement t = { calloc(1, sizeof *t.trade), &opts, ss_trade_probe(scene), empty, empty };
     st = t.trade != NULL ? measure_rows(&t, err) : SS_ENOMEM;
     ss_trade_run_free(&t.ref);
     ss_trade_run_free(&t.run);

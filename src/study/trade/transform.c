@@ -197,18 +197,20 @@ fill_rows(trial *t, ss_error *err)
 
 ss_status
 ss_trade_transform(ss_trade **out, const double *x, size_t n, double rate,
-                   const ss_morlet_opts *grid, const ss_trade_opts *opts, ss_error *err)
+                   const ss_morlet_opts *grid, const ss_trade_opts *given, ss_error *err)
 {
+    ss_trade_opts opts;
     if (out == NULL || x == NULL || grid == NULL)
         return SS_FAIL_NULL(err);
+    ss_status st = ss_trade_opts_take(&opts, given, err);
+    if (st != SS_OK)
+        return st;
     trial t = { .x = x, .n = n, .rate = rate, .opts = *grid,
-                .how = opts != NULL ? opts : &ss_trade_defaults };
+                .how = &opts };
     t.opts.engine = SS_ENGINE_AUTO;
     t.opts.threads = 1;
-    if (!(t.how->budget > 0))
-        return ss_fail(err, SS_EINVAL, "a budget is more than 0 s");
     t.trade = calloc(1, sizeof *t.trade);
-    ss_status st = t.trade != NULL ? fill_rows(&t, err) : SS_ENOMEM;
+    st = t.trade != NULL ? fill_rows(&t, err) : SS_ENOMEM;
     free(t.w);
     free(t.reference);
     if (st == SS_OK) {
