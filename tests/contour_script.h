@@ -6,7 +6,23 @@
 
 #include "unit.h"
 
-/* To be freed with free(). */
+static inline ss_plot_opts
+new_plot_opts(void)
+{
+    ss_plot_opts opts;
+    ss_plot_opts_init(&opts, sizeof opts);
+    return opts;
+}
+
+static inline ss_contour_opts
+new_contour_opts(void)
+{
+    ss_contour_opts opts;
+    ss_contour_opts_init(&opts, sizeof opts);
+    return opts;
+}
+
+/* To be freed with free(); NULL: the default options. */
 static char *
 contour_script(const ss_coefficients *c, const ss_contour_opts *contour)
 {
@@ -14,7 +30,7 @@ contour_script(const ss_coefficients *c, const ss_contour_opts *contour)
     size_t size;
     ss_error err = { 0 };
     FILE *out = open_memstream(&text, &size);
-    if (ss_plot_contour(out, c, contour, &ss_plot_defaults, &err) != SS_OK)
+    if (ss_plot_contour(out, c, contour, NULL, &err) != SS_OK)
         fail_msg("%s", err.text);
     fclose(out);
     return text;

@@ -24,7 +24,7 @@ transform(const ss_signal *signal, const ss_morlet_opts *opts)
 static double
 noise_of(const ss_coefficients *c)
 {
-    char *script = contour_script(c, &ss_contour_defaults), *line = strstr(script, "\nnoise = ");
+    char *script = contour_script(c, NULL), *line = strstr(script, "\nnoise = ");
     double noise = line != NULL ? strtod(line + strlen("\nnoise = "), NULL) : NAN;
     free(script);
     return noise;
@@ -148,7 +148,7 @@ a_span_that_is_given_stays(void **state)
 {
     ss_signal *signal = wave(SS_NOISE, 5);
     ss_coefficients *c = transform(signal, &ss_morlet_defaults);
-    ss_contour_opts opts = ss_contour_defaults;
+    ss_contour_opts opts = new_contour_opts();
     (void)state;
     opts.noise = 0;
     char *script = contour_script(c, &opts);
@@ -160,7 +160,7 @@ a_span_that_is_given_stays(void **state)
     assert_non_null(strstr(script, "\nspan = 40 "));
     assert_non_null(strstr(script, "\nnoise = -40 "));
     free(script);
-    script = contour_script(c, &ss_contour_defaults);
+    script = contour_script(c, NULL);
     assert_non_null(strstr(script, "\nspan = 10 "));        /* the least */
     free(script);
     ss_coefficients_free(c);
@@ -271,19 +271,19 @@ static void
 palettes_darken_or_lighten_evenly(void **state)
 {
     (void)state;
-    for (size_t i = 0; ss_palette_name(i) != NULL; i++)
+    for (size_t i = 0; ss_palettes[i] != NULL; i++)
         for (int areas = 0; areas < 2; areas++) {
             char text[512] = "";
             double l[16];
             size_t n = 0;
             FILE *out = fmemopen(text, sizeof text, "w");
-            ss_palette_write(out, ss_palette_name(i), areas);
+            ss_palette_write(out, ss_palettes[i], areas);
             fclose(out);
             for (char *c = text; (c = strchr(c, '#')) != NULL; c++)
                 l[n++] = lightness(c);
             assert_int_equal(n, areas ? 11 : 9);
-            const char *ground = ss_palette_ground(ss_palette_name(i));
-            if (strstr(ss_palette_name(i), "_r") != NULL)
+            const char *ground = ss_palette_ground(ss_palettes[i]);
+            if (strstr(ss_palettes[i], "_r") != NULL)
                 assert_memory_equal(ground, strchr(text, '#'), 7);
             else
                 assert_null(ground);
@@ -292,7 +292,7 @@ palettes_darken_or_lighten_evenly(void **state)
             double mean = (l[0] - l[n - 1]) / (double)(n - 1);
             for (size_t k = 1; k < n; k++)
                 if (!(fabs(l[k - 1] - l[k] - mean) <= 0.4 * mean))
-                    fail_msg("%s: step %zu of lightness is %g, not %g", ss_palette_name(i), k, l[k - 1] - l[k],
+                    fail_msg("%s: step %zu of lightness is %g, not %g", ss_palettes[i], k, l[k - 1] - l[k],
                              mean);
         }
 }
@@ -309,7 +309,7 @@ the_ridge_lies_on_a_steady_oscillation(void **state)
     (void)state;
     for (int norm = SS_NORM_L2; norm <= SS_NORM_L1; norm++) {
         ss_morlet_opts opts = ss_morlet_defaults;
-        ss_contour_opts contour = ss_contour_defaults;
+        ss_contour_opts contour = new_contour_opts();
         opts.norm = (ss_norm)norm;
         contour.ridge = 1;
         ss_coefficients *c = transform(signal, &opts);
@@ -337,7 +337,7 @@ labels_that_are_asked_for_are_drawn(void **state)
 {
     ss_signal *signal = simulate("coulomb");
     ss_coefficients *c = transform(signal, &ss_morlet_defaults);
-    ss_contour_opts opts = ss_contour_defaults;
+    ss_contour_opts opts = new_contour_opts();
     ss_error err = { 0 };
     size_t at_border = 0;
     (void)state;
@@ -357,11 +357,11 @@ labels_that_are_asked_for_are_drawn(void **state)
     free(script);
     opts.fmin = 2000;
     opts.fmax = 0;
-    assert_int_equal(ss_plot_contour(stdout, c, &opts, &ss_plot_defaults, &err), SS_EINVAL);
+    assert_int_equal(ss_plot_contour(stdout, c, &opts, NULL, &err), SS_EINVAL);
     assert_non_null(strstr(err.text, "nothing to draw"));
-    opts = ss_contour_defaults;
+    opts = new_contour_opts();
     opts.palette = "rainbow";
-    assert_int_equal(ss_plot_contour(stdout, c, &opts, &ss_plot_defaults, &err), SS_EINVAL);
+    assert_int_equal(ss_plot_contour(stdout, c, &opts, NULL, &err), SS_EINVAL);
     assert_string_equal(err.text, "no palette 'rainbow'");
     ss_coefficients_free(c);
     ss_signal_free(signal);
@@ -391,8 +391,8 @@ marks_beyond_the_map_are_arrows(void **state)
     double event[] = { 0.5, 0.6, 5 }, spike[] = { 1.5, -1 }, span[][2] = { { 1.4, 1.6 }, { 4, 5 } };
     double maximum[][2] = { { 1.5, 40 }, { 1.5, 5 }, { 1.25, 400 }, { 9, 40 } };
     ss_overlay overlay = { .n_spans = 2, .n_maxima = 4, .n_spikes = 2, .span = span, .maximum = maximum, .spike = spike };
-    ss_contour_opts opts = ss_contour_defaults;
-    ss_plot_opts plot = ss_plot_defaults;
+    ss_contour_opts opts = new_contour_opts();
+    ss_plot_opts plot = new_plot_opts();
     char *script = NULL;
     size_t size;
     (void)state;
@@ -412,7 +412,7 @@ marks_beyond_the_map_are_arrows(void **state)
     assert_non_null(strstr(script, "$event_arrows using "));
     assert_non_null(strstr(script, "$feature_arrows using "));
     free(script);
-    plot = ss_plot_defaults;
+    plot = new_plot_opts();
     opts.fmin = opts.fmax = 0;
     opts.n_events = 2, overlay.n_spikes = 1, overlay.n_maxima = 3, overlay.n_spans = 1;
     script = contour_script(c, &opts);

@@ -139,13 +139,16 @@ signals_with_long_names_are_drawn(void **state)
     for (int i = 0; i < 2; i++) {
         ss_signal *signal = signal_named(name[i]);
         ss_coefficients *c = transform(signal, 0);
-        ss_plot_opts titled = ss_plot_defaults, opts = ss_plot_defaults, output = ss_plot_defaults;
-        ss_contour_opts contour = ss_contour_defaults;
+        ss_plot_opts titled, output;
+        ss_contour_opts contour;
         FILE *out = tmpfile();
         ss_error err = new_error();
+        ss_plot_opts_init(&titled, sizeof titled);
+        ss_plot_opts_init(&output, sizeof output);
+        ss_contour_opts_init(&contour, sizeof contour);
         titled.title = name[i];
         contour.signal = signal;
-        assert_int_equal(ss_plot_signal(out, signal, NULL, 0, &opts, NULL), SS_OK);
+        assert_int_equal(ss_plot_signal(out, signal, NULL, 0, NULL, NULL), SS_OK);
         assert_int_equal(ss_plot_signal(out, signal, NULL, 0, &titled, NULL), SS_OK);
         assert_int_equal(ss_plot_xy(out, signal, 0, 1, &titled, NULL), SS_OK);
         assert_told(ss_plot_contour(out, c, &contour, &titled, &err), &err);
@@ -301,8 +304,7 @@ sweeps_keep_long_names(void **state)
         fail_msg("%.300s", err.text);
     assert_string_equal(ss_table_note(table, "scene"), longest);
     assert_string_equal(table->column[1].name, longest);
-    const ss_map_opts map = { .x = 1, .y = 2, .z = { 3 }, .n_z = 1 };
-    assert_int_equal(ss_plot_map(out, table, &map, &ss_plot_defaults, &err), SS_OK);
+    assert_int_equal(ss_plot_map(out, table, (const size_t[]){ 1, 2, 3 }, 3, NULL, &err), SS_OK);
     ss_table_free(table);
     fclose(in);
     fclose(out);

@@ -610,11 +610,14 @@ reductions(int variant)
 {
     enum { LONG = (1 << 19) + 1, HEAD = 24 };
     static char sound[HEAD + 2 * LONG] = ".snd\0\0\0\030\xff\xff\xff\xff\0\0\0\2\0\0\0\144\0\0\0\2";
-    const size_t column[] = { 0 };
-    size_t rows;
+    const size_t column[] = { 0, 1 };
+    ss_plot_opts opts;
     ss_reader *reader = NULL;
     ss_spectrum *spectrum[1] = { NULL };
     ss_signal *thin = NULL;
+    ss_plot_opts_init(&opts, sizeof opts);
+    opts.xy = variant > 0;
+    opts.decibels = 1;
     if (sound[sizeof sound - 1] == 0)
         for (size_t i = HEAD; i < sizeof sound; i++)
             sound[i] = (char)(1 + i / 10000);
@@ -623,10 +626,10 @@ reductions(int variant)
     if (st == SS_OK)
         st = ss_reader_keep(reader, NULL, &err);
     if (st == SS_OK)
-        st = variant == 0 ? ss_plot_spectra(spectrum, &rows, reader, column, 1, 0, &ss_plot_defaults, &err)
-            : ss_plot_path(&thin, &rows, reader, 0, 1, 0, &ss_plot_defaults, &err);
+        st = variant == 0 ? ss_plot_spectra(spectrum, reader, column, 1, &opts, &err)
+            : ss_plot_read(&thin, reader, column, 2, &opts, &err);
     if (st == SS_OK && variant == 0)
-        st = ss_plot_spectrum(scrap, ss_reader_header(reader), column, 1, spectrum, 1, &ss_plot_defaults, &err);
+        st = ss_plot_spectrum(scrap, ss_reader_header(reader), column, 1, spectrum, &opts, &err);
     ss_spectrum_free(spectrum[0]);
     ss_signal_free(thin);
     ss_reader_free(reader);
@@ -637,19 +640,19 @@ reductions(int variant)
 static ss_status
 plots(int variant)
 {
-    ss_contour_opts contour = ss_contour_defaults;
+    ss_contour_opts contour;
+    ss_contour_opts_init(&contour, sizeof contour);
     contour.signal = signal;
-    const ss_map_opts map = { .x = 1, .y = 2, .z = { 3, 4 }, .n_z = 2 };
     rewind(scrap);
     switch (variant) {
-    case 0: return ss_plot_signal(scrap, signal, NULL, 0, &ss_plot_defaults, &err);
-    case 1: return ss_plot_xy(scrap, signal, 0, 1, &ss_plot_defaults, &err);
-    case 2: return ss_plot_contour(scrap, coefficients, &contour, &ss_plot_defaults, &err);
-    case 3: return ss_plot_map(scrap, sweep, &map, &ss_plot_defaults, &err);
+    case 0: return ss_plot_signal(scrap, signal, NULL, 0, NULL, &err);
+    case 1: return ss_plot_xy(scrap, signal, 0, 1, NULL, &err);
+    case 2: return ss_plot_contour(scrap, coefficients, &contour, NULL, &err);
+    case 3: return ss_plot_map(scrap, sweep, (const size_t[]){ 1, 2, 3, 4 }, 4, NULL, &err);
     case 5: contour.fill = contour.ridge = 1;
-            return ss_plot_contour(scrap, coefficients, &contour, &ss_plot_defaults, &err);
+            return ss_plot_contour(scrap, coefficients, &contour, NULL, &err);
     }
-    return ss_plot_trade(scrap, trade, &ss_plot_defaults, &err);
+    return ss_plot_trade(scrap, trade, NULL, &err);
 }
 
 static ss_status

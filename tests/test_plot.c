@@ -120,25 +120,24 @@ signal_script(const ss_signal *signal, const ss_plot_opts *opts)
     return text;
 }
 
-/* A signal as it comes through a file in AU, as it is drawn from opts->from to opts->to if it starts at start, over
- * time or, with xy, its second column over its first. */
+/* A signal as it comes through a file in AU, as it is drawn over time or, with xy, its second column over its
+ * first. */
 static ss_signal *
-read_thin(const ss_signal *signal, int xy, double start, ss_plot_opts *opts)
+read_thin(const ss_signal *signal, int xy, ss_plot_opts *opts)
 {
     FILE *file = tmpfile();
     ss_reader *reader = NULL;
     ss_signal *thin = NULL;
     ss_error err = { 0 };
-    size_t rows = 0;
     assert_int_equal(ss_signal_write(signal, file, SS_AU, NULL), SS_OK);
     rewind(file);
     assert_int_equal(ss_reader_new(&reader, file, "file", NULL, NULL), SS_OK);
     if (xy)
         assert_int_equal(ss_reader_keep(reader, NULL, NULL), SS_OK);
-    if ((xy ? ss_plot_path(&thin, &rows, reader, 0, 1, start, opts, &err)
-         : ss_plot_envelope(&thin, &rows, reader, (size_t[]){ 0 }, 1, start, opts, &err)) != SS_OK)
+    opts->xy = xy;
+    if (ss_plot_read(&thin, reader, (const size_t[]){ 0, 1 }, xy ? 2 : 1, opts, &err) != SS_OK)
         fail_msg("%s", err.text);
-    assert_int_equal(rows, signal->n);
+    assert_int_equal(opts->rows, signal->n);
     ss_reader_free(reader);
     fclose(file);
     return thin;
@@ -155,10 +154,10 @@ an_envelope_has_the_extremes_of_each_block(void **state)
     for (size_t row = 0; row < 4; row++) {
         size_t n = length[row], first = row < 3 ? 0 : 12250;
         ss_signal *signal = new_signal(n, 1000, 5, "a", "");
-        ss_plot_opts opts = ss_plot_defaults;
+        ss_plot_opts opts = new_plot_opts();
         ss_noise_add_once(signal->values, n, 1, 1, NULL);
         opts.from = from[row], opts.to = to[row];
-        ss_signal *thin = read_thin(signal, 0, 5, &opts);
+        ss_signal *thin = read_thin(signal, 0, &opts);
         const double *x = signal->values, *pair = thin->values;
         size_t each = row < 3 ? 1 : (size_t)round(2 * signal->head->rate / thin->head->rate);
         size_t end = row < 3 ? n : 2395001;
@@ -234,8 +233,8 @@ a_long_path_looks_like_the_line(void **state)
 {
     (void)state;
     for (int noise = 0; noise < 2; noise++) {
-        ss_plot_opts opts = ss_plot_defaults;
-        ss_signal *signal = long_line(noise), *thin = read_thin(signal, 1, 5, &opts);
+        ss_plot_opts opts = new_plot_opts();
+        ss_signal *signal = long_line(noise), *thin = read_thin(signal, 1, &opts);
         const double *x = signal->values, *y = x + LONG;
         double range = noise ? 9.5 : 2.5;
         ss_span *gap;
@@ -260,16 +259,16 @@ a_long_path_looks_like_the_line(void **state)
     }
 }
 
-/* In the span to draw, of a signal drawn from another time on, and the sample at its end. */
+/* In the span to draw, and the sample at its end. */
 static void
 a_short_path_has_the_rows_of_its_span(void **state)
 {
-    ss_plot_opts opts = ss_plot_defaults;
+    ss_plot_opts opts = new_plot_opts();
     ss_signal *signal = long_line(1);
     (void)state;
-    opts.from = 107.25;
-    opts.to = 108;
-    ss_signal *thin = read_thin(signal, 1, 100, &opts);
+    opts.from = 12.25;
+    opts.to = 13;
+    ss_signal *thin = read_thin(signal, 1, &opts);
     assert_int_equal(thin->n, 751);
     assert_true(thin->head->start == 5 + 7.25 && thin->head->rate == 1000);
     for (size_t i = 0; i < thin->n; i++)
@@ -288,13 +287,15 @@ a_long_signal_over_another_begins_with_it(void **state)
     (void)state;
     over->values[654321] = 3;
     for (int part = 0; part < 2; part++) {
-        ss_plot_opts opts = ss_plot_defaults;
+        ss_plot_opts opts = new_plot_opts();
         if (part) {
             opts.from = 700;
             opts.to = 710;
         }
         ss_plot_opts own = opts;
-        ss_signal *thin = read_thin(over, 0, 50, &own);
+        own.from += 7 - 50;
+        own.to += 7 - 50;
+        ss_signal *thin = read_thin(over, 0, &own);
         opts.over = thin;
         opts.over_start = 50 + (thin->head->start - 7);
         char *script = signal_script(signal, &opts), *at = strstr(script, " 3\n");
@@ -316,7 +317,7 @@ a_spike_of_one_sample_in_a_million_is_drawn(void **state)
     (void)state;
     signal->values[654321] = 7;
     signal->values[654322] = -3;
-    char *script = signal_script(signal, &ss_plot_defaults);
+    char *script = signal_script(signal, NULL);
     assert_non_null(strstr(script, "\n659.3 7\n659.3 -3\n"));
     assert_true(strlen(script) < 50000);
     free(script);
@@ -327,7 +328,7 @@ static void
 text_of_files_stands_between_quotes(void **state)
 {
     ss_signal *signal = new_signal(10, 10, 0, "a'`@b", "m's");
-    ss_plot_opts opts = ss_plot_defaults;
+    ss_plot_opts opts = new_plot_opts();
     (void)state;
     opts.title = "\"; system 'touch x'\n`touch y`";
     char *script = signal_script(signal, &opts);
@@ -362,7 +363,7 @@ long_labels_have_two_lines_and_smaller_letters(void **state)
         char line[96];
         ss_signal *signal = new_signal(2, 1, 0, row[i].name, row[i].unit);
         signal->values[1] = 1;
-        char *script = signal_script(signal, &ss_plot_defaults);
+        char *script = signal_script(signal, NULL);
         snprintf(line, sizeof line, "; set label 1 \"%s\" at ", row[i].label);
         if (strstr(script, line) == NULL)
             fail_msg("no %s", row[i].label);
@@ -386,7 +387,7 @@ labels_carry_powers_of_ten_and_raised_digits(void **state)
         char line[96];
         ss_signal *signal = new_signal(2, 1, 0, "a", row[i].unit);
         signal->values[1] = row[i].value;
-        char *script = signal_script(signal, &ss_plot_defaults);
+        char *script = signal_script(signal, NULL);
         int n = snprintf(line, sizeof line, "set label 1 \"");
         for (const char *c = row[i].label; *c != '\0'; c++) {      /* the digit behind ^ is escaped, too */
             int escaped = (*c & 0x80) != 0 || *c == '^' || (c > row[i].label && c[-1] == '^');
@@ -412,7 +413,7 @@ names_of_ten_thousand_characters_are_cut(void **state)
             strcat(name + strlen(letter[i]) * (size_t)k, letter[i]);
         ss_signal *signal = new_signal(2, 1, 0, name, name);
         signal->values[1] = 1;
-        char *script = signal_script(signal, &ss_plot_defaults), *cut = strstr(script, "\\342\\200\\246\" at ");
+        char *script = signal_script(signal, NULL), *cut = strstr(script, "\\342\\200\\246\" at ");
         assert_non_null(cut);                   /* an ellipsis ends it */
         assert_true(cut - strstr(script, "set label 1") < 4 * 256 + 20);
         free(script);
@@ -430,9 +431,9 @@ values_that_gnuplot_cannot_draw_are_refused(void **state)
     for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
         ss_error err = { 0 };
         signal->values[3] = value[i];
-        assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, &ss_plot_defaults, &err), SS_EINVAL);
+        assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, NULL, &err), SS_EINVAL);
         assert_non_null(strstr(err.text, "a cannot be drawn"));
-        assert_int_equal(ss_plot_xy(stdout, signal, 0, 0, &ss_plot_defaults, &err), SS_EINVAL);
+        assert_int_equal(ss_plot_xy(stdout, signal, 0, 0, NULL, &err), SS_EINVAL);
     }
     ss_signal_free(signal);
 }
@@ -442,7 +443,7 @@ an_octal_escape_swallows_no_digit(void **state)
 {
     ss_signal *signal = new_signal(2, 1, 0, "&#0;'9a1", "");
     (void)state;
-    char *script = signal_script(signal, &ss_plot_defaults);
+    char *script = signal_script(signal, NULL);
     assert_non_null(strstr(script, "\"\\046\\043\\060\\073\\047\\071a1\""));
     free(script);
     ss_signal_free(signal);
@@ -455,7 +456,7 @@ what_lies_outside_the_record_is_refused(void **state)
     ss_signal *signal = new_signal(10, 10, 5, "a", "");
     (void)state;
     for (size_t i = 0; i < sizeof span / sizeof *span; i++) {
-        ss_plot_opts opts = ss_plot_defaults;
+        ss_plot_opts opts = new_plot_opts();
         ss_error err = { 0 };
         opts.from = span[i][0];
         opts.to = span[i][1];
@@ -470,11 +471,11 @@ wrong_arguments_are_refused(void **state)
 {
     static const size_t column[] = { 1 };
     ss_signal *signal = new_signal(10, 10, 0, "a", "");
-    ss_plot_opts gif = ss_plot_defaults;
+    ss_plot_opts gif = new_plot_opts();
     (void)state;
     gif.output = "a.gif";
-    assert_int_equal(ss_plot_signal(stdout, signal, column, 1, &ss_plot_defaults, NULL), SS_EINVAL);
-    assert_int_equal(ss_plot_xy(stdout, signal, 0, 1, &ss_plot_defaults, NULL), SS_EINVAL);
+    assert_int_equal(ss_plot_signal(stdout, signal, column, 1, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_plot_xy(stdout, signal, 0, 1, NULL, NULL), SS_EINVAL);
     assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, &gif, NULL), SS_EINVAL);
     ss_signal_free(signal);
 }
@@ -486,7 +487,7 @@ a_full_disk_is_an_error(void **state)
     ss_signal *signal = new_signal(10, 10, 0, "a", "");
     (void)state;
     if (full != NULL) {
-        assert_int_equal(ss_plot_signal(full, signal, NULL, 0, &ss_plot_defaults, NULL), SS_EIO);
+        assert_int_equal(ss_plot_signal(full, signal, NULL, 0, NULL, NULL), SS_EIO);
         fclose(full);
     }
     ss_signal_free(signal);
@@ -517,7 +518,7 @@ static void
 contours_lie_where_the_level_says(void **state)
 {
     ss_coefficients *c = new_coefficients();
-    ss_contour_opts opts = ss_contour_defaults;
+    ss_contour_opts opts = new_contour_opts();
     int seen[9] = { 0 };
     (void)state;
     for (size_t i = 0; i < 3000; i++)
@@ -549,7 +550,7 @@ one_large_coefficient_is_not_lost(void **state)
     ss_coefficients *c = new_coefficients();
     (void)state;
     c->w[2 * 1501] = 1;
-    char *script = contour_script(c, &ss_contour_defaults);
+    char *script = contour_script(c, NULL);
     for (int k = 1; k <= 18; k++) {
         char end[16];
         snprintf(end, sizeof end, " %d\n", k);
@@ -569,7 +570,7 @@ a_coefficient_of_any_size_gives_numbers(void **state)
             ss_coefficients *c = new_coefficients();
             c->w[2 * 1501] = 1e-3;
             c->w[2 * at] = value[i];
-            char *script = contour_script(c, &ss_contour_defaults);
+            char *script = contour_script(c, NULL);
             assert_true(strstr(script, "nan") == NULL && strstr(script, "inf") == NULL);
             free(script);
             ss_coefficients_free(c);
@@ -585,14 +586,14 @@ coefficients_and_scales_that_cannot_be_drawn_are_refused(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
         c->w[2 * 1501] = c->w[2 * 1501 + 1] = value[i];
-        assert_int_equal(ss_plot_contour(stdout, c, &ss_contour_defaults, &ss_plot_defaults, &err),
+        assert_int_equal(ss_plot_contour(stdout, c, NULL, NULL, &err),
                          SS_EINVAL);
         assert_non_null(strstr(err.text, "a value is not finite"));
     }
     c->w[2 * 1501] = c->w[2 * 1501 + 1] = 0;
     for (int i = 0; i < 4; i++) {
         c->scale[1].f = (const double[]){ NAN, 0, 20, INFINITY }[i];
-        assert_int_equal(ss_plot_contour(stdout, c, &ss_contour_defaults, &ss_plot_defaults, &err),
+        assert_int_equal(ss_plot_contour(stdout, c, NULL, NULL, &err),
                          SS_EINVAL);
         assert_non_null(strstr(err.text, "cannot be drawn"));
     }
@@ -604,7 +605,7 @@ zero_everywhere_gives_an_empty_picture(void **state)
 {
     ss_coefficients *c = new_coefficients();
     (void)state;
-    char *script = contour_script(c, &ss_contour_defaults);
+    char *script = contour_script(c, NULL);
     assert_non_null(strstr(script, "$contour << EOD\nEOD\n"));
     free(script);
     ss_coefficients_free(c);
@@ -641,7 +642,7 @@ coefficients_may_come_scale_by_scale(void **state)
 {
     ss_coefficients *c = new_coefficients(), grid = *c;
     origin o = { .source = { give_scale, NULL }, .c = c, .fail_at = SIZE_MAX };
-    ss_contour_opts opts = ss_contour_defaults;
+    ss_contour_opts opts = new_contour_opts();
     (void)state;
     for (size_t i = 0; i < 2 * 3000; i++)
         c->w[i] = sin((double)i * (double)i / 4e6) * (double)(i % 2000);
@@ -657,12 +658,12 @@ coefficients_may_come_scale_by_scale(void **state)
     o = (origin){ .source = { give_scale, NULL }, .c = c, .fail_at = 1 };
     size_t size = 0;
     FILE *out = open_memstream(&pieces, &size);
-    assert_int_equal(ss_plot_contour(out, &grid, &opts, &ss_plot_defaults, NULL), SS_EDATA);
+    assert_int_equal(ss_plot_contour(out, &grid, &opts, NULL, NULL), SS_EDATA);
     fclose(out);
     assert_int_equal(size, 0);
     free(pieces);
     grid.source = NULL;
-    assert_int_equal(ss_plot_contour(stdout, &grid, &ss_contour_defaults, &ss_plot_defaults, NULL),
+    assert_int_equal(ss_plot_contour(stdout, &grid, NULL, NULL, NULL),
                      SS_EINVAL);
     ss_coefficients_free(c);
 }
@@ -670,17 +671,22 @@ coefficients_may_come_scale_by_scale(void **state)
 static void
 contour_options_out_of_range_are_refused(void **state)
 {
-    static const ss_contour_opts row[] = {
-        { 0, 80, .column = 0 },    { 101, 80, .column = 0 },
-        { 18, 0, .column = 0 },    { 18, -1, .column = 0 },
-        { 18, NAN, .column = 0 },  { 18, INFINITY, .column = 0 },
+    static const struct { int levels; double span; } row[] = {
+        { 0, 80 }, { 101, 80 }, { 18, 0 }, { 18, -1 }, { 18, NAN }, { 18, INFINITY },
     };
     ss_coefficients *c = new_coefficients();
+    ss_contour_opts opts = new_contour_opts();
     (void)state;
-    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
-        assert_int_equal(ss_plot_contour(stdout, c, &row[i], &ss_plot_defaults, NULL), SS_EINVAL);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        opts.levels = row[i].levels;
+        opts.span = row[i].span;
+        assert_int_equal(ss_plot_contour(stdout, c, &opts, NULL, NULL), SS_EINVAL);
+    }
+    opts = new_contour_opts();
+    opts.size = 0;                              /* were not initialised */
+    assert_int_equal(ss_plot_contour(stdout, c, &opts, NULL, NULL), SS_EINVAL);
     c->n_scales = 1;
-    assert_int_equal(ss_plot_contour(stdout, c, &ss_contour_defaults, &ss_plot_defaults, NULL),
+    assert_int_equal(ss_plot_contour(stdout, c, NULL, NULL, NULL),
                      SS_EINVAL);
     ss_coefficients_free(c);
 }

@@ -40,6 +40,7 @@ typedef struct drawing {
     ss_contour_opts opts;
     ss_overlay *times, *overlay;       /* of events and features */
     ss_detrend detrend;
+    int palette;                /* of ss_palettes, if it was given */
     tool_reading reading;
 } drawing;
 
@@ -247,7 +248,7 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         TOOL_WHOLE(0, "levels", &d->opts.levels, ss_contour_levels),
         TOOL_NUMBER(0, "span", &d->opts.span, ss_contour_spans), TOOL_FLAG(0, "fill", &d->opts.fill),
         TOOL_NUMBER(0, "level", &d->opts.level, ss_contour_tops), TOOL_CHOICE(0, "detrend", &d->detrend, detrends),
-        TOOL_NAME(0, "palette", &d->opts.palette, ss_palette_name),
+        TOOL_CHOICE(0, "palette", &d->palette, ss_palettes),
         TOOL_FLAG(0, "ridge", &d->opts.ridge),
         TOOL_NUMBER(0, "fmin", &d->opts.fmin, ss_morlet_ranges.frequency),
         TOOL_NUMBER(0, "fmax", &d->opts.fmax, ss_morlet_ranges.frequency),
@@ -255,6 +256,8 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         TOOL_TEXT(0, "events", &d->events), TOOL_TEXT(0, "features", &d->features),
         TOOL_TEXT(0, "title", &plot->title), TOOL_STYLE(&plot->style), TOOL_OUTPUT(&d->output) };
     d->path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &d->reading));
+    if (tool_given("palette"))
+        d->opts.palette = ss_palettes[d->palette];
     if (tool_given("span") || tool_given("level"))
         d->opts.noise = 0;
     if (d->opts.fmin > 0 && d->opts.fmax > 0 && d->opts.fmin >= d->opts.fmax)
@@ -280,9 +283,11 @@ note_contents(const drawing *d)
 int
 main(int argc, char *argv[])
 {
-    ss_plot_opts opts = ss_plot_defaults;
-    drawing d = { .opts = ss_contour_defaults };
+    ss_plot_opts opts;
+    drawing d = { .path = NULL };
 
+    ss_plot_opts_init(&opts, sizeof opts);
+    ss_contour_opts_init(&d.opts, sizeof d.opts);
     tool_begin(argv, "ss-contour", usage);
     parse(&d, &opts, argc, argv);
     open_input(&d);

@@ -34,10 +34,8 @@ typedef struct drawing {
     const ss_header *head;      /* of the signal as it is read */
     ss_signal *signal;          /* what is drawn of it */
     size_t *column, n;          /* panels; or with xy the two columns */
-    int xy;
-    int spectrum, decibels;
+    int spectrum;
     tool_kind kind;             /* of output */
-    double resolution;          /* [Hz]; 0: the default */
     ss_spectrum **density;      /* of each column */
 } drawing;
 
@@ -45,18 +43,18 @@ static ss_status
 write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 {
     const drawing *d = user;
-    if (d->xy)
-        return ss_plot_xy(out, d->signal, 0, d->column[0] != d->column[1], opts, err);
+    if (opts->xy)
+        return ss_plot_xy(out, d->signal, d->column[0], d->column[1], opts, err);
     if (d->spectrum)
-        return ss_plot_spectrum(out, d->head, d->column, d->n, d->density, d->decibels, opts, err);
+        return ss_plot_spectrum(out, d->head, d->column, d->n, d->density, opts, err);
     return ss_plot_signal(out, d->signal, d->column, d->n, opts, err);
 }
 
 static size_t
-find_signal_column(const drawing *d, const ss_header *head, const char *path, const char *name)
+find_signal_column(int xy, const ss_header *head, const char *path, const char *name)
 {
     if ((strcmp(name, "t") == 0 || strcmp(name, "time") == 0) && ss_header_column(head, name) < 0)
-        tool_die("%s: time is the clock, not a column%s", tool_input_name(path), d->xy
+        tool_die("%s: time is the clock, not a column%s", tool_input_name(path), xy
                  ? "; --column Y draws Y over it" : ", which every panel has as its axis");
     return tool_column(head, path, name);
 }
@@ -92,7 +90,6 @@ enum { MAP_COLUMNS = 8 };
 typedef struct map_drawing {
     ss_table *table;
     size_t column[MAP_COLUMNS], n;
-    ss_map_opts map;
 } map_drawing;
 
 static size_t
@@ -166,9 +163,7 @@ static ss_status
 write_map(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 {
     const map_drawing *d = user;
-    if (is_diagram(d->table))
-        return ss_plot_diagram(out, d->table, d->column[0], d->column + 1, d->n - 1, opts, err);
-    return ss_plot_map(out, d->table, &d->map, opts, err);
+    return (is_diagram(d->table) ? ss_plot_diagram : ss_plot_map)(out, d->table, d->column, d->n, opts, err);
 }
 
 static void
@@ -178,7 +173,7 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
     map_drawing d = { .table = NULL };
     ss_error err = { 0 };
     FILE *in = tool_open(path);
-    double *curve = line != NULL ? read_line(line, &d.map.n_curve) : NULL;
+    double *curve = line != NULL ? read_line(line, &opts->n_curve) : NULL;
     tool_check(ss_table_read(&d.table, in, tool_input_name(path), SS_KIND_SWEEP, &err), &err);
     if (in != stdin)
         fclose(in);
@@ -189,8 +184,7 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
                    : "X,Y,Z or X,Y,Z,Z: two keys were varied");
     if (diagram && line != NULL)
         tool_usage("--line needs a map over two keys");
-    d.map = (ss_map_opts){ .x = d.column[0], .y = d.column[1], .z = { d.column[2], d.column[3] },
-                           .n_z = d.n - 2, .curve = curve, .n_curve = d.map.n_curve };
+    opts->curve = curve;
     tool_note("%s: %zu point%s", tool_input_name(path), d.table->n, tool_s(d.table->n));
     tool_draw(output, opts, write_map, &d);
     ss_table_free(d.table);
@@ -201,19 +195,20 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
 
 /* Choose the columns that are named, or all. */
 static void
-choose_columns(drawing *d, const ss_header *head, const char *path, const tool_texts *name)
+choose_columns(drawing *d, int xy, const char *path, const tool_texts *name)
 {
-    d->n = name->n > 0 ? name->n : head->n_columns;
+    d->n = name->n > 0 ? name->n : d->head->n_columns;
     d->column = tool_room(NULL, d->n + 1, sizeof *d->column);
     for (size_t i = 0; i < d->n; i++)
-        d->column[i] = name->n > 0 ? find_signal_column(d, head, path, name->text[i]) : i;
+        d->column[i] = name->n > 0 ? find_signal_column(xy, d->head, path, name->text[i]) : i;
 }
 
-/* Leave each column once in `of`, and in the drawing its place there. */
-static size_t
-name_once(drawing *d, size_t of[])
+/* Read the columns of a signal, each once; in the drawing stands then its place among these. */
+static void
+read_columns(drawing *d, ss_reader *reader, ss_plot_opts *opts)
 {
-    size_t n = 0;
+    ss_error err = { 0 };
+    size_t *of = tool_room(NULL, d->n + 1, sizeof *of), n = 0;
     for (size_t i = 0, at; i < d->n; i++) {
         for (at = 0; at < n && of[at] != d->column[i]; at++)
             ;
@@ -221,7 +216,8 @@ name_once(drawing *d, size_t of[])
         n += at == n;
         d->column[i] = at;
     }
-    return n;
+    tool_check(ss_plot_read(&d->signal, reader, of, n, opts, &err), &err);
+    free(of);
 }
 
 /* A reader of a signal of any length. */
@@ -235,34 +231,30 @@ open_signal(const char *path, const ss_read_opts *reading, int is_read_again)
     return reader;
 }
 
-/* Columns over time. */
-static size_t
-read_envelope(drawing *d, ss_reader *reader, ss_plot_opts *opts)
-{
-    ss_error err = { 0 };
-    size_t rows, *column = tool_room(NULL, d->n + 1, sizeof *column), n = name_once(d, column);
-    tool_check(ss_plot_envelope(&d->signal, &rows, reader, column, n, ss_reader_header(reader)->start, opts, &err),
-               &err);
-    free(column);
-    return rows;
-}
-
-/* The signal of opts->over for the same form of drawing; opts as they were before the first was read. */
+/* The signal that is drawn over d, as if it began with it: its first column, or those with the names of the
+ * two that are drawn, or else its first two. */
 static ss_signal *
-read_over(const drawing *d, const char *path, const ss_header *head, const char *folder, ss_plot_opts *opts)
+read_over(const drawing *d, const char *path, const char *folder, ss_plot_opts *opts)
 {
     const ss_read_opts reading = { .folder = folder };
     ss_error err = { 0 };
     ss_signal *other;
     ss_plot_opts own = *opts;
-    size_t rows, of[2] = { 0, 0 };
-    ss_reader *reader = open_signal(path, &reading, d->xy);
+    ss_reader *reader = open_signal(path, &reading, opts->xy);
     const ss_header *over = ss_reader_header(reader);
-    if (d->xy)
-        tool_check(ss_plot_over_columns(of, over, head, d->column[0], d->column[1], &err), &err);
-    tool_check(d->xy ? ss_plot_path(&other, &rows, reader, of[0], of[1], head->start, &own, &err)
-               : ss_plot_envelope(&other, &rows, reader, of, 1, head->start, &own, &err), &err);
-    opts->over_start = head->start + (other->head->start - over->start);
+    const ss_column *drawn = d->head->column;
+    size_t of[2] = { 0, 1 };
+    if (opts->xy) {
+        int x = ss_header_column(over, drawn[d->column[0]].name), y = ss_header_column(over, drawn[d->column[1]].name);
+        if (x >= 0 && y >= 0)
+            of[0] = (size_t)x, of[1] = (size_t)y;
+        else if (over->n_columns < 2)
+            tool_die("one column cannot be drawn over %s and %s", drawn[d->column[0]].name, drawn[d->column[1]].name);
+    }
+    own.from += over->start - d->head->start;
+    own.to += over->start - d->head->start;
+    tool_check(ss_plot_read(&other, reader, of, opts->xy && of[0] != of[1] ? 2 : 1, &own, &err), &err);
+    opts->over_start = d->head->start + (other->head->start - over->start);
     ss_reader_free(reader);
     return other;
 }
@@ -282,28 +274,24 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
 {
     ss_error err = { 0 };
     ss_signal *other = NULL;
-    ss_reader *reader = open_signal(path, reading, d.xy || d.spectrum);
-    size_t rows;
+    ss_reader *reader = open_signal(path, reading, opts->xy || d.spectrum);
     d.head = ss_reader_header(reader);
-    choose_columns(&d, d.head, path, name);
+    choose_columns(&d, opts->xy, path, name);
     opts->name = file_name(path);
     opts->over_name = over != NULL ? file_name(over) : NULL;
     if (over != NULL)
-        opts->over = other = read_over(&d, over, d.head, reading->folder, opts);
-    if (d.xy)
-        tool_check(ss_plot_path(&d.signal, &rows, reader, d.column[0], d.column[1], d.head->start, opts, &err), &err);
-    else if (d.spectrum)
-        tool_check(ss_plot_spectra(d.density = tool_room(NULL, d.n, sizeof *d.density), &rows, reader, d.column, d.n,
-                                   d.resolution, opts, &err), &err);
+        opts->over = other = read_over(&d, over, reading->folder, opts);
+    if (d.spectrum)
+        tool_check(ss_plot_spectra(d.density = tool_room(NULL, d.n, sizeof *d.density), reader, d.column, d.n, opts,
+                                   &err), &err);
     else
-        rows = read_envelope(&d, reader, opts);
-    if (d.xy)
-        opts->from = opts->to = NAN;
-    tool_note("%s: %zu sample%s, columns: %zu", tool_input_name(path), rows, tool_s(rows), d.head->n_columns);
+        read_columns(&d, reader, opts);
+    tool_note("%s: %zu sample%s, columns: %zu", tool_input_name(path), opts->rows, tool_s(opts->rows),
+              d.head->n_columns);
     ss_overlay *overlay = tool_read_overlay(features, SS_KIND_FEATURES);
     opts->features = overlay;
     if (d.kind >= TOOL_STREAM)
-        tool_check(ss_spectra_write(d.density, d.head, d.column, d.n, d.decibels, tool_output(output),
+        tool_check(ss_spectra_write(d.density, d.head, d.column, d.n, opts->decibels, tool_output(output),
                                     tool_stream(d.kind), &err), &err);
     else
         tool_draw(output, opts, write_script, &d);
@@ -320,14 +308,14 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
 int
 main(int argc, char *argv[])
 {
-    ss_plot_opts opts = ss_plot_defaults;
+    ss_plot_opts opts;
     tool_reading reading = { .rate_letter = 'r' };
     const char *output = NULL, *over = NULL, *features = NULL, *map = NULL, *line = NULL;
     tool_texts wanted = { NULL, 0 }, xy = { NULL, 0 };
     drawing d = { .kind = TOOL_GP };
     const tool_option options[] = {
-        TOOL_FLAG(0, "spectrum", &d.spectrum), TOOL_FLAG(0, "db", &d.decibels),
-        TOOL_NUMBER(0, "resolution", &d.resolution, ((ss_range){ 1e-300, 1e300 })),
+        TOOL_FLAG(0, "spectrum", &d.spectrum), TOOL_FLAG(0, "db", &opts.decibels),
+        TOOL_NUMBER(0, "resolution", &opts.resolution, ((ss_range){ 1e-300, 1e300 })),
         TOOL_TEXTS('c', "column", &wanted), TOOL_VALUE(0, "xy", set_xy, &xy),
         TOOL_VALUE(0, "over", set_over, &over), TOOL_TEXT(0, "features", &features),
         TOOL_TEXT(0, "map", &map), TOOL_TEXT(0, "line", &line),
@@ -335,6 +323,7 @@ main(int argc, char *argv[])
         TOOL_FORMAT_OF_WORDS(&d.kind) };
 
     tool_begin(argv, "ss-plot", usage);
+    ss_plot_opts_init(&opts, sizeof opts);
     int first = TOOL_PARSE(argc, argv, options, &reading);
     if (xy.n > 0 && wanted.n > 0)
         tool_usage("--xy and --column exclude each other");
@@ -351,22 +340,21 @@ main(int argc, char *argv[])
         tool_usage("--map excludes --xy, --column and the options of reading");
     if (over != NULL && map != NULL)
         tool_usage("--over excludes --map");
-    d.xy = xy.n > 0;
-    if (features != NULL && (map != NULL || d.xy || d.spectrum))
+    opts.xy = xy.n > 0;
+    if (features != NULL && (map != NULL || opts.xy || d.spectrum))
         tool_usage("--features is over time; it excludes --map, --xy and --spectrum");
     if (features != NULL && strcmp(features, "-") == 0 && strcmp(path, "-") == 0)
         tool_usage("standard input can be read only once");
-    if (d.spectrum && (map != NULL || d.xy || over != NULL))
+    if (d.spectrum && (map != NULL || opts.xy || over != NULL))
         tool_usage("--spectrum excludes --map, --xy and --over");
-    if ((d.decibels || d.resolution > 0 || d.kind >= TOOL_STREAM) && !d.spectrum)
+    if ((opts.decibels || opts.resolution > 0 || d.kind >= TOOL_STREAM) && !d.spectrum)
         tool_usage("--db, --resolution and --format need --spectrum");
     if (line != NULL && map == NULL)
         tool_usage("--line needs --map");
-    if (map != NULL) {
+    if (map != NULL)
         draw_map(path, map, line, output, &opts);
-    } else {
-        draw_signal(path, d.xy ? &xy : &wanted, d, over, features, output, &reading.opts, &opts);
-    }
+    else
+        draw_signal(path, opts.xy ? &xy : &wanted, d, over, features, output, &reading.opts, &opts);
     free(wanted.text);
     free(xy.text);
     tool_reading_free(&reading);

@@ -231,8 +231,9 @@ main(int argc, char *argv[])
 {
     const ss_range budgets = { 1e-6, DBL_MAX }, targets = { 1e-14, 1 };
     request req = { .kind = TOOL_TSV };
+    ss_plot_opts plot;
     ss_trade_opts_init(&req.opts, sizeof req.opts);
-    ss_plot_opts plot = ss_plot_defaults;
+    ss_plot_opts_init(&plot, sizeof plot);
     const tool_option options[] = {
         TOOL_TEXTS('s', "set", &req.settings), TOOL_TEXT('c', "column", &req.column),
         TOOL_FLAG(0, "dense", &req.dense), TOOL_NUMBER('b', "budget", &req.opts.budget, budgets),

@@ -23,6 +23,7 @@ typedef enum ss_plot_style {
 } ss_plot_style;
 
 typedef struct ss_plot_opts {
+    size_t size;                /* set by ss_plot_opts_init */
     const char *output;         /* the file of the picture, .png, .svg or .pdf; NULL: the script draws
                                    on the terminal that gnuplot has */
     const char *format;         /* "png", "svg", "pdf"; NULL: that of output's ending */
@@ -33,56 +34,56 @@ typedef struct ss_plot_opts {
     double over_start;          /* [s] when its first row is drawn; NaN: with the first of the signal */
     const char *name, *over_name;   /* of the two in a legend, if there is a second; NULL: those of its columns */
     const ss_overlay *features; /* ss_plot_signal shades its transitions in every panel; NULL: none */
+    int xy;                     /* 1: ss_plot_read reads for ss_plot_xy, not for ss_plot_signal */
+    size_t rows;                /* ss_plot_read and ss_plot_spectra write the number of rows read */
+    double resolution;          /* [Hz] of ss_plot_spectra, as for ss_spectrum_new; 0: that of seven segments */
+    int decibels;               /* 1: ss_plot_spectrum draws dB re 1 unit^2/Hz */
+    const double *curve;        /* ss_plot_map draws this line: x, y, x, y, ..., NaN where it breaks; NULL: none */
+    size_t n_curve;             /* its points */
 } ss_plot_opts;
-extern const ss_plot_opts ss_plot_defaults;
+/* All that may be NULL is, times are NaN, the style is SS_PAPER.  Where a function takes options, NULL stands
+ * for these. */
+void ss_plot_opts_init(ss_plot_opts *opts, size_t size);
 
 /* Draw the n columns of these indices over time, one panel each (figure 1); with n = 0 all columns.
  * The first column of opts->over is drawn over the first panel. */
 ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
-/* Read a signal of any length to its end and make a signal for ss_plot_signal, in memory that does
- * not grow.  *rows becomes the number of rows read.  Up to 2^20 values are kept as they are.  Of
- * more values, only the smallest and the largest of each of some 10^6 blocks between opts->from
- * and opts->to are kept; these two then become the span of the picture.  On their clock the signal
- * starts at start [s], which is that of its header unless it is drawn over another. */
-ss_status ss_plot_envelope(ss_signal **out, size_t *rows, ss_reader *reader, const size_t column[],
-                           size_t n, double start, ss_plot_opts *opts, ss_error *err);
 /* Draw column y over column x: a phase plane or a friction loop.  If opts->over is not NULL, its
  * columns of the same names are drawn over it, or else its first two. */
 ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
 
-/* Read a signal of any length, which can go back to its first row, and make a signal of its
- * columns x and y (or one, if they are the same) for ss_plot_xy, of the rows between from and to, as above.  *rows becomes the
- * number of rows read.  Up to 2^19 of them are kept as they are.  Of more, a part of the line is
- * left out if it crosses no cell of half a pixel that the line has not crossed before; a gap of the
- * signal then stands for such a part, and times have no meaning.  opts->from and to are for the
- * reading only: the picture has all of the signal. */
-ss_status ss_plot_path(ss_signal **out, size_t *rows, ss_reader *reader, size_t x, size_t y, double start,
-                       const ss_plot_opts *opts, ss_error *err);
-/* The columns of opts->over that ss_plot_xy draws: those with the names of columns x and y of the
- * signal, or else the first two.  SS_EINVAL: there is but one. */
-ss_status ss_plot_over_columns(size_t column[2], const ss_header *over, const ss_header *signal, size_t x,
-                               size_t y, ss_error *err);
+/* Read a signal of any length to its end and make a signal of n of its columns for one of these, in memory
+ * that does not grow.  opts->from and to, the span of it that is read, become those of the picture.
+ *
+ * Over time, up to 2^20 values are kept as they are.  Of more values, only the smallest and the largest of
+ * each of some 10^6 blocks are kept.
+ *
+ * If opts->xy is 1, n is 2, or 1 for a column over itself, and the reader can go back to its first row.  Up
+ * to 2^19 rows are kept as they are.  Of more, a part of the line is left out if it crosses no cell of half a
+ * pixel that the line has not crossed before; a gap of the signal then stands for such a part, and times
+ * have no meaning. */
+ss_status ss_plot_read(ss_signal **out, ss_reader *reader, const size_t column[], size_t n,
+                       ss_plot_opts *opts, ss_error *err);
 
 /* Estimate the spectra of n columns of a signal of any length, which can go back to its first row,
- * in the span of opts; resolution as for ss_spectrum_new.  *rows becomes the number of rows read.
- * The caller frees each spectrum, even after a failure. */
-ss_status ss_plot_spectra(ss_spectrum *spectrum[], size_t *rows, ss_reader *reader, const size_t column[],
-                          size_t n, double resolution, const ss_plot_opts *opts, ss_error *err);
-/* Draw these spectra of n columns, one panel each.  decibels: 1: in dB re 1 unit^2/Hz. */
+ * in the span of opts.  The caller frees each spectrum, even after a failure. */
+ss_status ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[], size_t n,
+                          ss_plot_opts *opts, ss_error *err);
+/* Draw these spectra of n columns, one panel each. */
 ss_status ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t n,
-                           ss_spectrum *const spectrum[], int decibels, const ss_plot_opts *opts,
-                           ss_error *err);
+                           ss_spectrum *const spectrum[], const ss_plot_opts *opts, ss_error *err);
 
 typedef struct ss_contour_opts {
+    size_t size;                /* set by ss_contour_opts_init */
     int levels;                 /* the number of contour lines */
     double span;                /* [dB] from the largest |W| down to the lowest line, at most */
     double noise;               /* |W| at which noise begins; the lines end there, but they always span
                                    10 dB; NaN: it is measured, see below; 0: the lines span all of span */
     double top;                 /* the largest |W|; 0: it is measured, outside the cone of influence */
     double level;               /* [dB] re 1: the |W| of 0 dB, so that pictures compare; NaN: the largest */
-    const char *palette;        /* one of ss_palette_name; NULL: viridis */
+    const char *palette;        /* one of ss_palettes; NULL: viridis */
     int fill;                   /* 1: draw colours between the lines */
     int ridge;                  /* 1: mark the ridges, see below */
     double fmin, fmax;          /* [Hz] the range of labels to draw; 0: all */
@@ -96,10 +97,11 @@ typedef struct ss_contour_opts {
 extern const ss_range ss_contour_levels;
 extern const ss_range ss_contour_spans;         /* [dB] */
 extern const ss_range ss_contour_tops;          /* [dB] of level */
-extern const ss_contour_opts ss_contour_defaults;   /* 18 levels over 80 dB, or down to the noise */
-/* The name of the i-th palette, each with even steps of lightness: "viridis", ..., and those with
- * "_r", whose loudest level is light; NULL after the last. */
-const char *ss_palette_name(size_t i);
+/* 18 levels over 80 dB, or down to the noise.  Where a function takes options, NULL stands for these. */
+void ss_contour_opts_init(ss_contour_opts *opts, size_t size);
+/* The names of palettes, each with even steps of lightness: "viridis", ..., and those with "_r", whose
+ * loudest level is light; NULL behind the last. */
+extern const char *const ss_palettes[];
 
 /* Draw contours of L = 20 log10(|W| / |W| of 0 dB) at -k span/levels, k = 1 ... levels.
  *
@@ -129,23 +131,15 @@ ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *op
  * multiple of the scene's own, with a point for each simpler scene. */
 ss_status ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_error *err);
 
-typedef struct ss_map_opts {
-    size_t x, y;                /* columns of the table that make a grid */
-    size_t z[2], n_z;           /* the one or two columns drawn over this grid */
-    const double *curve;        /* a line over the map: x, y, x, y, ..., NaN where it breaks; or NULL */
-    size_t n_curve;             /* its points */
-} ss_map_opts;
-
-/* Draw a map of a sweep over two parameters.  A column with at most ten different values is drawn
- * as regions, any other as lines of equal value.  "-" is no value, and "aperiodic" a period of 0.
- * SS_EDATA: a drawn column has another word. */
-ss_status ss_plot_map(FILE *out, const ss_table *table, const ss_map_opts *map,
+/* Draw a map of a sweep over two parameters: columns 0 and 1 of these make a grid, and the other one or two
+ * are drawn over it.  A column with at most ten different values is drawn as regions, any other as lines of
+ * equal value.  "-" is no value, and "aperiodic" a period of 0.  SS_EDATA: a drawn column has another word. */
+ss_status ss_plot_map(FILE *out, const ss_table *table, const size_t column[], size_t n,
                       const ss_plot_opts *opts, ss_error *err);
 
-/* Draw a sweep over one parameter: n columns y over the column x, one panel each.  They are points
- * if rows of the same x differ (a bifurcation diagram), else a line.  Words are as in ss_plot_map.
- */
-ss_status ss_plot_diagram(FILE *out, const ss_table *table, size_t x, const size_t y[], size_t n,
+/* Draw a sweep over one parameter: columns 1 to n - 1 of these over column 0, one panel each.  They are
+ * points if rows of the same x differ (a bifurcation diagram), else a line.  Words are as in ss_plot_map. */
+ss_status ss_plot_diagram(FILE *out, const ss_table *table, const size_t column[], size_t n,
                           const ss_plot_opts *opts, ss_error *err);
 
 SS_END_DECLARATIONS

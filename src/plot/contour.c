@@ -7,12 +7,19 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/options.h"
 #include "base/range.h"
 #include "map/wavelet.h"
 
 const ss_range ss_contour_levels = { 1, CONTOUR_LEVELS }, ss_contour_spans = { 1e-3, 1000 },
     ss_contour_tops = { -2000, 2000 };
-const ss_contour_opts ss_contour_defaults = { .levels = 18, .span = 80, .noise = NAN, .level = NAN };
+static const ss_contour_opts defaults = { .levels = 18, .span = 80, .noise = NAN, .level = NAN };
+
+void
+ss_contour_opts_init(ss_contour_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &defaults, sizeof defaults);
+}
 
 /* --- axes and cone --------------------------------------------------------------------------- */
 
@@ -323,20 +330,26 @@ ss_status
 ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
                 const ss_plot_opts *opts, ss_error *err)
 {
-    if (out == NULL || c == NULL || contour == NULL || opts == NULL)
+    if (out == NULL || c == NULL)
         return SS_FAIL_NULL(err);
     script_span span;
+    ss_plot_opts own;
+    ss_contour_opts own_contour;
     contour_map map = { .rows = 0 };
-    drawing d = { .c = c, .contour = contour, .map = &map };
-    ss_status status = check(c, contour, err);
+    drawing d = { .c = c, .contour = &own_contour, .map = &map };
+    ss_status status = ss_script_take(&own, opts, err);
     if (status == SS_OK)
-        status = ss_contour_check_marks(contour, err);
+        status = ss_options_take(&own_contour, sizeof own_contour, &defaults, contour, err);
     if (status == SS_OK)
-        status = ss_script_find_span(&span, c->head, c->n, opts, err);
+        status = check(c, &own_contour, err);
     if (status == SS_OK)
-        status = ss_contour_map(&map, c, contour, &span, err);
+        status = ss_contour_check_marks(&own_contour, err);
     if (status == SS_OK)
-        status = write_script(out, &d, opts, err);
+        status = ss_script_find_span(&span, c->head, c->n, &own, err);
+    if (status == SS_OK)
+        status = ss_contour_map(&map, c, &own_contour, &span, err);
+    if (status == SS_OK)
+        status = write_script(out, &d, &own, err);
     ss_contour_map_free(&map);
     free(d.clock.gap);
     return status;

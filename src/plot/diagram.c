@@ -126,24 +126,27 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
 }
 
 ss_status
-ss_plot_diagram(FILE *out, const ss_table *t, size_t x, const size_t y[], size_t n,
-                const ss_plot_opts *opts, ss_error *err)
+ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, const ss_plot_opts *opts,
+                ss_error *err)
 {
-    if (out == NULL || t == NULL || opts == NULL || (y == NULL && n > 0))
+    ss_plot_opts own;
+    if (out == NULL || t == NULL || drawn == NULL)
         return SS_FAIL_NULL(err);
-    if (n < 1 || n >= COLUMNS_MAX)
+    ss_status st = ss_script_take(&own, opts, err);
+    if (st != SS_OK)
+        return st;
+    if (n < 2 || n > COLUMNS_MAX)
         return ss_fail(err, SS_EINVAL, "a diagram shows 1 ... %d columns", COLUMNS_MAX - 1);
     map_column column[COLUMNS_MAX] = { { NULL, NULL } };
-    ss_status st = SS_OK;
-    for (size_t i = 0; st == SS_OK && i <= n; i++) {
-        st = ss_map_read_column(&column[i], t, i == 0 ? x : y[i - 1], err);
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        st = ss_map_read_column(&column[i], t, drawn[i], err);
         script_extent e = st == SS_OK ? ss_script_extent(column[i].value, t->n) : (script_extent){ 0, 1 };
         if (!(e.lo <= e.hi) || (i == 0 && !(e.lo < e.hi)))
             st = ss_fail(err, SS_EINVAL, "%s has %s", column[i].label->name,
                          i == 0 ? "one value only" : "no value to draw");
     }
     if (st == SS_OK)
-        st = write_diagram(out, t, column, n + 1, opts, err);
+        st = write_diagram(out, t, column, n, &own, err);
     for (size_t i = 0; i < COLUMNS_MAX; i++)
         free(column[i].value);
     return st;

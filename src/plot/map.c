@@ -29,21 +29,13 @@ typedef struct drawn {
 } drawn;
 
 static ss_status
-read_column(drawn *d, size_t c, ss_error *err)
+read_columns(drawn *d, const size_t column[], size_t n, ss_error *err)
 {
-    return ss_map_read_column(&d->column[d->n++], d->table, c, err);
-}
-
-static ss_status
-read_columns(drawn *d, const ss_map_opts *map, ss_error *err)
-{
-    if (map->n_z < 1 || map->n_z > 2)
+    ss_status st = SS_OK;
+    if (n < 3 || n > COLUMNS_MAX)
         return ss_fail(err, SS_EINVAL, "a map shows one column or two");
-    ss_status st = read_column(d, map->x, err);
-    if (st == SS_OK)
-        st = read_column(d, map->y, err);
-    for (size_t i = 0; st == SS_OK && i < map->n_z; i++)
-        st = read_column(d, map->z[i], err);
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        st = ss_map_read_column(&d->column[d->n++], d->table, column[i], err);
     return st;
 }
 
@@ -154,7 +146,7 @@ write_regions(FILE *out, const map_grid *g, const double *column, const regions 
 /* --- the script ---------------------------------------------------------------------------- */
 
 static void
-write_curve(FILE *out, const ss_map_opts *map, const map_grid *g)
+write_curve(FILE *out, const ss_plot_opts *map, const map_grid *g)
 {
     fputs("$curve << EOD\n", out);
     for (size_t i = 0; i < map->n_curve; i++)
@@ -192,7 +184,7 @@ write_axis(FILE *out, const char *name, const map_axis *a)
 }
 
 static void
-write_plot(FILE *out, const ss_map_opts *map, const regions *r, int has_lines)
+write_plot(FILE *out, const ss_plot_opts *map, const regions *r, int has_lines)
 {
     const char *comma = "plot ";
     for (size_t i = 0; i < r->n; i++, comma = ", \\\n     ") {
@@ -226,7 +218,7 @@ write_plot(FILE *out, const ss_map_opts *map, const regions *r, int has_lines)
 /* Everything that the plot command names. */
 static ss_status
 write_data(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t line,
-           const ss_map_opts *map, ss_error *err)
+           const ss_plot_opts *map, ss_error *err)
 {
     if (r->n > 0)
         write_regions(out, g, d->column[r->column].value, r);
@@ -259,7 +251,7 @@ write_key(FILE *out, const drawn *d, const regions *r)
 /* line: the column drawn as lines, 0 for none. */
 static ss_status
 write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t line,
-          const ss_map_opts *map, const ss_plot_opts *opts, ss_error *err)
+          const ss_plot_opts *opts, ss_error *err)
 {
     const ss_plot_opts titled = ss_map_titled(opts, d->table);
     script_label x_label = ss_map_label(d->column[0].label, g->x.scale, INFINITY);
@@ -274,7 +266,7 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     fputs("line_colour = '#222222'; curve_colour = '" VERMILION "'; missing_colour = '#bbbbbb'\n"
           "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : "
           "'8')\n", out);
-    st = write_data(out, d, g, r, line, map, err);
+    st = write_data(out, d, g, r, line, opts, err);
     if (st != SS_OK)
         return st;
     ss_print(out, "set lmargin at screen %g; set tmargin at screen %s; "
@@ -286,7 +278,7 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     fputs("set tics nomirror out scale 0.6; set border lw 0.8 front\n"
           "set style textbox opaque fillcolor '#ffffff' noborder margins 0.4,0.3\n", out);
     write_key(out, d, r);
-    write_plot(out, map, r, line > 0);
+    write_plot(out, opts, r, line > 0);
     return ss_script_end(out);
 }
 
@@ -318,22 +310,25 @@ choose_forms(regions *r, size_t *line, const drawn *d, const map_grid *g, ss_err
 }
 
 ss_status
-ss_plot_map(FILE *out, const ss_table *t, const ss_map_opts *map, const ss_plot_opts *opts,
+ss_plot_map(FILE *out, const ss_table *t, const size_t column[], size_t n, const ss_plot_opts *opts,
             ss_error *err)
 {
-    if (out == NULL || t == NULL || map == NULL || opts == NULL)
+    ss_plot_opts own;
+    if (out == NULL || t == NULL || column == NULL)
         return SS_FAIL_NULL(err);
     drawn d = { .table = t };
     map_grid g = { .row = NULL };
     regions r = { .n = 0 };
     size_t line = 0;
-    ss_status st = read_columns(&d, map, err);
+    ss_status st = ss_script_take(&own, opts, err);
+    if (st == SS_OK)
+        st = read_columns(&d, column, n, err);
     if (st == SS_OK)
         st = ss_map_grid_make(&g, d.column, t->n, err);
     if (st == SS_OK)
         st = choose_forms(&r, &line, &d, &g, err);
     if (st == SS_OK)
-        st = write_map(out, &d, &g, &r, line, map, opts, err);
+        st = write_map(out, &d, &g, &r, line, &own, err);
     for (size_t i = 0; i < COLUMNS_MAX; i++)
         free(d.column[i].value);
     ss_map_grid_free(&g);

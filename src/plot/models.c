@@ -146,11 +146,16 @@ ss_status
 ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_error *err)
 {
     double least, most;
-    if (out == NULL || models == NULL || opts == NULL)
+    if (out == NULL || models == NULL)
         return SS_FAIL_NULL(err);
+    ss_plot_opts own;
+    ss_status st = ss_script_take(&own, opts, err);
+    if (st != SS_OK)
+        return st;
+    opts = &own;
     if (models->n < 2)
         return ss_fail(err, SS_EINVAL, "nothing to draw: no simpler scene");
-    ss_status st = find_times(&least, &most, models, err);
+    st = find_times(&least, &most, models, err);
     if (st == SS_OK)
         st = ss_script_begin(out, opts, 9, err);
     if (st != SS_OK)

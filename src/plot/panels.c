@@ -151,16 +151,21 @@ ss_status
 ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
                const ss_plot_opts *opts, ss_error *err)
 {
-    if (out == NULL || signal == NULL || opts == NULL || (column == NULL && n > 0))
+    ss_plot_opts own;
+    if (out == NULL || signal == NULL || (column == NULL && n > 0))
         return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
     script_clock clock = { .gap = NULL }, over_clock = { .gap = NULL };
     script_span span, over_span;
     panel *p = NULL;
+    ss_status status = ss_script_take(&own, opts, err);
+    if (status != SS_OK)
+        return status;
+    opts = &own;
     int over = opts->over != NULL;
     size_t panels = n > 0 ? n : head->n_columns, bands = 0;
     double title = ss_script_title_height(opts, head) + (over ? LEGEND : 0), height = title + TIME + PANEL * (double)panels;
-    ss_status status = make_panels(&p, signal, n > 0 ? column : NULL, panels, err);
+    status = make_panels(&p, signal, n > 0 ? column : NULL, panels, err);
     if (status == SS_OK)
         status = ss_script_find_span(&span, head, signal->n, opts, err);
     for (size_t i = 0; status == SS_OK && i < panels; i++)
@@ -224,14 +229,10 @@ make_path(path *p, const ss_signal *signal, const size_t column[2], const script
     return st == SS_OK ? ss_script_make_clock(&p->clock, signal->head, span, err) : st;
 }
 
-ss_status
-ss_plot_over_columns(size_t column[2], const ss_header *over, const ss_header *signal, size_t x, size_t y,
-                     ss_error *err)
+/* The columns with the names of x and y, or else the first two. */
+static ss_status
+find_over(size_t column[2], const ss_header *over, const ss_header *signal, size_t x, size_t y, ss_error *err)
 {
-    if (column == NULL || over == NULL || signal == NULL)
-        return SS_FAIL_NULL(err);
-    if (x >= signal->n_columns || y >= signal->n_columns)
-        return ss_fail_column(err, x > y ? x : y, signal->n_columns);
     const char *name[2] = { signal->column[x].name, signal->column[y].name };
     int found[2] = { ss_header_column(over, name[0]), ss_header_column(over, name[1]) };
     int named = found[0] >= 0 && found[1] >= 0;
@@ -248,7 +249,7 @@ make_over_path(path *over, const path *p, const ss_header *head, size_t x, size_
 {
     script_span span;
     size_t column[2];
-    ss_status st = ss_plot_over_columns(column, opts->over->head, head, x, y, err);
+    ss_status st = find_over(column, opts->over->head, head, x, y, err);
     if (st == SS_OK)
         st = find_over_span(&span, p->clock.start, opts, err);
     return st == SS_OK ? make_path(over, opts->over, column, &span, err) : st;
@@ -329,14 +330,19 @@ ss_status
 ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y, const ss_plot_opts *opts,
            ss_error *err)
 {
-    if (out == NULL || signal == NULL || opts == NULL)
+    ss_plot_opts own;
+    if (out == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
     script_span span;
     path p = { .clock = { .gap = NULL } }, over = p;
+    ss_status status = ss_script_take(&own, opts, err);
+    if (status != SS_OK)
+        return status;
     if (x >= head->n_columns || y >= head->n_columns)
         return ss_fail_column(err, x > y ? x : y, head->n_columns);
-    ss_status status = ss_script_find_span(&span, head, signal->n, opts, err);
+    opts = &own;
+    status = ss_script_find_span(&span, head, signal->n, opts, err);
     if (status == SS_OK)
         status = make_path(&p, signal, (const size_t[]){ x, y }, &span, err);
     if (status == SS_OK && opts->over != NULL)

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/options.h"
 #include "base/utf8.h"
 
 #define WIDTH 8.5               /* [cm] */
@@ -18,7 +19,19 @@
 #define SCREEN 1.5              /* how much wider and higher on a screen */
 #define LARGEST 1e300           /* drawn value: differences and powers of ten stay finite */
 
-const ss_plot_opts ss_plot_defaults = { .from = NAN, .to = NAN, .style = SS_PAPER, .over_start = NAN };
+static const ss_plot_opts defaults = { .from = NAN, .to = NAN, .style = SS_PAPER, .over_start = NAN };
+
+void
+ss_plot_opts_init(ss_plot_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &defaults, sizeof defaults);
+}
+
+ss_status
+ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err)
+{
+    return ss_options_take(own, sizeof *own, &defaults, opts, err);
+}
 
 /* --- numbers and text ---------------------------------------------------------------------- */
 
@@ -151,10 +164,8 @@ script_extent
 ss_script_extent(const double *x, size_t n)
 {
     script_extent e = SCRIPT_NO_EXTENT;
-    for (size_t i = 0; i < n; i++) {
-        e.lo = fmin(e.lo, x[i]);            /* of a NaN and a number, the number */
-        e.hi = fmax(e.hi, x[i]);
-    }
+    for (size_t i = 0; i < n; i++)
+        ss_script_include(&e, x[i]);
     return e;
 }
 
@@ -308,20 +319,6 @@ ss_script_find_span(script_span *span, const ss_header *head, size_t n, const ss
     return SS_OK;
 }
 
-/* Of a number of rows that may be less than 0, or more than there are in any file; NaN: all. */
-static size_t
-row_number(double row)
-{
-    return row < 1e18 ? (size_t)fmax(row, 0) : SIZE_MAX;
-}
-
-void
-ss_script_find_rows(size_t *first, size_t *end, const ss_header *head, const ss_plot_opts *opts)
-{
-    *first = isnan(opts->from) ? 0 : row_number(floor((opts->from - head->start) * head->rate));
-    *end = row_number(ceil((opts->to - head->start) * head->rate) + 1);
-}
-
 ss_status
 ss_script_make_clock(script_clock *clock, const ss_header *head, const script_span *span, ss_error *err)
 {
@@ -353,7 +350,7 @@ ss_script_span_extent(const double *x, const script_clock *clock, const script_s
     script_extent e = SCRIPT_NO_EXTENT;
     for (size_t i = span->first; i < span->first + span->n; i++)
         if (!ss_script_is_missing(clock, i))
-            e = (script_extent){ fmin(e.lo, x[i]), fmax(e.hi, x[i]) };
+            ss_script_include(&e, x[i]);
     return e;
 }
 

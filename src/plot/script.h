@@ -9,6 +9,9 @@
 
 #define SCRIPT_COLUMNS 1000     /* pixel columns of a line over time, after thinning */
 
+/* Take a caller's options.  SS_EINVAL: they were not initialised. */
+ss_status ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err);
+
 /* The part of a record that is drawn. */
 typedef struct script_span {
     double from, to;            /* [s] on the source's clock */
@@ -22,9 +25,6 @@ ss_status ss_script_find_span(script_span *span, const ss_header *head, size_t n
 /* SS_EINVAL unless gnuplot can draw these n values of the column: they are finite, at most 1e300, and
  * not all nearer to 0 than 1e-300. */
 ss_status ss_script_check(const char *column, const double *x, size_t n, ss_error *err);
-
-/* The rows [*first, *end) of that span while the number of rows is not known. */
-void ss_script_find_rows(size_t *first, size_t *end, const ss_header *head, const ss_plot_opts *opts);
 
 /* Top of the script: terminal and size, and the variable mark, a factor of the sizes of points; the title
  * and the caller's own variables follow. */
@@ -63,6 +63,12 @@ typedef struct script_extent {
     double lo, hi;
 } script_extent;
 #define SCRIPT_NO_EXTENT ((script_extent){ INFINITY, -INFINITY })
+static inline void
+ss_script_include(script_extent *e, double x)
+{
+    e->lo = x < e->lo ? x : e->lo;          /* no NaN */
+    e->hi = x > e->hi ? x : e->hi;
+}
 /* The power of ten, a multiple of 3, by which the n values are divided to be short to read. */
 int ss_script_exponent(const double *x, size_t n);
 /* What is drawn of a value: (x - offset)/unit.  offset is 0 unless labels would be long without. */

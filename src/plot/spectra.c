@@ -1,6 +1,6 @@
 /* spectra.c -- the power spectral density of columns over a logarithmic axis of frequency, a panel
  * each. */
-#include "plot/script.h"
+#include "plot/series.h"
 #include "plot/style.h"
 
 #include <math.h>
@@ -93,72 +93,46 @@ plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i,
 
 /* --- a signal of any length ----------------------------------------------------------------- */
 
-/* The rows of a signal that are drawn. */
-typedef struct selection {
-    ss_reader *reader;
-    size_t first, end;          /* the row end is not drawn */
-    size_t rows;                /* that were read */
-    double **wanted, *piece;    /* of each column; some values of the one that is wanted */
-} selection;
-
-/* Read all rows, and add those of a column that are drawn to welch, unless it is NULL. */
+/* The spectrum of one column of n rows. */
 static ss_status
-read_column(selection *s, size_t column, ss_welch *welch, ss_error *err)
-{
-    ss_status st = ss_reader_rewind(s->reader, err);
-    size_t n = 1;
-    s->wanted[column] = s->piece;
-    for (s->rows = 0; st == SS_OK && n > 0; s->rows += n) {
-        st = ss_reader_rows(s->reader, s->wanted, ss_reader_piece(s->reader), &n, err);
-        size_t from = s->first > s->rows ? s->first - s->rows : 0, to = s->end > s->rows ? s->end - s->rows : 0;
-        to = to < n ? to : n;
-        if (st == SS_OK && welch != NULL && from < to)
-            st = ss_welch_add(welch, s->piece + from, to - from, err);
-    }
-    s->wanted[column] = NULL;
-    return st;
-}
-
-static ss_status
-estimate(ss_spectrum **out, selection *s, size_t column, size_t n, double resolution, ss_error *err)
+estimate(ss_spectrum **out, series *s, size_t column, size_t n, double resolution, ss_error *err)
 {
     ss_welch *welch = NULL;
-    ss_status st = ss_welch_new(&welch, n, ss_reader_header(s->reader)->rate, resolution, err);
+    ss_status st = ss_welch_new(&welch, n, s->head->rate, resolution, err);
     if (st == SS_OK)
-        st = read_column(s, column, welch, err);
+        st = ss_series_rewind(s, err);
+    for (size_t got = 1; st == SS_OK && got > 0;) {
+        st = ss_series_next(s, &got, err);
+        if (st == SS_OK)
+            st = ss_welch_add(welch, s->value + column * s->piece, got, err);
+    }
     if (st == SS_OK)
         st = ss_welch_end(out, welch, err);
     ss_welch_free(welch);
     return st;
 }
 
+/* The rows are read once to be counted, and once for each column. */
 ss_status
-ss_plot_spectra(ss_spectrum *spectrum[], size_t *rows, ss_reader *reader, const size_t column[], size_t n,
-                double resolution, const ss_plot_opts *opts, ss_error *err)
+ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[], size_t n, ss_plot_opts *opts,
+                ss_error *err)
 {
-    if (spectrum == NULL || rows == NULL || reader == NULL || column == NULL || opts == NULL)
-        return SS_FAIL_NULL(err);
-    const ss_header *head = ss_reader_header(reader);
-    selection s = { .reader = reader };
+    series s;
     script_span span;
+    if (spectrum == NULL || reader == NULL || column == NULL || opts == NULL)
+        return SS_FAIL_NULL(err);
     memset(spectrum, 0, n * sizeof *spectrum);
-    for (size_t i = 0; i < n; i++)
-        if (column[i] >= head->n_columns)
-            return ss_fail_column(err, column[i], head->n_columns);
-    s.wanted = calloc(head->n_columns, sizeof *s.wanted);
-    s.piece = malloc(ss_reader_piece(reader) * sizeof *s.piece);
-    ss_status st = s.wanted != NULL && s.piece != NULL ? read_column(&s, 0, NULL, err) : ss_fail_memory(err, NULL);
+    ss_status st = ss_series_begin(&s, reader, column, n, opts, err);
     if (st == SS_OK)
-        st = ss_script_find_span(&span, head, s.rows, opts, err);
-    if (st == SS_OK) {
-        s.first = span.first;
-        s.end = span.first + span.n;
-    }
-    *rows = s.rows;
+        st = ss_series_rewind(&s, err);
+    for (size_t got = 1; st == SS_OK && got > 0;)
+        st = ss_series_next(&s, &got, err);
+    opts->rows = s.rows;
+    if (st == SS_OK)
+        st = ss_script_find_span(&span, s.head, s.rows, opts, err);
     for (size_t i = 0; st == SS_OK && i < n; i++)
-        st = estimate(&spectrum[i], &s, column[i], span.n, resolution, err);
-    free(s.wanted);
-    free(s.piece);
+        st = estimate(&spectrum[i], &s, i, span.n, opts->resolution, err);
+    ss_series_free(&s);
     return st;
 }
 
@@ -166,17 +140,22 @@ ss_plot_spectra(ss_spectrum *spectrum[], size_t *rows, ss_reader *reader, const 
 
 ss_status
 ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t n, ss_spectrum *const spectrum[],
-                 int decibels, const ss_plot_opts *opts, ss_error *err)
+                 const ss_plot_opts *given, ss_error *err)
 {
-    if (out == NULL || head == NULL || column == NULL || spectrum == NULL || opts == NULL)
+    ss_plot_opts own, *opts = &own;
+    if (out == NULL || head == NULL || column == NULL || spectrum == NULL)
         return SS_FAIL_NULL(err);
+    ss_status st = ss_script_take(&own, given, err);
+    if (st != SS_OK)
+        return st;
+    int decibels = own.decibels;
     if (n == 0)
         return ss_fail(err, SS_EINVAL, "no columns to draw");
     double title = ss_script_title_height(opts, head), height = title + BELOW + PANEL * (double)n;
     double font = 1;
     script_label label;
     const ss_spectrum *s = spectrum[0];
-    ss_status st = ss_script_begin(out, opts, height, err);
+    st = ss_script_begin(out, opts, height, err);
     if (st != SS_OK)
         return st;
     ss_script_write_title(out, opts, head, NULL);

@@ -57,8 +57,13 @@ write_plot(FILE *out, const ss_trade *trade)
 ss_status
 ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_error *err)
 {
-    if (out == NULL || trade == NULL || opts == NULL)
+    if (out == NULL || trade == NULL)
         return SS_FAIL_NULL(err);
+    ss_plot_opts own;
+    ss_status st = ss_script_take(&own, opts, err);
+    if (st != SS_OK)
+        return st;
+    opts = &own;
     double fastest = INFINITY, least = INFINITY, most = 0;
     for (size_t i = 0; i < trade->n; i++) {
         const ss_trade_row *row = &trade->row[i];
@@ -73,7 +78,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
     }
     if (isinf(fastest))
         return ss_fail(err, SS_EINVAL, "nothing to draw: no row was measured");
-    ss_status st = ss_script_begin(out, opts, 9, err);
+    st = ss_script_begin(out, opts, 9, err);
     if (st != SS_OK)
         return st;
     ss_script_write_title(out, opts, NULL, NULL);

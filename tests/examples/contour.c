@@ -15,7 +15,8 @@ static ss_status
 write_plot(const char *path, const ss_coefficients *coefficients, const ss_signal *signal,
            size_t column, ss_error *err)
 {
-    ss_contour_opts opts = ss_contour_defaults;
+    ss_contour_opts opts;
+    ss_contour_opts_init(&opts, sizeof opts);
     opts.signal = signal;
     opts.column = column;
     FILE *out = fopen(path, "w");
@@ -23,7 +24,7 @@ write_plot(const char *path, const ss_coefficients *coefficients, const ss_signa
         snprintf(err->text, sizeof err->text, "%s: cannot be written", path);
         return SS_EIO;
     }
-    ss_status status = ss_plot_contour(out, coefficients, &opts, &ss_plot_defaults, err);
+    ss_status status = ss_plot_contour(out, coefficients, &opts, NULL, err);
     if (fclose(out) != 0 && status == SS_OK)
         status = SS_EIO;
     return status;

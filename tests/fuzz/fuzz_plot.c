@@ -65,7 +65,8 @@ draw_contour(FILE *out, const material *m, const ss_signal *signal, const ss_plo
 {
     ss_scale scale[SCALES];
     double w[2 * SCALES * PER_SCALE], event[] = { m->x[24] };
-    ss_contour_opts contour = ss_contour_defaults;
+    ss_contour_opts contour;
+    ss_contour_opts_init(&contour, sizeof contour);
     memcpy(w, m->x, sizeof w);
     for (size_t i = 0; i < SCALES; i++)
         scale[i] = (ss_scale){ .a = 0.05 / (double)(1 << i), .f = 4 << i, .b_num = 8, .b_den = 100,
@@ -94,8 +95,7 @@ draw_map(FILE *out, const material *m, const ss_plot_opts *opts, ss_error *err)
     }
     const ss_table table = { .n_notes = 1, .note = notes, .n_columns = 4, .column = column, .n = POINTS,
                              .cell = cell };
-    const ss_map_opts map = { .x = 0, .y = 1, .z = { 2, 3 }, .n_z = 2 };
-    return ss_plot_map(out, &table, &map, opts, err);
+    return ss_plot_map(out, &table, (const size_t[]){ 0, 1, 2, 3 }, 4, opts, err);
 }
 
 static ss_status
@@ -119,7 +119,8 @@ draw(const material *m, kind k)
     char *text = NULL;
     size_t length = 0;
     ss_error err = { 0 };
-    ss_plot_opts opts = ss_plot_defaults;
+    ss_plot_opts opts;
+    ss_plot_opts_init(&opts, sizeof opts);
     ss_signal *signal = make_signal(m);
     FILE *out = open_memstream(&text, &length);
     fuzz_check(out != NULL, "memory for a stream");

@@ -41,10 +41,10 @@ draw(const ss_table *t)
     ss_error err = { 0 };
     if (n < 4)
         return;
-    const ss_map_opts map = { .x = n - 4, .y = n - 3, .z = { n - 2, n - 1 }, .n_z = 2 };
+    const size_t column[] = { n - 4, n - 3, n - 2, n - 1 };
     FILE *out = open_memstream(&text, &length);
     fuzz_check(out != NULL, "memory for a stream");
-    ss_status status = ss_plot_map(out, t, &map, &ss_plot_defaults, &err);
+    ss_status status = ss_plot_map(out, t, column, 4, NULL, &err);
     if (status != SS_OK)
         fuzz_check_refusal(status == SS_EINVAL ? SS_EDATA : status, &err);
     fclose(out);
