@@ -110,6 +110,7 @@ TOOL_LIBS = $(NUMERICS) -ldl
 endif
 OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
 	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o $(BUILD)/tests/clock.o $(BUILD)/tests/rig.o \
+	$(BUILD)/tests/random_scene.o \
 	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
 
 all: $(STATIC) $(BUILD)/$(SHARED) $(BUILD)/stickslip.3 $(TOOLS:%=$(BUILD)/bin/%) $(SCRIPTS:%=$(BUILD)/bin/%)
@@ -173,6 +174,8 @@ $(BUILD)/tests/test_memory: ALL_LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 
 $(BUILD)/tests/test_sim $(BUILD)/tests/test_sim_truth $(BUILD)/tests/test_taylor $(BUILD)/tests/test_trade \
 	$(BUILD)/tests/test_rigs $(BUILD)/tests/test_chaos: $(BUILD)/tests/oracle.o
+$(BUILD)/tests/test_random $(BUILD)/tests/test_rigs $(BUILD)/tests/test_taylor $(BUILD)/tests/test_trade \
+	$(BUILD)/tests/proof/prove_events: $(BUILD)/tests/random_scene.o
 $(BUILD)/tests/test_trade: $(BUILD)/tests/clock.o
 $(BUILD)/tests/test_rig: $(BUILD)/tests/rig.o
 

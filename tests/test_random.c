@@ -58,7 +58,7 @@ ended(const trial *t, const run *r)
 static run
 run_alike(const trial *t, const ss_scene *s, double tol)
 {
-    return run_with(s, t->method, tol, t->scene.model == ss_model_named("state-variable") ? LONG_BUDGET : BUDGET);
+    return run_with(s, t->method, tol, ss_model_is_linear(t->scene.model) ? BUDGET : LONG_BUDGET);
 }
 
 static trial
@@ -68,13 +68,13 @@ trial_of(uint64_t number)
     ss_error err = { 0 };
     if (ss_scene_check(&t.scene, &err) != SS_OK || ss_scene_supported(&t.scene, &err) != SS_OK)
         complain(t.number, &t.scene, err.text, 0, 0);
-    t.method = t.scene.model == ss_model_named("state-variable") ? ss_sim_method_for(&t.scene, NULL) : "exact";
+    t.method = ss_model_is_linear(t.scene.model) ? "exact" : ss_sim_method_for(&t.scene, NULL);
     t.run = run_alike(&t, &t.scene, 1e-12);
     demand(&t, t.run.err.text, t.run.status, SS_OK);
     ss_scene nudged = t.scene;
     nudged.mass *= 1 + DBL_EPSILON;
     nudged.phase += 4 * DBL_EPSILON;
-    run other = run_alike(&t, &nudged, t.scene.model == ss_model_named("state-variable") ? 1.001e-12 : 1e-12);
+    run other = run_alike(&t, &nudged, ss_model_is_linear(t.scene.model) ? 1e-12 : 1.001e-12);
     t.scale = fmax(scale_of(&t.scene), max_x(&t.run));
     t.nudged = difference(&t.run, &other, 1);
     run_free(&other);
@@ -104,11 +104,14 @@ static void
 agrees_with_another_method(const trial *t, const char *other, double tol, unsigned long most)
 {
     run b = run_with(&t->scene, other, tol, most);
+    /* a friction that falls steeply with speed spreads both fast: by 6 in one scene */
+    int falls = !ss_model_is_linear(t->scene.model) && ss_model_has_events(t->scene.model);
     if (ended(t, &b)) {
         if (t->run.stats.unresolved + b.stats.unresolved == 0 && !same_events(t, &b))
             complain(t->number, &t->scene, "events", (double)b.n_events, (double)t->run.n_events);
         demand(t, "another method's x over its scale", difference(&t->run, &b, 1) / t->scale,
-               4 * tol * (double)(b.stats.steps + 100) + 16 * (tol / 1e-12) * t->nudged / t->scale);
+               (falls ? 4 : 1) * (4 * tol * (double)(b.stats.steps + 100)
+                                  + 16 * (tol / 1e-12) * t->nudged / t->scale));
     }
     run_free(&b);
 }
@@ -116,9 +119,11 @@ agrees_with_another_method(const trial *t, const char *other, double tol, unsign
 static void
 agrees_with_other_methods(const trial *t)
 {
-    if (t->scene.model != ss_model_named("state-variable")) {
+    if (ss_model_is_linear(t->scene.model)) {
         agrees_with_another_method(t, "rk8pd", 1e-12, BUDGET);
         agrees_with_another_method(t, "taylor", 1e-12, BUDGET);
+    } else if (ss_model_has_events(t->scene.model)) {
+        agrees_with_another_method(t, "rk8pd", 1e-12, LONG_BUDGET);
     } else if (strcmp(t->method, "bsimp") == 0) {
         agrees_with_another_method(t, "rk4imp", 1e-8, 2 * RANDOM_STEPS);
     } else {
@@ -140,7 +145,7 @@ is_mirrored(const trial *t)
     if (ended(t, &b))
         demand(t, "mirrored x over its scale", difference(&t->run, &b, -1) / t->scale,
                16 * (DBL_EPSILON + t->nudged / t->scale)
-               + (t->scene.model == ss_model_named("state-variable") ? 4e-12 : 0));
+               + (ss_model_is_linear(t->scene.model) ? 0 : 4e-12));
     run_free(&b);
 }
 
@@ -153,6 +158,7 @@ does_not_depend_on_the_unit_of_mass(const trial *t)
     s.mass *= unit;
     s.stiffness *= unit;
     s.friction *= unit;
+    s.static_friction *= unit;
     ss_scene_set(&s, "contact_stiffness", ss_scene_get(&s, "contact_stiffness") * unit, NULL);
     ss_scene_set(&s, "contact_damping", ss_scene_get(&s, "contact_damping") * unit, NULL);
     run b = run_alike(t, &s, 1e-12);
@@ -338,43 +344,38 @@ balances_its_energy(const trial *t)
 
 /* --- the suite ----------------------------------------------------------------------------- */
 
+/* 1 for the models whose losses are in friction_power. */
+static int
+knows_what_is_lost(const ss_model *model)
+{
+    return ss_model_is_linear(model) || model == ss_model_named("state-variable");
+}
+
 static void
-hold_for(const char *model)
+hold_for(const ss_model *model)
 {
     size_t first = from_environment("FIRST", 0), n = from_environment("SCENES", DEFAULT_SCENES);
     for (size_t i = first; i < first + n; i++) {
-        if (random_scene(i).model != ss_model_named(model))
+        if (random_scene(i).model != model)
             continue;
         trial t = trial_of(i);
         if (t.scale > 0) {
             agrees_with_other_methods(&t);
             is_mirrored(&t);
             does_not_depend_on_the_unit_of_mass(&t);
-            balances_its_energy(&t);
+            if (knows_what_is_lost(model))
+                balances_its_energy(&t);
         }
         run_free(&t.run);
     }
 }
 
 static void
-random_coulomb_scenes_hold_every_property(void **state)
+random_scenes_hold_every_property(void **state)
 {
     (void)state;
-    hold_for("coulomb");
-}
-
-static void
-random_state_variable_scenes_hold_every_property(void **state)
-{
-    (void)state;
-    hold_for("state-variable");
-}
-
-static void
-random_compliant_scenes_hold_every_property(void **state)
-{
-    (void)state;
-    hold_for("compliant");
+    for (size_t m = 0; ss_model_at(m) != NULL; m++)
+        hold_for(ss_model_at(m));
 }
 
 /* --- the manual ---------------------------------------------------------------------------- */
@@ -407,9 +408,7 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_coulomb_scenes_hold_every_property),
-        cmocka_unit_test(random_compliant_scenes_hold_every_property),
-        cmocka_unit_test(random_state_variable_scenes_hold_every_property),
+        cmocka_unit_test(random_scenes_hold_every_property),
         cmocka_unit_test(the_manual_shows_the_ranges_drawn_from),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -135,6 +135,7 @@ typedef struct ss_scene_range {
     double from, to;
     int zero;                   /* 1: 0 belongs to the range too */
     double (*value)(const ss_scene *scene);     /* NaN where it has no meaning */
+    void (*set)(ss_scene *scene, double x);     /* change a key so that the value is x; NULL: not one alone */
 } ss_scene_range;
 /* The i-th range of the scenes of a model; NULL after the last. */
 const ss_scene_range *ss_model_range(const ss_model *model, size_t i);

@@ -63,15 +63,15 @@ hold(const ss_scene *s)
 }
 
 static const ss_scene_range of_every[] = {
-    { "m", "kg", 1e-12, 1e12, 0, mass },
-    { "omega_n/(2 pi)", "Hz", 1e-9, 1e9, 0, hertz },
-    { "X", "m", 1e-15, 1e9, 1, amplitude_of },
-    { "Omega/omega_n", "1", 1e-3, 1e3, 1, base_speed },
-    { "f_k/(k X)", "1", 1e-3, 10, 1, friction },
-    { "f_s/f_k", "1", 1, 10, 0, hold },
-    { "d/(2 sqrt(k m))", "1", 1e-4, 100, 1, damping },
-    { "|U|/(omega_n X)", "1", 1e-3, 1, 1, base_velocity },
-    { "|S|/(omega_n X)", "1", 1e-3, 1, 1, surface_velocity },
+    { "m", "kg", 1e-12, 1e12, 0, mass, NULL },
+    { "omega_n/(2 pi)", "Hz", 1e-9, 1e9, 0, hertz, NULL },
+    { "X", "m", 1e-15, 1e9, 1, amplitude_of, NULL },
+    { "Omega/omega_n", "1", 1e-3, 1e3, 1, base_speed, NULL },
+    { "f_k/(k X)", "1", 1e-3, 10, 1, friction, NULL },
+    { "f_s/f_k", "1", 1, 10, 0, hold, NULL },
+    { "d/(2 sqrt(k m))", "1", 1e-4, 100, 1, damping, NULL },
+    { "|U|/(omega_n X)", "1", 1e-3, 1, 1, base_velocity, NULL },
+    { "|S|/(omega_n X)", "1", 1e-3, 1, 1, surface_velocity, NULL },
 };
 enum { OF_EVERY = sizeof of_every / sizeof *of_every };
 

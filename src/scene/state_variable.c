@@ -45,9 +45,23 @@ relaxation(const ss_scene *s)
     return rate / own_frequency(s);
 }
 
+static void
+set_steepness(ss_scene *s, double x)
+{
+    double X = amplitude_of(s);
+    s->own[ALPHA] = x / (X > 0 ? X * own_frequency(s) : 1);
+}
+
+static void
+set_relaxation(ss_scene *s, double x)
+{
+    double of_gamma = s->own[LAW] == LITERAL ? s->friction : 1;
+    s->own[GAMMA] = x * own_frequency(s) / (of_gamma > 0 ? of_gamma : 1);
+}
+
 static const ss_scene_range ranges[] = {
-    { "alpha X omega_n", "1", 0.1, 1e6, 0, steepness },
-    { "gamma/omega_n", "1", 1e-2, 1e8, 0, relaxation },
+    { "alpha X omega_n", "1", 0.1, 1e6, 0, steepness, set_steepness },
+    { "gamma/omega_n", "1", 1e-2, 1e8, 0, relaxation, set_relaxation },
 };
 
 /* Replace the law by the scaled one with the same rate and goal. */

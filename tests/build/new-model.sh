@@ -1,8 +1,8 @@
-# A friction model is a file and a line: a copy of state_variable.c under another name, listed in
-# models.c, is all that is compiled anew.  Every tool then works with it as it does with the
+# A friction model is a file and a line: a copy of state_variable.c under another name, with a key that
+# no model has, listed in models.c, is all that is compiled anew: no header changes.  Every tool then works with it as it does with the
 # original, or refuses in one clear line.  So it does with a copy of coulomb.c that says neither that
 # it is linear nor its higher derivatives.
-sed -e 's/ss_state_variable_model/ss_copied_model/' -e 's/"state-variable"/"copied"/' \
+sed -e 's/ss_state_variable_model/ss_copied_model/' -e 's/"state-variable"/"copied"/' -e 's/"alpha"/"front_slope"/' \
     "$SRC/src/scene/state_variable.c" > copied.c
 # shellcheck disable=SC1003  # a backslash at the end of a line
 sed -e 's/ss_coulomb_model/ss_stepped_model/' -e 's/ss_to_coulomb/ss_to_stepped/' -e 's/"coulomb"/"stepped"/' -e 's/ \.linear = 1,//' \
@@ -28,7 +28,8 @@ wait
 sim() { bin/ss-sim -s duration=0.2 -s settle=0 "$@"; }
 refused() { "$@" > refused.out || echo "exit $?"; cat refused.out; }
 ss-sim --list state-variable > original.scene
-bin/ss-sim --list -s model=copied original.scene > copied.scene
+sed -e 's/^model = .*/model = copied/' -e 's/^alpha/front_slope/' original.scene > named.scene
+bin/ss-sim --list named.scene > copied.scene
 diff original.scene copied.scene || true
 
 echo '-- ss-sim, by every method'
@@ -50,7 +51,8 @@ cmp copied.tsv original.tsv && echo "--accuracy: $(grep -c . copied.tsv)"
 refused sim -m exact copied.scene
 refused sim -m exact --accuracy 1e-6 copied.scene
 refused sim -s contact_damping=3 copied.scene
-refused sim -s alpha=-1 copied.scene
+refused sim -s alpha=3 copied.scene
+refused sim -s front_slope=-1 copied.scene
 refused sim -s model=coulumb copied.scene
 sim --events copied.scene | grep -v '^# [a-z0-9_]*: [a-z0-9.-]*$'
 
@@ -68,7 +70,7 @@ refused bin/ss-rank --fit signal.tsv copied.scene
 echo '-- ss-sweep'
 for scene in copied original; do
     bin/ss-sweep --vary friction=1.2:1.28:2 --measure amplitude,energy,transition,period,floquet $scene.scene |
-        grep -v '^# \(scene\|model\)' > $scene.tsv
+        grep -v '^# \(scene\|model\|alpha\|front_slope\)' > $scene.tsv
 done
 cmp copied.tsv original.tsv && tail -n 2 copied.tsv | cut -f 8
 refused bin/ss-sweep --vary friction=0.5:1:2 --measure stops copied.scene
