@@ -107,29 +107,14 @@ ss_kept_rewind(struct kept *k, ss_error *err)
     return fseeko(k->file, 0, SEEK_SET) == 0 ? SS_OK : fail_file(k, err);
 }
 
-/* Read the next piece of the file into the block. */
-static ss_status
-fetch(struct kept *k, ss_error *err)
+ss_status
+ss_kept_fetch(struct kept *k, ss_error *err)
 {
     uint64_t left = k->n - k->given, piece = rows_in_piece(k);
     size_t n = (size_t)(left < piece ? left : piece);
     k->at = 0;
     k->held = n;
     return fread(k->block, k->width * sizeof *k->block, n, k->file) == n ? SS_OK : fail_file(k, err);
-}
-
-ss_status
-ss_kept_next(struct kept *k, const double **row, ss_error *err)
-{
-    *row = NULL;
-    if (k->given == k->n)
-        return SS_OK;
-    ss_status st = k->at == k->held ? fetch(k, err) : SS_OK;
-    if (st != SS_OK)
-        return st;
-    *row = k->block + k->at++ * k->width;
-    k->given++;
-    return SS_OK;
 }
 
 ss_status

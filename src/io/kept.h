@@ -34,7 +34,16 @@ ss_status ss_kept_end(struct kept *kept, ss_error *err);
 
 /* After that: go back to the first row; and the next one, valid until the next call, or NULL. */
 ss_status ss_kept_rewind(struct kept *kept, ss_error *err);
-ss_status ss_kept_next(struct kept *kept, const double **row, ss_error *err);
+ss_status ss_kept_fetch(struct kept *kept, ss_error *err);      /* the next block, of which none may be left */
+static inline ss_status
+ss_kept_next(struct kept *kept, const double **row, ss_error *err)
+{
+    ss_status st = kept->at == kept->held && kept->given < kept->n ? ss_kept_fetch(kept, err) : SS_OK;
+    int there = st == SS_OK && kept->given < kept->n;
+    *row = there ? kept->block + kept->at++ * kept->width : NULL;
+    kept->given += (uint64_t)there;
+    return st;
+}
 /* Or copy n rows that are there, from this one on; a rewind must follow before the next. */
 ss_status ss_kept_copy(struct kept *kept, uint64_t first, size_t n, double *to, ss_error *err);
 void ss_kept_free(struct kept *kept);

@@ -91,21 +91,3 @@ ss_sheet_add_columns(struct sheet *t, double *const column[], size_t first, size
     }
     return st;
 }
-
-/* --- reading them -------------------------------------------------------------------------- */
-
-ss_status
-ss_sheet_next(struct kept *rows, size_t time, const double **row, ss_error *err)
-{
-    ss_status st;
-    do
-        st = ss_kept_next(rows, row, err);
-    while (*row != NULL && time != NONE && isnan((*row)[time]));
-    return st;
-}
-
-double
-ss_sheet_stamp(const struct time_column *c, const double *row)
-{
-    return c->origin + (row[c->column] - c->zero) * c->factor / c->divisor;
-}

@@ -3,6 +3,7 @@
 #ifndef SHEET_H
 #define SHEET_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 #include "base/error.h"
@@ -76,8 +77,20 @@ ss_status ss_sheet_find_clock(struct sheet *t, struct timing *timing, ss_error *
 /* Mark the columns that the caller does not need, as far as the names tell, before the first row is read. */
 ss_status ss_sheet_mark_spare(struct sheet *t, ss_error *err);
 /* After ss_kept_end: the next row that has a time in this column (NONE: the next), or NULL. */
-ss_status ss_sheet_next(struct kept *rows, size_t time, const double **row, ss_error *err);
-double ss_sheet_stamp(const struct time_column *c, const double *row);
+static inline ss_status
+ss_sheet_next(struct kept *rows, size_t time, const double **row, ss_error *err)
+{
+    ss_status st;
+    do
+        st = ss_kept_next(rows, row, err);
+    while (*row != NULL && time != NONE && isnan((*row)[time]));
+    return st;
+}
+static inline double
+ss_sheet_stamp(const struct time_column *c, const double *row)
+{
+    return c->origin + (row[c->column] - c->zero) * c->factor / c->divisor;
+}
 
 /* Make a source of the rows, whose names are complete, as samples: with a clock, without the columns of time and
  * text, with gaps filled.  It takes the rows from the table.  progress is told of the rows that were given, as the

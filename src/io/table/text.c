@@ -24,7 +24,9 @@ enum { HEADER_LINES = 1000 };
 static char
 first_of(const char *line)
 {
-    return line[strspn(line, " \t")];
+    while (*line == ' ' || *line == '\t')
+        line++;
+    return *line;
 }
 
 /* The next line that is not empty; comment is set if it is one.  NULL at the end. */
