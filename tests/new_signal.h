@@ -11,9 +11,10 @@ static inline ss_signal *
 new_signal(size_t n, double rate, double start, const char *name, const char *unit)
 {
     ss_signal *signal = NULL;
-    ss_header *head = ss_header_new(rate, start);
-    assert_int_equal(ss_header_add_column(head, name, unit), SS_OK);
-    assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, rate, start, NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, name, unit, NULL), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, n, NULL), SS_OK);
     ss_header_free(head);
     return signal;
 }

@@ -44,13 +44,14 @@ read_text(const char *text, const ss_read_opts *opts)
 static inline ss_header *
 sample_header(void)
 {
-    ss_header *head = ss_header_new(1000. / 3, -0.1);
-    assert_int_equal(ss_header_add_column(head, "x", "m"), SS_OK);
-    assert_int_equal(ss_header_add_column(head, "v", "m/s"), SS_OK);
-    assert_int_equal(ss_header_add_column(head, "c", "N s"), SS_OK);
-    assert_int_equal(ss_header_add_column(head, "f", ""), SS_OK);
-    assert_int_equal(ss_header_add_column(head, "(odd", "(a b)/(c)"), SS_OK);
-    assert_int_equal(ss_header_note(head, "scene", "a test: it has a colon"), SS_OK);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 1000. / 3, -0.1, NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "x", "m", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "v", "m/s", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "c", "N s", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "f", "", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "(odd", "(a b)/(c)", NULL), SS_OK);
+    assert_int_equal(ss_header_note(head, "scene", "a test: it has a colon", NULL), SS_OK);
     return head;
 }
 

@@ -55,13 +55,14 @@ static inline ss_signal *
 new_signal(size_t n)
 {
     ss_signal *signal = NULL;
-    ss_header *head = ss_header_new(1000.0 / 3, -0.1);
-    assert_int_equal(ss_header_add_column(head, "zeta", "kip"), SS_OK);
-    assert_int_equal(ss_header_add_column(head, "a", "m/s^2"), SS_OK);
-    assert_int_equal(ss_header_add_column(head, "t", ""), SS_OK);      /* as the clock is called */
-    assert_int_equal(ss_header_note(head, "scene", "compliant-light"), SS_OK);
-    assert_int_equal(ss_header_note(head, "author", "\303\204rger: \"\\ $x`"), SS_OK);
-    assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 1000.0 / 3, -0.1, NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "zeta", "kip", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "a", "m/s^2", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "t", "", NULL), SS_OK);      /* as the clock is called */
+    assert_int_equal(ss_header_note(head, "scene", "compliant-light", NULL), SS_OK);
+    assert_int_equal(ss_header_note(head, "author", "\303\204rger: \"\\ $x`", NULL), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, n, NULL), SS_OK);
     ss_header_free(head);
     for (size_t i = 0; i < 3 * n; i++)
         signal->values[i] = sin((double)i) / 3 + ldexp(1, -(int)(i % 1070));

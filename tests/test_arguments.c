@@ -73,17 +73,18 @@ makers_and_writers_refuse_null(void **state)
 {
     static const ss_record record;
     ss_error e = { 0 };
-    ss_header *head = ss_header_new(1, 0);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
     ss_signal *signal;
     ss_writer *writer;
     ss_coefficients *c;
     (void)state;
-    assert_refused(ss_header_add_column(NULL, "x", ""), NULL);
-    assert_refused(ss_header_add_column(head, NULL, ""), NULL);
-    assert_refused(ss_header_note(NULL, "key", "value"), NULL);
-    assert_refused(ss_header_note(head, NULL, "value"), NULL);
-    assert_refused(ss_signal_new(NULL, head, 1), NULL);
-    assert_refused(ss_signal_new(&signal, NULL, 1), NULL);
+    assert_refused(ss_header_add_column(NULL, "x", "", &e), &e);
+    assert_refused(ss_header_add_column(head, NULL, "", &e), &e);
+    assert_refused(ss_header_note(NULL, "key", "value", &e), &e);
+    assert_refused(ss_header_note(head, NULL, "value", &e), &e);
+    assert_refused(ss_signal_new(NULL, head, 1, &e), &e);
+    assert_refused(ss_signal_new(&signal, NULL, 1, &e), &e);
     assert_refused(ss_signal_select(&signal, NULL, NULL, 0, 0, 0, NULL), NULL);
     assert_refused(ss_signal_write(NULL, stdout, SS_TSV, NULL), NULL);
     assert_refused(ss_writer_new(NULL, stdout, SS_TSV, head, NULL), NULL);
@@ -134,7 +135,8 @@ no_rows(const ss_sweep_row *row, void *user)
 static void
 headers_and_samples_refuse_null(void **state)
 {
-    ss_header *head = ss_header_new(1, 0), *copy;
+    ss_header *head = NULL, *copy;
+    assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
     ss_signal *signal = NULL;
     ss_span *gap;
     ss_noise *noise = NULL;
@@ -143,18 +145,18 @@ headers_and_samples_refuse_null(void **state)
     size_t n;
     ss_error e = { 0 };
     (void)state;
-    assert_null(ss_header_copy(NULL));
+    assert_refused(ss_header_copy(&copy, NULL, &e), &e);
     assert_null(ss_header_find_note(NULL, "key"));
     assert_null(ss_header_find_note(head, NULL));
     assert_int_equal(ss_header_column(NULL, "x"), -1);
     assert_int_equal(ss_header_column(head, NULL), -1);
     assert_int_equal(ss_header_row(NULL, 1), 0);
-    assert_refused(ss_header_select(NULL, head, NULL, 0, 0), NULL);
-    assert_refused(ss_header_select(&copy, NULL, NULL, 0, 0), NULL);
-    assert_refused(ss_header_select(&copy, head, NULL, 1, 0), NULL);
-    assert_refused(ss_header_gaps(NULL, &n, head), NULL);
-    assert_refused(ss_header_gaps(&gap, NULL, head), NULL);
-    assert_refused(ss_header_gaps(&gap, &n, NULL), NULL);
+    assert_refused(ss_header_select(NULL, head, NULL, 0, 0, &e), &e);
+    assert_refused(ss_header_select(&copy, NULL, NULL, 0, 0, &e), &e);
+    assert_refused(ss_header_select(&copy, head, NULL, 1, 0, &e), &e);
+    assert_refused(ss_header_gaps(NULL, &n, head, &e), &e);
+    assert_refused(ss_header_gaps(&gap, NULL, head, &e), &e);
+    assert_refused(ss_header_gaps(&gap, &n, NULL, &e), &e);
     assert_int_equal(ss_gaps_near(NULL, 1, 0, 1), 0);
     assert_null(ss_reader_header(NULL));
     assert_int_equal(ss_reader_waits(NULL), 0);
@@ -259,7 +261,8 @@ transforms_refuse_null(void **state)
     const ss_morlet_opts *const opts = &ss_morlet_defaults;
     static const ss_scale scale;
     ss_error e = { 0 };
-    ss_header *head = ss_header_new(1, 0), *made;
+    ss_header *head = NULL, *made;
+    assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
     ss_morlet *plan = NULL;
     ss_stream *stream = NULL;
     ss_signal *signal;
@@ -338,7 +341,8 @@ conclusions_refuse_null(void **state)
 {
     static const ss_coefficients none;
     ss_error e = { 0 };
-    ss_header *head = ss_header_new(1, 0);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
     ss_signal *signal = NULL;
     ss_maximum *maxima;
     ss_features *features;
@@ -349,7 +353,7 @@ conclusions_refuse_null(void **state)
     ss_pull *pull;
     size_t n;
     (void)state;
-    assert_int_equal(ss_signal_new(&signal, head, 2), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, 2, NULL), SS_OK);
     assert_refused(ss_maxima_find(NULL, &n, &none, 1, &e), &e);
     assert_refused(ss_maxima_find(&maxima, NULL, &none, 1, &e), &e);
     assert_refused(ss_maxima_find(&maxima, &n, NULL, 1, &e), &e);
@@ -478,7 +482,8 @@ static void
 summaries_refuse_null(FILE *out)
 {
     const ss_features features = { .n = 0 };
-    const ss_signal signal = { .head = ss_header_new(1, 0) };
+    ss_signal signal = { .head = NULL };
+    assert_int_equal(ss_header_new(&signal.head, 1, 0, NULL), SS_OK);
     ss_table *table = NULL;
     FILE *in = tmpfile();
     for (int k = 0; k < SS_FEATURE_NUMBERS; k++)
@@ -511,7 +516,8 @@ summaries_refuse_null(FILE *out)
 static void
 writers_of_rows_refuse_null(void **state)
 {
-    ss_header *head = ss_header_new(1, 0);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
     ss_event_writer *writer = NULL;
     ss_event event = { .kind = (ss_event_kind)7 };
     ss_features features = { .n = 0 };
@@ -683,12 +689,13 @@ static void
 refuses_what_is_no_known_choice(void **state)
 {
     const int stray[] = { -1, 99 };
-    ss_header *head = ss_header_new(1, 0);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
     ss_signal *signal = NULL;
     FILE *in = tmpfile();
     (void)state;
-    assert_int_equal(ss_header_add_column(head, "x", "m"), SS_OK);
-    assert_int_equal(ss_signal_new(&signal, head, 2), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "x", "m", NULL), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, 2, NULL), SS_OK);
     for (int i = 0; i < 2; i++) {
         int k = stray[i];
         ss_scene copy = scene;

@@ -9,13 +9,14 @@
 static ss_coefficients *
 some_coefficients(const ss_morlet_opts *opts)
 {
-    ss_header *head = ss_header_new(2000, 0.125);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 2000, 0.125, NULL), SS_OK);
     ss_signal *signal = NULL;
     ss_coefficients *coef = NULL;
-    ss_header_add_column(head, "x", "m");
-    ss_header_add_column(head, "a", "m/s^2");
-    ss_header_note(head, "scene", "compliant-light");
-    assert_int_equal(ss_signal_new(&signal, head, 300), SS_OK);
+    ss_header_add_column(head, "x", "m", NULL);
+    ss_header_add_column(head, "a", "m/s^2", NULL);
+    ss_header_note(head, "scene", "compliant-light", NULL);
+    assert_int_equal(ss_signal_new(&signal, head, 300, NULL), SS_OK);
     make(WEAK_BURST, signal->values + 300, 300);
     assert_int_equal(ss_morlet_transform(&coef, signal, 1, opts, NULL), SS_OK);
     ss_header_free(head);

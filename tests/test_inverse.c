@@ -237,7 +237,7 @@ refuses_what_has_no_inverse(void **state)
     coef->scale[4].j++;
     assert_refused(coef, 1e-6, SS_EDATA, "scales are missing");
     ss_header_free(coef->head);
-    coef->head = ss_header_copy(signal->head);
+    ss_header_copy(&coef->head, signal->head, NULL);
     assert_refused(coef, 1e-6, SS_EDATA, "lack their option 'voices'");
     ss_coefficients_free(coef);
     ss_signal_free(signal);

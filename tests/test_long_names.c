@@ -52,13 +52,14 @@ static ss_signal *
 signal_named(const char *name)
 {
     ss_signal *signal = NULL;
-    ss_header *head = ss_header_new(10, 0);
-    assert_int_equal(ss_header_add_column(head, name, name), SS_OK);
-    assert_int_equal(ss_header_add_column(head, name, "m"), SS_OK);
-    ss_status keyed = ss_header_note(head, name, "value");
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 10, 0, NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, name, name, NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, name, "m", NULL), SS_OK);
+    ss_status keyed = ss_header_note(head, name, "value", NULL);
     assert_true(keyed == SS_OK || keyed == SS_EINVAL);
-    assert_int_equal(ss_header_note(head, "scene", name), SS_OK);
-    assert_int_equal(ss_signal_new(&signal, head, ROWS), SS_OK);
+    assert_int_equal(ss_header_note(head, "scene", name, NULL), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, ROWS, NULL), SS_OK);
     ss_header_free(head);
     for (size_t i = 0; i < 2 * ROWS; i++)
         signal->values[i] = sin((double)(i * i));
@@ -110,10 +111,11 @@ coefficients_have_a_long_unit_whole(void **state)
 {
     ss_signal *signal = signal_named("x");
     ss_coefficients *c = transform(signal, 0);
-    ss_header *head = ss_header_new(signal->head->rate, 0);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, signal->head->rate, 0, NULL), SS_OK);
     char unit[LETTERS + 20] = "";
     (void)state;
-    assert_int_equal(ss_header_add_column(head, "x", longest), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "x", longest, NULL), SS_OK);
     ss_header_free(c->head);
     c->head = head;
     write_ok(&(ss_record){ .coefficients = c });

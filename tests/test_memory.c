@@ -173,20 +173,21 @@ headers(int variant)
 {
     (void)variant;
     static const size_t pick[] = { 1, 0, 1 };
-    ss_header *copy = NULL, *head = ss_header_new(1, 0);
-    ss_status st = head == NULL ? SS_ENOMEM : ss_header_add_column(head, "x", "m");
+    ss_header *copy = NULL, *head = NULL;
+    ss_header_new(&head, 1, 0, NULL);
+    ss_status st = head == NULL ? SS_ENOMEM : ss_header_add_column(head, "x", "m", NULL);
     if (st == SS_OK)
-        st = ss_header_add_column(head, "x", NULL);
+        st = ss_header_add_column(head, "x", NULL, NULL);
     if (st == SS_OK)
-        st = ss_header_note(head, "key", "value");
+        st = ss_header_note(head, "key", "value", NULL);
     if (st == SS_OK)
-        st = ss_header_note(head, "key", "another");
+        st = ss_header_note(head, "key", "another", NULL);
     if (st == SS_OK)
-        st = ss_header_select(&copy, head, pick, 3, 5);
+        st = ss_header_select(&copy, head, pick, 3, 5, NULL);
     ss_header_free(copy);
     copy = NULL;
     if (st == SS_OK)
-        st = (copy = ss_header_copy(head)) != NULL ? SS_OK : SS_ENOMEM;
+        st = ss_header_copy(&copy, head, NULL);
     ss_header_free(copy);
     ss_header_free(head);
     return st;
@@ -800,7 +801,7 @@ set_up(void **state)
         || ss_sim_signal(&cycles, &slips, NULL) != SS_OK
         || ss_sim_signal(&pulled, &pull, NULL) != SS_OK
         || ss_noise_add_once(cycles->values + 2 * cycles->n, cycles->n, 1e-3, 1, NULL) != SS_OK
-        || ss_header_note(signal->head, "key", "value") != SS_OK
+        || ss_header_note(signal->head, "key", "value", NULL) != SS_OK
         || ss_morlet_transform(&coefficients, signal, 2, &opts, NULL) != SS_OK
         || ss_trade_measure(&trade, &scene[COULOMB], &brief, NULL) != SS_OK)
         return -1;

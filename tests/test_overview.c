@@ -186,7 +186,7 @@ sizes_do_not_matter_and_gaps_are_left_out(void **state)
     (void)state;
     for (size_t i = 20000; i < 20100; i++)
         signal->values[i] += 4000;
-    assert_int_equal(ss_header_note(signal->head, "gaps", "5.001:5.002 20:20.1 50:51"), SS_OK);
+    assert_int_equal(ss_header_note(signal->head, "gaps", "5.001:5.002 20:20.1 50:51", NULL), SS_OK);
     ss_overview *one = look_at(signal, &opts, 4096);
     const ss_coefficients *a = ss_overview_coefficients(one);
     ss_coefficients *all;
@@ -196,7 +196,7 @@ sizes_do_not_matter_and_gaps_are_left_out(void **state)
         ss_signal *scaled = record(60);
         for (size_t i = 0; i < signal->n; i++)
             scaled->values[i] = ldexp(signal->values[i], power);
-        assert_int_equal(ss_header_note(scaled->head, "gaps", "5.001:5.002 20:20.1 50:51"), SS_OK);
+        assert_int_equal(ss_header_note(scaled->head, "gaps", "5.001:5.002 20:20.1 50:51", NULL), SS_OK);
         ss_overview *o = look_at(scaled, &opts, 4096);
         const ss_coefficients *b = ss_overview_coefficients(o);
         assert_int_equal(a->n_scales, b->n_scales);

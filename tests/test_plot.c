@@ -188,11 +188,12 @@ static ss_signal *
 long_line(int noise)
 {
     ss_signal *signal = NULL;
-    ss_header *head = ss_header_new(1000, 5);
-    assert_int_equal(ss_header_add_column(head, "x", ""), SS_OK);
-    assert_int_equal(ss_header_add_column(head, "y", ""), SS_OK);
-    assert_int_equal(ss_header_note(head, "gaps", "8.25:8.5"), SS_OK);
-    assert_int_equal(ss_signal_new(&signal, head, LONG), SS_OK);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 1000, 5, NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "x", "", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "y", "", NULL), SS_OK);
+    assert_int_equal(ss_header_note(head, "gaps", "8.25:8.5", NULL), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, LONG, NULL), SS_OK);
     ss_header_free(head);
     double *x = signal->values, *y = x + LONG;
     for (size_t i = 0; i < LONG; i++) {
@@ -239,7 +240,7 @@ a_long_path_looks_like_the_line(void **state)
         double range = noise ? 9.5 : 2.5;
         ss_span *gap;
         size_t n_gaps;
-        assert_int_equal(ss_header_gaps(&gap, &n_gaps, thin->head), SS_OK);
+        assert_int_equal(ss_header_gaps(&gap, &n_gaps, thin->head, NULL), SS_OK);
         assert_true(thin->n < (noise ? 400000 : 10000));
         for (size_t i = 100; i < LONG; i += noise ? 7919 : 997) {
             int missing = i >= 3250 && i < 3501;
@@ -500,7 +501,7 @@ static ss_coefficients *
 new_coefficients(void)
 {
     ss_coefficients *c = calloc(1, sizeof *c);
-    c->head = ss_header_new(1000, 2);
+    ss_header_new(&c->head, 1000, 2, NULL);
     c->n = 1000;
     c->center = 6;
     c->n_scales = 3;

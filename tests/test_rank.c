@@ -524,7 +524,7 @@ gaps_do_not_matter(void **state)
         double *x = signal->values, left = x[first - 1], right = x[first + many];
         for (size_t i = 0; i < many; i++)
             x[first + i] = line ? left + (right - left) * (double)(i + 1) / (double)(many + 1) : 0;
-        assert_int_equal(ss_header_note(signal->head, "gaps", "1.09:1.12"), SS_OK);
+        assert_int_equal(ss_header_note(signal->head, "gaps", "1.09:1.12", NULL), SS_OK);
         ss_ranking *r = rank(signal);
         assert_true(r->verdict == SS_NAMED && r->row[0].scene == LIGHT);
         assert_true(r->row[0].value[SS_BY_RESIDUAL] <= -20);

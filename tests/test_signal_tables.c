@@ -547,7 +547,7 @@ fills_the_gaps_of_a_long_table(void **state)
             bad += fabs(s->values[rows + i] - (k == 1 && lost ? 0 : 7)) > 1e-12;
         }
         assert_int_equal(bad, 0);
-        assert_int_equal(ss_header_gaps(&gap, &n_gaps, s->head), SS_OK);
+        assert_int_equal(ss_header_gaps(&gap, &n_gaps, s->head, NULL), SS_OK);
         assert_int_equal(n_gaps, k == 2 ? LONG / 1000 : LONG / 1000 + LONG / 700 - LONG / 7000);
         free(gap);
         ss_signal_free(s);
@@ -635,7 +635,7 @@ refuses_a_gap_that_was_not_there(void **state)
         c->now = first;
         c->again = again[k];
         s->head->rate = 10;
-        assert_int_equal(ss_header_add_column(s->head, "x", NULL), SS_OK);
+        assert_int_equal(ss_header_add_column(s->head, "x", NULL, NULL), SS_OK);
         assert_int_equal(ss_source_fill_gaps(&s, SS_GAPS_INTERPOLATE, NULL), SS_OK);
         assert_int_equal(ss_source_rows(s, &column, ROWS, &n, NULL), k == 0 ? SS_OK : SS_EDATA);
         assert_true(k > 0 || (n == ROWS && value[1] == 2));

@@ -139,7 +139,7 @@ a_signal_of_unknown_length_reads_back_exactly(void **state)
             assert_int_equal(store_samples(writer, signal, i, m, NULL), SS_OK);
         }
         assert_int_equal(ss_store_writer_note(writer, "late", "a note: at the end", NULL), SS_OK);
-        assert_int_equal(ss_header_note(signal->head, "late", "a note: at the end"), SS_OK);
+        assert_int_equal(ss_header_note(signal->head, "late", "a note: at the end", NULL), SS_OK);
         assert_int_equal(ss_store_writer_end(writer, n, NULL), SS_OK);
         ss_store_writer_free(writer);
         assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
@@ -495,14 +495,15 @@ static int
 write_columns(size_t n)
 {
     ss_signal *signal = NULL, *back = NULL;
-    ss_header *head = ss_header_new(1, 0);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
     char name[32];
     struct stat st;
     for (size_t c = 0; c < n; c++) {
         snprintf(name, sizeof name, "x%zu", c);
-        assert_int_equal(ss_header_add_column(head, name, ""), SS_OK);
+        assert_int_equal(ss_header_add_column(head, name, "", NULL), SS_OK);
     }
-    assert_int_equal(ss_signal_new(&signal, head, 1), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, 1, NULL), SS_OK);
     ss_header_free(head);
     for (size_t c = 0; c < n; c++)
         signal->values[c] = (double)c;

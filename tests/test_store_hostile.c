@@ -682,7 +682,7 @@ gaps_that_are_reversed_are_refused(void **state)
     for (size_t i = 0; i < sizeof note / sizeof *note; i++) {
         ss_signal *signal = new_signal(10), *back = NULL;
         ss_error err = { 0 };
-        assert_int_equal(ss_header_note(signal->head, "gaps", note[i]), SS_OK);
+        assert_int_equal(ss_header_note(signal->head, "gaps", note[i], NULL), SS_OK);
         write_ok(&(ss_record){ .signal = signal });
         assert_int_equal(ss_signal_load(&back, path, NULL, &err), SS_EDATA);
         assert_non_null(strstr(err.text, "the note 'gaps' is not"));

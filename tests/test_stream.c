@@ -513,14 +513,15 @@ static FILE *
 file_of_stream(size_t n, ss_format format, int dense, ss_coefficients **whole)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
-    ss_header *head = ss_header_new(2000, 0.5), *own;
+    ss_header *head = NULL, *own;
+    assert_int_equal(ss_header_new(&head, 2000, 0.5, NULL), SS_OK);
     ss_signal *signal;
     ss_stream *stream;
     file f = { .out = tmpfile() };
     opts.fmin = 20, opts.voices = 3, opts.dense = dense, opts.engine = SS_ENGINE_QUADRATURE;
-    ss_header_add_column(head, "a", "m/s^2");
-    ss_header_note(head, "made", "by hand");
-    assert_int_equal(ss_signal_new(&signal, head, n), SS_OK);
+    ss_header_add_column(head, "a", "m/s^2", NULL);
+    ss_header_note(head, "made", "by hand", NULL);
+    assert_int_equal(ss_signal_new(&signal, head, n, NULL), SS_OK);
     make(NOISE, signal->values, n);
     assert_int_equal(ss_coefficients_header(&own, head, 0, 0, &opts), SS_OK);
     assert_int_equal(ss_coefficient_writer_new(&f.writer, f.out, format, own, NULL), SS_OK);
@@ -640,10 +641,11 @@ reads_back_the_events_that_it_writes(void **state)
     static const ss_event event[] = { { 0, -1e-3, 0.1, SS_SLIP, 1 },
                                       { 0.1, 1.0 / 3, -0.25, SS_REVERSE, -1 } };
     FILE *text = tmpfile();
-    ss_header *head = ss_header_new(1, 0);
+    ss_header *head = NULL;
+    assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
     ss_event_writer *writer = NULL;
     (void)state;
-    assert_int_equal(ss_header_note(head, "scene", "mine"), SS_OK);
+    assert_int_equal(ss_header_note(head, "scene", "mine", NULL), SS_OK);
     assert_int_equal(ss_event_writer_new(&writer, text, SS_TSV, head), SS_OK);
     for (size_t i = 0; i < 2; i++)
         assert_int_equal(ss_event_writer_row(writer, &event[i]), SS_OK);

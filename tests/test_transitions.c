@@ -471,7 +471,7 @@ make_gap(ss_signal *signal, size_t column, size_t first, size_t many, int line)
     size_t length = ss_number_format(text, signal->head->start + (double)first / rate);
     text[length++] = ':';
     ss_number_format(text + length, signal->head->start + (double)(first + many) / rate);
-    assert_int_equal(ss_header_note(signal->head, "gaps", text), SS_OK);
+    assert_int_equal(ss_header_note(signal->head, "gaps", text, NULL), SS_OK);
     for (size_t i = 0; i < many; i++)
         x[first + i] = !line ? 0 : x[first - 1] + (x[first + many] - x[first - 1]) * (double)(i + 1)
                                                   / (double)(many + 1);

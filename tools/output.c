@@ -103,7 +103,7 @@ tool_signal *
 tool_signal_new(const ss_header *head, const char *path, tool_kind kind)
 {
     tool_signal *s = calloc(1, sizeof *s);
-    if (s == NULL || (s->head = ss_header_copy(head)) == NULL)
+    if (s == NULL || ss_header_copy(&s->head, head, NULL) != SS_OK)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     s->path = path;
     s->kind = kind;
@@ -166,7 +166,7 @@ tool_signal_note(tool_signal *s, const char *key, const char *value)
     if (s->store != NULL)
         tool_check(ss_store_writer_note(s->store, key, value, &err), &err);
     else if (s->writer == NULL)
-        tool_check(ss_header_note(s->head, key, value), NULL);
+        tool_check(ss_header_note(s->head, key, value, NULL), NULL);
     else if (s->kind == TOOL_TSV)
         fprintf(s->out, "# %s: %s\n", key, value);
 }
@@ -177,7 +177,7 @@ store_whole(const tool_signal *s)
 {
     ss_signal *signal;
     size_t columns = s->head->n_columns;
-    tool_check(ss_signal_new(&signal, s->head, s->n), NULL);
+    tool_check(ss_signal_new(&signal, s->head, s->n, NULL), NULL);
     for (size_t c = 0; c < columns; c++)
         memcpy(signal->values + c * s->n, s->kept[c], s->n * sizeof *signal->values);
     tool_write_signal(signal, s->path, s->kind);

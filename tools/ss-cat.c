@@ -61,7 +61,7 @@ copy_rows(tool_kind kind, const ss_read_opts *opts)
     for (size_t i = 0; i < n; i++)
         to[i] = from[column[i]];
     say_header(head);
-    tool_check(ss_header_select(&chosen, head, column, n, 0), NULL);
+    tool_check(ss_header_select(&chosen, head, column, n, 0, NULL), NULL);
     tool_signal *out = tool_signal_new(chosen, output, kind);
     while ((got = tool_rows(reader, from, piece)) > 0)
         tool_signal_rows(out, to, got);

@@ -78,13 +78,13 @@ add_notes(ss_header *head)
         snprintf(text, sizeof text, "%s %s%s%s%s%s%s%s, seed %d", isnan(rms) ? "snr" : "rms",
                  number, isnan(rms) ? " dB" : "", isnan(band[0]) ? "" : ", ", limit[0],
                  isnan(band[0]) ? "" : " to ", limit[1], isnan(band[0]) ? "" : " Hz", seed);
-        tool_check(ss_header_note(head, "noise", text), NULL);
+        tool_check(ss_header_note(head, "noise", text, NULL), NULL);
     }
     if (bits > 0) {
         ss_number_format(number, range);
         snprintf(text, sizeof text, "%d bits, range %s", bits, number);
-        tool_check(ss_header_note(head, "converter", text), NULL);
-        tool_check(ss_header_note(head, "clipped", NULL), NULL);    /* by another converter; ours comes last */
+        tool_check(ss_header_note(head, "converter", text, NULL), NULL);
+        tool_check(ss_header_note(head, "clipped", NULL, NULL), NULL);    /* by another converter; ours comes last */
     }
 }
 
@@ -120,7 +120,7 @@ add_band(tool_kind kind, ss_noise *noise)
     }
     add_notes(signal->head);
     if (note_clipped(text, sizeof text))
-        tool_check(ss_header_note(signal->head, "clipped", text), NULL);
+        tool_check(ss_header_note(signal->head, "clipped", text, NULL), NULL);
     tool_write_signal(signal, output, kind);
     ss_signal_free(signal);
     free(chosen);
@@ -159,7 +159,8 @@ change_rows(tool_kind kind, ss_noise *noise)
     ss_error err = { 0 };
     if (!isnan(snr))
         tool_check(ss_reader_keep(reader, reading.opts.folder, &err), &err);
-    ss_header *head = ss_header_copy(ss_reader_header(reader));
+    ss_header *head = NULL;
+    ss_header_copy(&head, ss_reader_header(reader), NULL);
     if (head == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     size_t columns = head->n_columns, piece = ss_reader_piece(reader);

@@ -214,9 +214,9 @@ note_origin(ss_header *head, const request *req)
     const ss_sim_opts *opts = &req->opts;
     char tol[SS_NUMBER_MAX], *name = tool_name_scene(req->scene_path, &req->settings);
     ss_number_format(tol, opts->tol);
-    if (ss_header_note(head, "scene", name) != SS_OK
-        || ss_header_note(head, "integrator", opts->method) != SS_OK
-        || ss_header_note(head, "tolerance", tol) != SS_OK)
+    if (ss_header_note(head, "scene", name, NULL) != SS_OK
+        || ss_header_note(head, "integrator", opts->method, NULL) != SS_OK
+        || ss_header_note(head, "tolerance", tol, NULL) != SS_OK)
         tool_die("%s", ss_strerror(SS_ENOMEM));
     free(name);
 }
@@ -263,7 +263,7 @@ simulate(request *req, const ss_scene *scene, output *o)
     ss_error err = { 0 };
     req->opts.user = req->opts.progress.user = o;
     if (req->kind == TOOL_H5)
-        tool_check(ss_signal_new(&o->signal, o->head, ss_scene_samples(scene)), NULL);
+        tool_check(ss_signal_new(&o->signal, o->head, ss_scene_samples(scene), NULL), NULL);
     if (req->events || req->kind == TOOL_H5)
         req->opts.events = req->events ? stream_event : keep_event;
     if (!req->events)

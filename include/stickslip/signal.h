@@ -27,18 +27,17 @@ typedef struct ss_header {
     char **note;                /* lines "key: value" of the source; no key is rate, start or columns */
 } ss_header;
 
-/* Build a header.  It copies every string; a string that is not valid UTF-8 is read as Latin-1.
- * NULL: no memory. */
-ss_header *ss_header_new(double rate, double start);        /* has_time = 1 */
-ss_header *ss_header_copy(const ss_header *head);
+/* Build a header.  It copies every string; a string that is not valid UTF-8 is read as Latin-1. */
+ss_status ss_header_new(ss_header **out, double rate, double start, ss_error *err);     /* has_time = 1 */
+ss_status ss_header_copy(ss_header **out, const ss_header *head, ss_error *err);
 /* Append a column.  Blanks and slashes in its name become "_", and a repeated name gets the suffix
  * "_2", "_3", ...; unit may be NULL or "".  A first column t in s sets has_time, as readers would take it for the time
  * otherwise.  SS_EINVAL: there is no name. */
-ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit);
+ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit, ss_error *err);
 /* Append a note; it replaces a note with the same key, and NULL as its value deletes that one.  Control characters but tabs become blanks, in
  * the key question marks.  SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or
  * contains a colon.  Writers and readers of files take up to 4096 notes. */
-ss_status ss_header_note(ss_header *head, const char *key, const char *value);
+ss_status ss_header_note(ss_header *head, const char *key, const char *value, ss_error *err);
 /* The value of the note with this key, owned by head; NULL if there is none. */
 const char *ss_header_find_note(const ss_header *head, const char *key);
 void ss_header_free(ss_header *head);                                       /* NULL is allowed */
@@ -56,7 +55,7 @@ size_t ss_header_row(const ss_header *head, double t);
 /* Copy a header for a signal that has the n columns of these indices, in this order, and starts at
  * the row first. */
 ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
-                           size_t first);
+                           size_t first, ss_error *err);
 
 /* --- reading ------------------------------------------------------------------------------- */
 
@@ -121,7 +120,7 @@ typedef struct ss_span {
  * ..." in any order.  Each goes from its first missing sample to the next sample that is there;
  * those that overlap are one.  The caller frees *out with free().  SS_EDATA: the note is something
  * else; readers of files refuse it. */
-ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head);
+ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head, ss_error *err);
 /* 1 if t lies in one of n gaps, which are in time order, or nearer than margin to one; else 0. */
 int ss_gaps_near(const ss_span *gap, size_t n, double t, double margin);
 
@@ -179,7 +178,7 @@ ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_r
                          ss_error *err);
 ss_status ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err);
 /* Make a signal of n rows of zeros, with a copy of head. */
-ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n);
+ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n, ss_error *err);
 /* Copy the columns of these indices, in this order, and of them the rows first ... end - 1. */
 ss_status ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
                            size_t n_columns, size_t first, size_t end, ss_error *err);

@@ -60,7 +60,7 @@ observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, uns
         return st;
     double *x = run->values + column * run->n;
     run->head->start = w->signal->head->start;
-    st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps) : SS_OK;
+    st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps, NULL) : SS_OK;
     if (st == SS_OK)
         st = ss_noise_add_once(x, run->n, sqrt(w->record.noise), seed, NULL);
     for (size_t c = 0; c < run->head->n_columns; c++)

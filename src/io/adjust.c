@@ -52,7 +52,7 @@ note_calibration(ss_header *head, const double *factor, const char *is_new)
         fprintf(out, "%s%s x %s%s%s", n++ > 0 ? ", " : "", head->column[c].name, number,
                 *head->column[c].unit != '\0' ? " " : "", head->column[c].unit);
     }
-    ss_status st = fclose(out) == 0 ? ss_header_note(head, "calibration", text) : SS_ENOMEM;
+    ss_status st = fclose(out) == 0 ? ss_header_note(head, "calibration", text, NULL) : SS_ENOMEM;
     free(text);
     return st;
 }

@@ -36,7 +36,7 @@ read_annotation(ss_header **out, const char *magic, char *text, const char **rea
     size_t length_of_magic = strlen(magic);
     if (strncmp(text, magic, length_of_magic) != 0 || text[length_of_magic] != '\n')
         return SS_OK;
-    head = ss_header_new(0, 0);
+    ss_header_new(&head, 0, 0, NULL);
     if (head == NULL)
         return SS_ENOMEM;
     for (char *line = text + length_of_magic + 1, *next; st == SS_OK && *line == '#'; line = next) {

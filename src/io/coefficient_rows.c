@@ -28,9 +28,9 @@ static ss_status
 write_header(const ss_header *head, FILE *out, const struct format *format, ss_error *err)
 {
     ss_header *own;
-    ss_status st = ss_header_select(&own, head, NULL, 0, 0);
+    ss_status st = ss_header_select(&own, head, NULL, 0, 0, NULL);
     for (int i = 0; st == SS_OK && i < COEFFICIENT_COLUMNS; i++)
-        st = ss_header_add_column(own, ss_coefficient_columns[i][0], ss_coefficient_columns[i][1]);
+        st = ss_header_add_column(own, ss_coefficient_columns[i][0], ss_coefficient_columns[i][1], NULL);
     if (st == SS_OK) {
         own->has_time = 0;
         st = format->begin(out, own, ss_kind_magic(SS_KIND_COEFFICIENTS), err);
@@ -56,7 +56,7 @@ ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_form
     writer->start = head->start;
     writer->stream = stream != NULL && strcmp(stream, "yes") == 0;
     writer->out.used = 0;
-    ss_status st = ss_header_gaps(&writer->gap, &writer->n_gaps, head);
+    ss_status st = ss_header_gaps(&writer->gap, &writer->n_gaps, head, NULL);
     if (st == SS_OK)
         st = write_header(head, out, writer->format, err);
     if (st == SS_OK)

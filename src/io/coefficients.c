@@ -67,7 +67,7 @@ copy_header(coefficient_reader *r)
         return ss_fail_wanted(ss_fail(r->err, SS_EKIND, "%s: the columns are not those of wavelet "
                                       "coefficients, m a/s b/s f/Hz re im edge", r->in->source->name),
                               SS_KIND_COEFFICIENTS, r->err);
-    ss_status st = ss_header_select(&r->coef->head, head, NULL, 0, 0);
+    ss_status st = ss_header_select(&r->coef->head, head, NULL, 0, 0, NULL);
     if (st == SS_OK)
         r->coef->head->has_time = 1;
     return st;
@@ -132,7 +132,7 @@ read_options(coefficient_reader *r)
     if (ss_morlet_check(coef->n > 0 ? coef->n : 1, coef->head->rate, &r->opts, &why) != SS_OK)
         return ss_fail(r->err, SS_EDATA, "%s: %s", name, why.text);
     unit = ss_header_find_note(coef->head, "unit");
-    return ss_header_add_column(coef->head, column, unit != NULL ? unit : "");
+    return ss_header_add_column(coef->head, column, unit != NULL ? unit : "", NULL);
 }
 
 /* --- rows */
@@ -347,7 +347,7 @@ read_all(coefficient_reader *r, FILE *in, const char *name)
     if (r->coef == NULL)
         return SS_ENOMEM;
     if ((st = copy_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
-        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head)) != SS_OK)
+        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head, NULL)) != SS_OK)
         return st;
     r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);
     if (r->part_of == NULL)

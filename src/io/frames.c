@@ -173,7 +173,7 @@ ss_frames_columns(ss_header *head, size_t n)
     ss_status st = SS_OK;
     for (size_t i = 1; st == SS_OK && i <= n; i++) {
         snprintf(name, sizeof name, "ch%zu", i);
-        st = ss_header_add_column(head, name, "");
+        st = ss_header_add_column(head, name, "", NULL);
     }
     return st;
 }

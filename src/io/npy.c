@@ -249,7 +249,7 @@ name_columns(struct sheet *t, const struct npy *a)
     for (size_t c = 0; st == SS_OK && c < a->columns; c++) {
         snprintf(number, sizeof number, "ch%zu", c + 1);
         const char *name = a->named ? a->field[c].name : "";
-        st = ss_header_add_column(t->names, *name != '\0' ? name : number, "");
+        st = ss_header_add_column(t->names, *name != '\0' ? name : number, "", NULL);
     }
     return t->column != NULL ? st : SS_ENOMEM;
 }

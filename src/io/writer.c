@@ -24,7 +24,7 @@ ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_head
     writer->out.file = out;
     writer->format = ss_format_table(format);
     writer->row = writer->out.used = 0;
-    writer->head = ss_header_copy(head);
+    ss_header_copy(&writer->head, head, NULL);
     ss_status st = writer->head == NULL ? SS_ENOMEM
         : writer->format->begin(out, head, ss_kind_magic(SS_KIND_SIGNAL), err);
     if (st != SS_OK) {

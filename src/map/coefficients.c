@@ -37,7 +37,7 @@ note_number(ss_header *head, const char *key, double value)
 {
     char text[SS_NUMBER_MAX];
     ss_number_format(text, value);
-    return ss_header_note(head, key, text);
+    return ss_header_note(head, key, text, NULL);
 }
 
 const char *const ss_coefficient_notes[] = {
@@ -49,21 +49,21 @@ note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
 {
     const ss_column *col = &head->column[0];
     int failed = (n > 0 ? note_number(head, "samples", (double)n)
-                        : ss_header_note(head, "stream", "yes"))
-        || ss_header_note(head, "column", col->name)
-        || (col->unit[0] != '\0' && ss_header_note(head, "unit", col->unit))
+                        : ss_header_note(head, "stream", "yes", NULL))
+        || ss_header_note(head, "column", col->name, NULL)
+        || (col->unit[0] != '\0' && ss_header_note(head, "unit", col->unit, NULL))
         || note_number(head, "center", opts->center) || note_number(head, "voices", opts->voices)
-        || (opts->dense ? ss_header_note(head, "dense", "yes")
+        || (opts->dense ? ss_header_note(head, "dense", "yes", NULL)
                         : note_number(head, "step", opts->step))
         || (!opts->dense && !opts->exact && opts->step <= 1
-            && ss_header_note(head, "lattice", SS_LATTICE))
-        || ss_header_note(head, "norm", norm_name[opts->norm])
-        || ss_header_note(head, "admissible", opts->admissible ? "yes" : "no")
-        || ss_header_note(head, "detrend", detrend_name[opts->detrend])
+            && ss_header_note(head, "lattice", SS_LATTICE, NULL))
+        || ss_header_note(head, "norm", norm_name[opts->norm], NULL)
+        || ss_header_note(head, "admissible", opts->admissible ? "yes" : "no", NULL)
+        || ss_header_note(head, "detrend", detrend_name[opts->detrend], NULL)
         || note_number(head, "accuracy", opts->accuracy)
-        || (opts->rounded && ss_header_note(head, "rounded", "yes"))
-        || ss_header_note(head, "method", engine_name[opts->engine])
-        || ss_header_note(head, "label", "f = center / (2 pi a)");
+        || (opts->rounded && ss_header_note(head, "rounded", "yes", NULL))
+        || ss_header_note(head, "method", engine_name[opts->engine], NULL)
+        || ss_header_note(head, "label", "f = center / (2 pi a)", NULL);
     return failed ? SS_ENOMEM : SS_OK;
 }
 
@@ -75,7 +75,7 @@ ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, 
         || ss_morlet_check(n > 0 ? n : 1, signal->rate, opts, NULL) != SS_OK)
         return SS_EINVAL;
     *out = NULL;
-    ss_status st = ss_header_select(out, signal, &column, 1, 0);
+    ss_status st = ss_header_select(out, signal, &column, 1, 0, NULL);
     if (st == SS_OK)
         ss_header_forget(*out, ss_coefficient_notes);
     if (st == SS_OK && (st = note_options(*out, n, opts)) != SS_OK) {
@@ -96,7 +96,7 @@ ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
     if (signal != NULL)
         st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts);
     if (st == SS_OK && signal != NULL)
-        st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head);
+        st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head, NULL);
     if (st != SS_OK)
         return st;
     coef->n = plan->n;

@@ -392,7 +392,7 @@ ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double t
     if (st == SS_OK)
         st = make_room(&s);
     if (st == SS_OK)
-        st = ss_signal_new(out, coefficients->head, coefficients->n);
+        st = ss_signal_new(out, coefficients->head, coefficients->n, NULL);
     if (st == SS_OK) {
         ss_header_forget((*out)->head, ss_coefficient_notes);
         s.x = (*out)->values;

@@ -70,12 +70,12 @@ note_scene(ss_header *head, const ss_scene *scene)
         char *equals = strstr(line, " = "), *end = strchr(line, '\n');
         *equals = *end = '\0';
         if (strcmp(line, "rate") != 0)
-            st = ss_header_note(head, line, equals + 3);
+            st = ss_header_note(head, line, equals + 3, NULL);
         line = end + 1;
     }
     free(text);
     if (st == SS_OK && scene->base != NULL && *scene->base->cksum != '\0')
-        st = ss_header_note(head, "base_cksum", scene->base->cksum);
+        st = ss_header_note(head, "base_cksum", scene->base->cksum, NULL);
     return st;
 }
 
@@ -84,14 +84,15 @@ ss_sim_header(const ss_scene *scene, const ss_sim_columns *columns)
 {
     if (scene == NULL || columns == NULL)
         return NULL;
-    ss_header *head = ss_header_new(scene->rate, 0);
+    ss_header *head = NULL;
+    ss_header_new(&head, scene->rate, 0, NULL);
     if (head == NULL)
         return NULL;
     head->has_time = columns->has_time;
     ss_status st = note_scene(head, scene);
     for (size_t i = 0; st == SS_OK && i < columns->n; i++)
         st = ss_header_add_column(head, column[columns->pick[i]].name,
-                                  column[columns->pick[i]].unit);
+                                  column[columns->pick[i]].unit, NULL);
     if (st == SS_OK)
         return head;
     ss_header_free(head);
@@ -128,7 +129,7 @@ ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err)
         return st;
     struct collector c = { &columns, NULL, 0 };
     ss_header *head = ss_sim_header(scene, &columns);
-    st = head != NULL ? ss_signal_new(&c.signal, head, ss_scene_samples(scene)) : SS_ENOMEM;
+    st = head != NULL ? ss_signal_new(&c.signal, head, ss_scene_samples(scene), NULL) : SS_ENOMEM;
     ss_header_free(head);
     if (st != SS_OK)
         return ss_fail(err, st, "%s", ss_strerror(st));

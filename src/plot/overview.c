@@ -137,8 +137,8 @@ ss_overview_new(ss_overview **out, const ss_header *head, size_t column, const s
     ss_status st = ss_stream_new(&o->stream, head->rate, opts, add_rows, o, err);
     size_t scales = st == SS_OK ? ss_stream_scales(o->stream) : 0;
     if (st == SS_OK)
-        st = ss_header_gaps(&o->gap, &o->n_gaps, head);
-    int made = st == SS_OK && (o->head = ss_header_copy(head)) != NULL
+        st = ss_header_gaps(&o->gap, &o->n_gaps, head, NULL);
+    int made = st == SS_OK && ss_header_copy(&o->head, head, NULL) == SS_OK
         && (o->noise = ss_noise_level_new(scales)) != NULL
         && (o->scale = calloc(scales, sizeof *o->scale)) != NULL && ss_extremes_make(&o->samples, BLOCKS, 1);
     for (size_t i = 0; made && i < scales; i++)
@@ -169,11 +169,11 @@ make_signal(ss_overview *o)
     const extremes *r = &o->samples;
     ss_header *head;
     size_t a_block = ss_extremes_each(r);
-    ss_status st = ss_header_select(&head, o->head, &o->column, 1, 0);
+    ss_status st = ss_header_select(&head, o->head, &o->column, 1, 0, NULL);
     if (st != SS_OK)
         return st;
     head->rate = ldexp(o->head->rate * (double)a_block, -r->order);
-    st = ss_signal_new(&o->signal, head, a_block * ss_extremes_count(r));
+    st = ss_signal_new(&o->signal, head, a_block * ss_extremes_count(r), NULL);
     ss_header_free(head);
     if (st == SS_OK)
         ss_extremes_give(r, o->signal->values);

@@ -324,7 +324,7 @@ ss_script_make_clock(script_clock *clock, const ss_header *head, const script_sp
 {
     size_t i = span->first;
     *clock = (script_clock){ .start = head->start, .rate = head->rate };
-    if (ss_header_gaps(&clock->gap, &clock->n_gaps, head) != SS_OK)
+    if (ss_header_gaps(&clock->gap, &clock->n_gaps, head, NULL) != SS_OK)
         return ss_fail_memory(err, NULL);
     while (i < span->first + span->n && ss_script_is_missing(clock, i))
         i++;

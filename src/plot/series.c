@@ -110,10 +110,10 @@ read_blocks(ss_signal **out, series *s, const extremes block[], ss_error *err)
 {
     size_t each = ss_extremes_each(block), n = each * ss_extremes_count(block);
     ss_header *head = NULL;
-    ss_status st = ss_header_select(&head, s->head, s->column, s->n_columns, s->first);
+    ss_status st = ss_header_select(&head, s->head, s->column, s->n_columns, s->first, NULL);
     if (st == SS_OK) {
         head->rate = ldexp((double)each * head->rate, -block->order);
-        st = ss_signal_new(out, head, n);
+        st = ss_signal_new(out, head, n, NULL);
     }
     for (size_t c = 0; st == SS_OK && c < s->n_columns; c++)
         ss_extremes_give(&block[c], (*out)->values + c * n);
@@ -267,14 +267,14 @@ read_long_path(ss_signal **out, series *s, canvas *v, const script_clock *clock,
     if (v->gaps != NULL && fclose(v->gaps) != 0)
         st = SS_ENOMEM;
     if (st == SS_OK)
-        st = ss_header_select(&head, s->head, s->column, s->n_columns, 0);
+        st = ss_header_select(&head, s->head, s->column, s->n_columns, 0, NULL);
     if (st == SS_OK) {
         head->start = 0;
         head->rate = 1;
-        st = ss_header_note(head, "gaps", text);
+        st = ss_header_note(head, "gaps", text, NULL);
     }
     if (st == SS_OK)
-        st = ss_signal_new(out, head, v->n);
+        st = ss_signal_new(out, head, v->n, NULL);
     for (size_t k = 0; st == SS_OK && k < s->n_columns * v->n; k++)
         (*out)->values[k] = v->point[2 * (k % v->n) + k / v->n];
     ss_header_free(head);
@@ -289,9 +289,9 @@ static ss_status
 read_short_path(ss_signal **out, series *s, size_t rows, ss_error *err)
 {
     ss_header *head = NULL;
-    ss_status st = ss_header_select(&head, s->head, s->column, s->n_columns, s->first);
+    ss_status st = ss_header_select(&head, s->head, s->column, s->n_columns, s->first, NULL);
     if (st == SS_OK)
-        st = ss_signal_new(out, head, rows);
+        st = ss_signal_new(out, head, rows, NULL);
     for (size_t n = 1; st == SS_OK && n > 0;) {
         st = ss_series_next(s, &n, err);
         for (size_t c = 0; st == SS_OK && n > 0 && c < s->n_columns; c++)
@@ -308,7 +308,7 @@ read_path(ss_signal **out, series *s, const ss_plot_opts *opts, ss_error *err)
     canvas v = { .extent = { SCRIPT_NO_EXTENT, SCRIPT_NO_EXTENT } };
     script_clock clock = { .start = s->head->start, .rate = s->head->rate };
     script_span span;
-    ss_status st = ss_header_gaps(&clock.gap, &clock.n_gaps, s->head);
+    ss_status st = ss_header_gaps(&clock.gap, &clock.n_gaps, s->head, NULL);
     if (st == SS_OK)
         st = ss_series_rewind(s, err);
     for (size_t n = 1; st == SS_OK && n > 0;) {

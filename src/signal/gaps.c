@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "signal/gaps.h"
+#include "signal/header.h"
 
 static const char key[] = "gaps";
 
@@ -113,7 +114,7 @@ note_spans(const struct runs *r, ss_header *head)
         text[length++] = ':';
         length += ss_number_format(text + length, head->start + (double)r->run[i].end / head->rate);
     }
-    ss_status st = ss_header_note(head, key, text);
+    ss_status st = ss_header_note(head, key, text, NULL);
     free(text);
     return st;
 }
@@ -231,10 +232,10 @@ order(ss_span *span, size_t n)
 }
 
 ss_status
-ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
+ss_header_gaps(ss_span **out, size_t *n, const ss_header *head, ss_error *err)
 {
     if (out == NULL || n == NULL || head == NULL)
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     const char *text = ss_header_find_note(head, key);
     size_t room = 0;
     *out = NULL;
@@ -243,12 +244,12 @@ ss_header_gaps(ss_span **out, size_t *n, const ss_header *head)
         room += *p == ':';
     ss_span *span = malloc((room + 1) * sizeof *span);
     if (span == NULL)
-        return SS_ENOMEM;
+        return ss_fail_memory(err, NULL);
     size_t read = 0;
     for (char *p = (char *)text; p != NULL && *p != '\0'; read++)
         if (read == room || !read_span(&span[read], &p)) {
             free(span);
-            return SS_EDATA;
+            return ss_fail(err, SS_EDATA, WRONG_GAPS);
         }
     *n = order(span, read);
     *out = span;
@@ -260,7 +261,7 @@ ss_header_check_gaps(const ss_header *head)
 {
     ss_span *span;
     size_t n;
-    ss_status st = ss_header_gaps(&span, &n, head);
+    ss_status st = ss_header_gaps(&span, &n, head, NULL);
     free(span);
     return st;
 }
@@ -288,7 +289,7 @@ ss_gaps_near(const ss_span *gap, size_t n, double t, double margin)
 ss_status
 ss_gaps_of(ss_span **out, size_t *n, const ss_header *head, size_t rows)
 {
-    ss_status st = ss_header_gaps(out, n, head);
+    ss_status st = ss_header_gaps(out, n, head, NULL);
     size_t kept = 0;
     for (size_t i = 0; st == SS_OK && i < *n; i++) {
         double from = floor(((*out)[i].from - head->start) * head->rate + UNEVEN);

@@ -7,16 +7,18 @@
 #include "base/utf8.h"
 #include "signal/header.h"
 
-ss_header *
-ss_header_new(double rate, double start)
+ss_status
+ss_header_new(ss_header **out, double rate, double start, ss_error *err)
 {
-    ss_header *head = calloc(1, sizeof *head);
+    if (out == NULL)
+        return SS_FAIL_NULL(err);
+    ss_header *head = *out = calloc(1, sizeof *head);
     if (head == NULL)
-        return NULL;
+        return ss_fail_memory(err, NULL);
     head->rate = rate;
     head->start = start;
     head->has_time = 1;
-    return head;
+    return SS_OK;
 }
 
 void
@@ -38,7 +40,7 @@ ss_header_free(ss_header *head)
 /* Append a column with these strings.  The header owns them from now on; if this fails, they are freed.
  * NULL for one of them: there was no memory for it. */
 static ss_status
-append_column(ss_header *head, char *name, char *unit)
+append_column(ss_header *head, char *name, char *unit, ss_error *err)
 {
     ss_column *more = realloc(head->column, (head->n_columns + 1) * sizeof *more);
     if (more != NULL)
@@ -46,7 +48,7 @@ append_column(ss_header *head, char *name, char *unit)
     if (more == NULL || name == NULL || unit == NULL) {
         free(name);
         free(unit);
-        return SS_ENOMEM;
+        return ss_fail_memory(err, NULL);
     }
     if (head->n_columns == 0 && strcmp(name, "t") == 0 && strcmp(unit, "s") == 0)
         head->has_time = 1;             /* or readers would take this column for the time */
@@ -69,52 +71,53 @@ copy_notes(ss_header *to, const ss_header *from)
 }
 
 ss_status
-ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
-                 size_t first)
+ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n, size_t first,
+                 ss_error *err)
 {
+    ss_header *copy;
     if (out == NULL || head == NULL || (column == NULL && n > 0))
-        return SS_EINVAL;
-    ss_header *copy = ss_header_new(head->rate, head->start);
+        return SS_FAIL_NULL(err);
     *out = NULL;
-    if (copy == NULL || !copy_notes(copy, head)) {
+    ss_status st = ss_header_new(&copy, head->rate, head->start, err);
+    if (st != SS_OK || !copy_notes(copy, head)) {
         ss_header_free(copy);
-        return SS_ENOMEM;
+        return ss_fail_memory(err, NULL);
     }
     copy->has_time = head->has_time;
     if (first > 0)
         copy->start += (double)first / head->rate;
     int ascending = 1;                          /* names in ascending order all differ */
-    for (size_t i = 0; i < n; i++) {
-        ss_status st = SS_EINVAL;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
         ascending = ascending && (i == 0 || column[i] > column[i - 1]);
         if (column[i] < head->n_columns) {
             const ss_column *c = &head->column[column[i]];
-            st = ascending ? append_column(copy, strdup(c->name), strdup(c->unit))
-                           : ss_header_add_column(copy, c->name, c->unit);
-        }
-        if (st != SS_OK) {
-            ss_header_free(copy);
-            return st;
+            st = ascending ? append_column(copy, strdup(c->name), strdup(c->unit), err)
+                           : ss_header_add_column(copy, c->name, c->unit, err);
+        } else {
+            st = ss_fail_column(err, column[i], head->n_columns);
         }
     }
-    *out = copy;
-    return SS_OK;
+    if (st == SS_OK)
+        *out = copy;
+    else
+        ss_header_free(copy);
+    return st;
 }
 
-ss_header *
-ss_header_copy(const ss_header *head)
+ss_status
+ss_header_copy(ss_header **out, const ss_header *head, ss_error *err)
 {
-    if (head == NULL)
-        return NULL;
-    ss_header *copy = NULL;
+    if (out == NULL || head == NULL)
+        return SS_FAIL_NULL(err);
     size_t *all = malloc((head->n_columns + 1) * sizeof *all);
+    *out = NULL;
     if (all == NULL)
-        return NULL;
+        return ss_fail_memory(err, NULL);
     for (size_t i = 0; i < head->n_columns; i++)
         all[i] = i;
-    ss_header_select(&copy, head, all, head->n_columns, 0);
+    ss_status st = ss_header_select(out, head, all, head->n_columns, 0, err);
     free(all);
-    return copy;
+    return st;
 }
 
 /* --- columns ------------------------------------------------------------------------------- */
@@ -213,11 +216,13 @@ ss_clean_unit(const char *unit)
 }
 
 ss_status
-ss_header_add_column(ss_header *head, const char *name, const char *unit)
+ss_header_add_column(ss_header *head, const char *name, const char *unit, ss_error *err)
 {
-    if (head == NULL || name == NULL || *name == '\0')
-        return SS_EINVAL;
-    return append_column(head, clean_name(head, name), ss_clean_unit(unit));
+    if (head == NULL || name == NULL)
+        return SS_FAIL_NULL(err);
+    if (*name == '\0')
+        return ss_fail(err, SS_EINVAL, "a column without a name");
+    return append_column(head, clean_name(head, name), ss_clean_unit(unit), err);
 }
 
 static int
@@ -333,26 +338,26 @@ ss_header_forget(ss_header *head, const char *const name[])
 }
 
 ss_status
-ss_header_note(ss_header *head, const char *key, const char *value)
+ss_header_note(ss_header *head, const char *key, const char *value, ss_error *err)
 {
     const char *old;
     if (head == NULL || key == NULL)
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     if (is_blank(*key) || strchr(key, ':') != NULL || strcmp(key, "rate") == 0
         || strcmp(key, "start") == 0 || strcmp(key, "columns") == 0)
-        return SS_EINVAL;
+        return ss_fail(err, SS_EINVAL, "no note can have the key '%.40s'", key);
     if (value == NULL) {
         delete_note(head, find_note(head, key, strlen(key), &old));
         return SS_OK;
     }
     char *raw = malloc(strlen(key) + strlen(value) + 3);
     if (raw == NULL)
-        return SS_ENOMEM;
+        return ss_fail_memory(err, NULL);
     sprintf(raw, "%s: %s", key, value);
     char *note = ss_utf8_text(raw);
     free(raw);
     if (note == NULL)
-        return SS_ENOMEM;
+        return ss_fail_memory(err, NULL);
     size_t length = strcspn(note, ":"), i;
     blank_controls(note, length);
     i = find_note(head, note, length, &old);
@@ -360,7 +365,7 @@ ss_header_note(ss_header *head, const char *key, const char *value)
         char **more = realloc(head->note, (i + 1) * sizeof *more);
         if (more == NULL) {
             free(note);
-            return SS_ENOMEM;
+            return ss_fail_memory(err, NULL);
         }
         head->note = more;
         head->note[head->n_notes++] = NULL;

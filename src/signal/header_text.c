@@ -90,7 +90,7 @@ read_columns(ss_header *head, char *p, const char **reason)
             *reason = "more than 32768 columns";
             return SS_EDATA;
         }
-        ss_status st = ss_header_add_column(head, name, unit);
+        ss_status st = ss_header_add_column(head, name, unit, NULL);
         *reason = "a column without a name";
         if (st != SS_OK)
             return st == SS_EINVAL ? SS_EDATA : st;
@@ -130,7 +130,7 @@ ss_header_read_line(ss_header *head, char *line, const char **reason)
         return SS_EDATA;
     if (*key == '\0')
         return SS_OK;
-    ss_status st = ss_header_note(head, key, value);
+    ss_status st = ss_header_note(head, key, value, NULL);
     *reason = WRONG_GAPS;
     return st == SS_OK && strcmp(key, "gaps") == 0 ? ss_header_check_gaps(head) : st;
 }

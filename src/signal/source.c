@@ -6,13 +6,14 @@
 #include <string.h>
 #include "base/error.h"
 
-/* A source with this header, which is its own from here on, also after a failure. */
+/* A source with a copy of this header. */
 static void *
-make(size_t size, const struct source_calls *calls, const char *name, ss_header *head, ss_error *err)
+make(size_t size, const struct source_calls *calls, const char *name, const ss_header *of, ss_error *err)
 {
     ss_source *s = calloc(1, size);
+    ss_header *head = NULL;
     char *copy = strdup(name);
-    if (s == NULL || copy == NULL || head == NULL) {
+    if (s == NULL || copy == NULL || ss_header_copy(&head, of, NULL) != SS_OK) {
         free(s);
         free(copy);
         ss_header_free(head);
@@ -27,13 +28,13 @@ make(size_t size, const struct source_calls *calls, const char *name, ss_header 
 void *
 ss_source_new(size_t size, const struct source_calls *calls, const char *name, ss_error *err)
 {
-    return make(size, calls, name, ss_header_new(0, 0), err);
+    return make(size, calls, name, &(ss_header){ .has_time = 1 }, err);
 }
 
 void *
 ss_source_wrap(ss_source **s, size_t size, const struct source_calls *calls, ss_error *err)
 {
-    ss_source *outer = make(size, calls, (*s)->name, ss_header_copy((*s)->head), err);
+    ss_source *outer = make(size, calls, (*s)->name, (*s)->head, err);
     if (outer == NULL)
         return NULL;
     outer->length = (*s)->length;
@@ -122,7 +123,7 @@ ss_source_all(ss_signal **out, ss_source *s, ss_error *err)
     size_t first = s->length < UINT64_MAX ? (size_t)s->length + 1 : 1 + 16384 / (columns + 1);
     ss_signal *signal = NULL;
     double **column = malloc((columns + 1) * sizeof *column);
-    ss_status st = column != NULL ? ss_signal_new(&signal, s->head, 0) : SS_ENOMEM;
+    ss_status st = column != NULL ? ss_signal_new(&signal, s->head, 0, NULL) : SS_ENOMEM;
     if (st != SS_OK)
         ss_fail_memory(err, s->name);
     while (st == SS_OK && got > 0) {
@@ -170,7 +171,7 @@ ss_source *
 ss_source_of_signal(const ss_signal *signal, const char *name, ss_error *err)
 {
     static const struct source_calls calls = { .next = give_held };
-    struct held *h = make(sizeof *h, &calls, name, ss_header_copy(signal->head), err);
+    struct held *h = make(sizeof *h, &calls, name, signal->head, err);
     if (h == NULL)
         return NULL;
     h->base.length = signal->n;

@@ -117,10 +117,11 @@ ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *e
     *out = NULL;
     if (wrong != NULL)
         return ss_fail(err, SS_EINVAL, "%s", wrong);
-    ss_header *head = ss_header_new(opts->rate, 0);
-    ss_status st = head != NULL ? ss_header_add_column(head, "a", "") : SS_ENOMEM;
+    ss_header *head = NULL;
+    ss_header_new(&head, opts->rate, 0, NULL);
+    ss_status st = head != NULL ? ss_header_add_column(head, "a", "", NULL) : SS_ENOMEM;
     if (st == SS_OK)
-        st = ss_signal_new(out, head, (size_t)round(opts->duration * opts->rate));
+        st = ss_signal_new(out, head, (size_t)round(opts->duration * opts->rate), NULL);
     ss_header_free(head);
     if (st == SS_ENOMEM)
         return ss_fail(err, st, "%s for %.3g samples, which is duration x rate = %g s x %g Hz",

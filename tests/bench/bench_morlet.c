@@ -152,13 +152,14 @@ count_pass(double done, void *user)
 static void
 invert(size_t n, const ss_morlet_opts *opts)
 {
-    ss_header *head = ss_header_new(2000, 0);
+    ss_header *head = NULL;
+    ss_header_new(&head, 2000, 0, NULL);
     ss_signal *signal = NULL, *back = NULL;
     ss_coefficients *coef = NULL;
     int passes = 0;
     double forward, begin;
     size_t count;
-    if (ss_header_add_column(head, "a", "1") != SS_OK || ss_signal_new(&signal, head, n) != SS_OK)
+    if (ss_header_add_column(head, "a", "1", NULL) != SS_OK || ss_signal_new(&signal, head, n, NULL) != SS_OK)
         exit(2);
     make(NOISE, signal->values, n);
     forward = run(NOISE, n, opts, NULL, &count);

@@ -341,7 +341,7 @@ read_one(tally *t, const condition *c, const draw *d, int verbose)
         char note[128];
         double from = floor(0.31 * (double)n), to = floor(0.35 * (double)n), rate = d->scene.rate;
         snprintf(note, sizeof note, "%.17g:%.17g", from / rate, to / rate);
-        if (ss_header_note(signal->head, "gaps", note) != SS_OK)
+        if (ss_header_note(signal->head, "gaps", note, NULL) != SS_OK)
             exit(1);
         for (size_t i = (size_t)from; i < (size_t)to; i++)
             signal->values[i] = 0;

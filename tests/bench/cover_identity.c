@@ -493,14 +493,14 @@ signal_of(const record *r, int with_x_and_f)
     size_t n = with_x_and_f ? 3 : 1;
     char gap[128];
     snprintf(gap, sizeof gap, "%.17g:%.17g", r->gap_from, r->gap_to);
-    if ((head = ss_header_new(r->rate, 0)) == NULL)
+    if (ss_header_new(&head, r->rate, 0, NULL) != SS_OK)
         abort();
     for (size_t c = 0; c < n; c++)
-        if (ss_header_add_column(head, name[c], unit[c]) != SS_OK)
+        if (ss_header_add_column(head, name[c], unit[c], NULL) != SS_OK)
             abort();
-    if (!isnan(r->gap_from) && ss_header_note(head, "gaps", gap) != SS_OK)
+    if (!isnan(r->gap_from) && ss_header_note(head, "gaps", gap, NULL) != SS_OK)
         abort();
-    if (ss_signal_new(&signal, head, r->n) != SS_OK)
+    if (ss_signal_new(&signal, head, r->n, NULL) != SS_OK)
         abort();
     for (size_t c = 0; c < n; c++)
         memcpy(signal->values + c * r->n, column[c], r->n * sizeof(double));

@@ -47,13 +47,14 @@ static ss_signal *
 make_signal(const material *m)
 {
     ss_signal *signal = NULL;
-    ss_header *head = ss_header_new(100, 0);
+    ss_header *head = NULL;
+    ss_header_new(&head, 100, 0, NULL);
     fuzz_check(head != NULL, "memory");
-    ss_header_note(head, "scene", m->text[1]);
+    ss_header_note(head, "scene", m->text[1], NULL);
     for (int i = 0; i < 2; i++)
-        if (ss_header_add_column(head, m->text[2 + 2 * i], m->text[3 + 2 * i]) != SS_OK)
-            ss_header_add_column(head, i == 0 ? "a" : "b", "");
-    fuzz_check(ss_signal_new(&signal, head, NUMBERS / 2) == SS_OK, "a signal");
+        if (ss_header_add_column(head, m->text[2 + 2 * i], m->text[3 + 2 * i], NULL) != SS_OK)
+            ss_header_add_column(head, i == 0 ? "a" : "b", "", NULL);
+    fuzz_check(ss_signal_new(&signal, head, NUMBERS / 2, NULL) == SS_OK, "a signal");
     ss_header_free(head);
     memcpy(signal->values, m->x, sizeof m->x);
     return signal;

@@ -181,7 +181,7 @@ make_header(h5_file *file, hid_t id, const char *dataset, const array *shape, do
         char *end = stpcpy(name, base);
         if (shape->columns > 1)
             sprintf(end, "%zu", c + 1);
-        status = ss_header_add_column(head, name, unit);
+        status = ss_header_add_column(head, name, unit, NULL);
     }
     free(unit);
     free(name);

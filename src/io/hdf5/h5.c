@@ -384,7 +384,7 @@ read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
         return 0;
     notes->status = ss_h5_get_text(notes->file, root, name, &value);
     if (value != NULL)
-        notes->status = ss_header_note(notes->head, name, value);
+        notes->status = ss_header_note(notes->head, name, value, NULL);
     free(value);
     if (notes->status == SS_EINVAL)             /* other programs' attributes need not be notes */
         notes->status = SS_OK;
@@ -433,7 +433,7 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
         return status;
     if ((status = ss_refuse_range(file->path, rate, start, file->err)) != SS_OK)
         return status;
-    if (*head == NULL && (*head = ss_header_new(0, 0)) == NULL)
+    if (*head == NULL && ss_header_new(head, 0, 0, NULL) != SS_OK)
         return SS_ENOMEM;
     (*head)->rate = rate;
     (*head)->start = start;

@@ -85,7 +85,7 @@ add_column(signal_rows *s, hid_t group, const char *link, ss_header *head)
     if (status == SS_OK)
         status = ss_h5_get_text(file, id, "units", &unit);
     if (status == SS_OK)
-        status = ss_header_add_column(head, name != NULL && *name != '\0' ? name : link, unit);
+        status = ss_header_add_column(head, name != NULL && *name != '\0' ? name : link, unit, NULL);
     free(name);
     free(unit);
     return status;

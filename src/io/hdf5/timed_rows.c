@@ -19,7 +19,7 @@ name_times(struct sheet *t, signal_rows *s, const char *time)
     if (since != NULL)
         *since = '\0';
     if (status == SS_OK)
-        status = ss_header_add_column(t->names, slash != NULL ? slash + 1 : time, unit);
+        status = ss_header_add_column(t->names, slash != NULL ? slash + 1 : time, unit, NULL);
     free(unit);
     return status;
 }
@@ -31,7 +31,7 @@ name_columns(struct sheet *t, signal_rows *s)
     const ss_header *head = s->base.head;
     ss_status status = s->stamps > 0 ? name_times(t, s, t->opts->time) : SS_OK;
     for (size_t c = 0; status == SS_OK && c < head->n_columns; c++)
-        status = ss_header_add_column(t->names, head->column[c].name, head->column[c].unit);
+        status = ss_header_add_column(t->names, head->column[c].name, head->column[c].unit, NULL);
     t->named = 1;
     t->n_columns = t->names->n_columns;
     t->column = calloc(t->n_columns, sizeof *t->column);

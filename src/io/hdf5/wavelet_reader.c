@@ -19,7 +19,7 @@ add_grid_column(h5_file *file, hid_t group, ss_header *head)
     if (status == SS_OK)
         status = ss_h5_get_text(file, group, "column_units", &unit);
     if (status == SS_OK && name != NULL && name[0] != '\0')
-        status = ss_header_add_column(head, name, unit);
+        status = ss_header_add_column(head, name, unit, NULL);
     free(name);
     free(unit);
     return status;
@@ -184,7 +184,7 @@ read_grid(wavelet_reader *r)
         status = get_dense(r);
     for (size_t i = 0; status == SS_OK && !r->dense && i < c->n_scales; i++)
         status = get_scale(r, i);
-    return status == SS_OK ? ss_header_gaps(&c->gap, &c->n_gaps, c->head) : status;
+    return status == SS_OK ? ss_header_gaps(&c->gap, &c->n_gaps, c->head, NULL) : status;
 }
 
 ss_status

@@ -107,7 +107,7 @@ copy_grid(wavelet_writer *w, const ss_coefficients *grid)
         w->datasets[i] = (struct scale_datasets){ .group = -1, .time = -1, .re = -1, .im = -1,
                                                  .edge = -1 };
     w->dense = is_dense(w);
-    return ss_header_gaps(&w->gap, &w->n_gaps, grid->head);
+    return ss_header_gaps(&w->gap, &w->n_gaps, grid->head, NULL);
 }
 
 ss_status

@@ -164,7 +164,7 @@ name_columns(struct text *x, const char *names, const char *units)
             unit = bare_unit(unit_cell[i]);
         else if (*unit == '\0')
             unit = (char *)ss_unit_of_name(name, NULL);
-        st = ss_header_add_column(x->t.names, *name != '\0' ? name : number, unit);
+        st = ss_header_add_column(x->t.names, *name != '\0' ? name : number, unit, NULL);
     }
     free(unit_cell);
     free(copy);
@@ -316,14 +316,15 @@ static ss_status
 label_columns(struct text *x, const char *const *word, size_t first, size_t step, int is_unit_row)
 {
     size_t n = find_line(x, word);
-    ss_header *head = ss_header_new(0, 0);
+    ss_header *head = NULL;
+    ss_header_new(&head, 0, 0, NULL);
     ss_status st = n != NONE && head != NULL ? SS_OK : SS_ENOMEM;
     for (size_t c = 0; st == SS_OK && c < x->t.n_columns; c++) {
         const ss_column *old = &x->t.names->column[c];
         size_t i = (c - first) / step + 1;
         const char *cell = c >= first && (c - first) % step == 0 && i <= n ? x->cell[i] : "";
         st = ss_header_add_column(head, *cell != '\0' && !is_unit_row ? cell : old->name,
-                                  *cell != '\0' && is_unit_row ? cell : old->unit);
+                                  *cell != '\0' && is_unit_row ? cell : old->unit, NULL);
     }
     ss_header *other = st == SS_OK && n > 0 ? x->t.names : head;
     x->t.names = other == head ? x->t.names : head;

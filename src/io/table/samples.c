@@ -102,7 +102,7 @@ choose_columns(struct samples *s, const struct sheet *t, int stamped, ss_error *
         return ss_fail(err, SS_EDATA, "%s: no column but time", t->name);
     if (stamped)
         s->of[s->n++] = time;
-    if (ss_header_select(&head, t->names, s->of, s->n, 0) != SS_OK)
+    if (ss_header_select(&head, t->names, s->of, s->n, 0, NULL) != SS_OK)
         return ss_fail_memory(err, t->name);
     ss_header_free(s->base.head);
     s->base.head = head;

@@ -13,7 +13,7 @@ ss_sheet_begin(struct sheet *t, const char *name, const ss_read_opts *opts)
 {
     t->name = name;
     t->opts = opts;
-    t->names = ss_header_new(0, 0);
+    ss_header_new(&t->names, 0, 0, NULL);
     return t->names != NULL ? SS_OK : SS_ENOMEM;
 }
 

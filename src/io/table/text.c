@@ -489,7 +489,7 @@ clear_table(struct text *x)
     free(t->column);
     ss_header_free(t->names);
     t->column = NULL;
-    t->names = ss_header_new(0, 0);
+    ss_header_new(&t->names, 0, 0, NULL);
     t->n_columns = x->next_columns;
     t->counted.increment = 0;
     t->named = 0;

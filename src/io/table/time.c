@@ -248,7 +248,7 @@ read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
     if (st != SS_OK || !(fabs(zero) > 0))
         return st;
     snprintf(text, sizeof text, "%.0f", zero);  /* the day from whose midnight on seconds are counted */
-    return ss_header_note(t->names, "day", text) == SS_OK ? SS_OK : ss_fail_memory(err, t->name);
+    return ss_header_note(t->names, "day", text, NULL) == SS_OK ? SS_OK : ss_fail_memory(err, t->name);
 }
 
 /* --- dates and times of day ---------------------------------------------------------------- */
@@ -262,7 +262,7 @@ note_date(struct sheet *t, double day)
     long of_year = of_era - (365 * year + year / 4 - year / 100), month = (5 * of_year + 2) / 153;
     snprintf(text, sizeof text, "%04ld-%02ld-%02ld", year + 400 * era + (month > 9),
              month > 9 ? month - 9 : month + 3, of_year - (153 * month + 2) / 5 + 1);
-    return ss_header_note(t->names, "date", text);
+    return ss_header_note(t->names, "date", text, NULL);
 }
 
 /* Find the clock of a column of dates, times of day or both. */
@@ -363,7 +363,7 @@ list_channels(const struct sheet *t, size_t *channel, size_t *n, ss_header **hea
     for (size_t c = 0; c < t->n_columns && !guessed; c++)
         if (c != time && t->column[c].kind == COLUMN_NUMBERS)
             channel[(*n)++] = c;
-    return ss_header_select(head, t->names, channel, *n, 0);
+    return ss_header_select(head, t->names, channel, *n, 0, NULL);
 }
 
 ss_status

@@ -133,7 +133,7 @@ make_signal(portrait *p, const ss_scene *scene, ss_error *err)
 {
     const ss_sim_columns columns = { 1, COLUMNS, { 0, 1, 2, 3 } };
     ss_header *head = ss_sim_header(scene, &columns);
-    ss_status st = head != NULL ? ss_signal_new(&p->signal, head, ss_scene_samples(scene)) : SS_ENOMEM;
+    ss_status st = head != NULL ? ss_signal_new(&p->signal, head, ss_scene_samples(scene), NULL) : SS_ENOMEM;
     ss_header_free(head);
     return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }
