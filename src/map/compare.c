@@ -12,9 +12,8 @@
 typedef struct compare {
     const ss_morlet *plan;
     ss_morlet *other;                   /* the same grid by FFT alone */
-    record rec;
-    spectra spectra;
-    double *scratch, *row;              /* room to compute a scale by FFT */
+    transformed of;
+    double *row;                        /* room for a scale by FFT */
     size_t each;                        /* coefficients of a scale */
     double *want;
     size_t *k;
@@ -44,13 +43,13 @@ recompute(compare *cmp, size_t i, ss_error *err)
 {
     const ss_scale *scale = &cmp->plan->scale[i];
     if (!only_by_sum(cmp, i)) {
-        ss_status st = ss_quadrature_points(cmp->plan, scale, &cmp->rec, cmp->k, cmp->each,
+        ss_status st = ss_quadrature_points(cmp->plan, scale, &cmp->of.rec, cmp->k, cmp->each,
                                             cmp->want);
         return st != SS_OK ? st : ss_morlet_finish(cmp->want, cmp->each, scale->a,
-                                                   cmp->plan->opts.norm, cmp->rec.exponent, err);
+                                                   cmp->plan->opts.norm, cmp->of.rec.exponent, err);
     }
-    ss_status st = ss_morlet_whole(cmp->other, i, &cmp->rec, &cmp->spectra, cmp->scratch, cmp->row,
-                                   err);
+    const ss_map_part row = { i, 0, scale->n, cmp->row, NULL };
+    ss_status st = ss_morlet_parts(cmp->other, &cmp->of, &row, 1, NULL, err);
     for (size_t c = 0; c < cmp->each; c++) {
         cmp->want[2 * c] = cmp->row[2 * cmp->k[c]];
         cmp->want[2 * c + 1] = cmp->row[2 * cmp->k[c] + 1];
@@ -94,12 +93,8 @@ prepare(compare *cmp, ss_error *err)
     for (size_t i = 0; i < plan->n_scales; i++)
         if (only_by_sum(cmp, i) && plan->scale[i].n > longest)
             longest = plan->scale[i].n;
-    if (longest == 0)
-        return SS_OK;
-    cmp->row = malloc(2 * longest * sizeof *cmp->row);
-    if (cmp->row == NULL || ss_morlet_scratch(cmp->other, &cmp->scratch) != SS_OK)
-        return SS_ENOMEM;
-    return ss_morlet_forward(cmp->other, &cmp->rec, &cmp->spectra);
+    cmp->row = malloc((2 * longest + 1) * sizeof *cmp->row);
+    return cmp->row != NULL ? SS_OK : SS_ENOMEM;
 }
 
 ss_status
@@ -112,19 +107,17 @@ ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_
     double worst = 0;
     if (each < 1 || each > 1000000)
         return ss_fail(err, SS_EINVAL, "%zu coefficients a scale are out of range 1 ... 1e6", each);
-    ss_status st = ss_morlet_record(&cmp.rec, x, plan->n, plan->opts.detrend, err);
+    ss_status st = prepare(&cmp, err);
     if (st == SS_OK)
-        st = prepare(&cmp, err);
+        st = ss_morlet_begin(cmp.other, x, &cmp.of, err);
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++)
         st = compare_scale(&cmp, i, w, &worst, err);
     if (st == SS_OK)
         *difference = worst;
-    ss_morlet_spectra_free(&cmp.spectra);
-    ss_fft_scratch_free(cmp.scratch);
+    ss_morlet_end(&cmp.of);
     free(cmp.row);
     free(cmp.k);
     free(cmp.want);
-    free(cmp.rec.x);
     ss_morlet_free(cmp.other);
     return st;
 }

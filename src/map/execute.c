@@ -1,62 +1,113 @@
-/* execute.c -- execute a plan: each scale by its engine, on the number of threads in the options.
+/* execute.c -- execute a plan: parts of its scales, on the number of threads in the options, into memory, to
+ * a sink, or to whoever reads a map.
  *
- * One thread computes a scale, from input that all threads share and none changes, so the result does
+ * One thread computes a part, from input that all threads share and none changes, so the result does
  * not depend on the number of threads. */
 #include <math.h>
 #include <pthread.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "map/map.h"
 #include "map/plan.h"
 
-typedef struct scale_queue {
+typedef struct queue {
     const ss_morlet *plan;
-    record rec;
-    spectra spectra;
-    double *w;
-    pthread_mutex_t lock;       /* of the following fields */
-    size_t next;                /* the scales before this one are not yet computed */
-    size_t done;                /* coefficients */
-    size_t failed;              /* the longest scale that failed; its status and reason follow */
+    const transformed *of;
+    const ss_map_part *part;
+    size_t *done;               /* coefficients of the plan that are computed; NULL: nobody asks */
+    pthread_mutex_t lock;       /* of done and the following fields */
+    size_t next;                /* the parts before this one are not yet computed */
+    size_t failed;              /* the first part that failed; its status and reason follow */
     ss_status status;
     ss_error error;
-} scale_queue;
+} queue;
 
-/* The work of a thread: compute scales until none is left, the expensive short ones first. */
-static void
-compute_scales(void *user)
+/* Magnitudes are computed piece by piece, so that they need no room for all coefficients. */
+static ss_status
+compute_part(const queue *q, const ss_map_part *part, double *scratch, ss_error *err)
 {
-    scale_queue *queue = user;
-    const ss_morlet *plan = queue->plan;
+    double most = 0, *w = NULL;
+    if (part->w != NULL)
+        return ss_morlet_part(q->plan, part->scale, &q->of->rec, &q->of->spectra, scratch, NULL,
+                              (span){ part->first, part->n }, &most, part->w, err);
+    w = malloc(2 * ss_morlet_part_most(q->plan) * sizeof *w);
+    ss_status st = w != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t k = 0, n; st == SS_OK && k < part->n; k += n) {
+        n = ss_morlet_part_length(q->plan, part->scale, part->first + k);
+        n = n < part->n - k ? n : part->n - k;
+        st = ss_morlet_part(q->plan, part->scale, &q->of->rec, &q->of->spectra, scratch, NULL,
+                            (span){ part->first + k, n }, &most, w, err);
+        if (st == SS_OK)
+            ss_map_give(part, k, n, w);
+    }
+    free(w);
+    return st;
+}
+
+/* The work of a thread: compute parts until none is left, the last first, as short scales are expensive. */
+static void
+compute_parts(void *user)
+{
+    queue *q = user;
     double *scratch;
-    ss_status have = ss_morlet_scratch(plan, &scratch);
-    pthread_mutex_lock(&queue->lock);
+    ss_status have = ss_morlet_scratch(q->plan, &scratch);
+    pthread_mutex_lock(&q->lock);
     if (have != SS_OK) {
-        queue->next = queue->failed = 0;
-        queue->status = SS_ENOMEM;
+        q->next = q->failed = 0;
+        q->status = SS_ENOMEM;
     }
-    while (queue->next > 0) {
-        size_t i = --queue->next;
+    while (q->next > 0) {
+        size_t i = --q->next;
         ss_error err = { 0 };
-        pthread_mutex_unlock(&queue->lock);
-        ss_status st = ss_morlet_whole(plan, i, &queue->rec, &queue->spectra, scratch,
-                                       queue->w + 2 * plan->scale[i].offset, &err);
-        pthread_mutex_lock(&queue->lock);
-        if (st != SS_OK && (queue->status == SS_OK || i < queue->failed)) {
-            queue->failed = i;
-            queue->status = st;
-            queue->error = err;
+        pthread_mutex_unlock(&q->lock);
+        ss_status st = compute_part(q, &q->part[i], scratch, &err);
+        pthread_mutex_lock(&q->lock);
+        if (st != SS_OK && (q->status == SS_OK || i < q->failed)) {
+            q->failed = i;
+            q->status = st;
+            q->error = err;
         }
-        queue->done += plan->scale[i].n;
-        if (queue->status == SS_OK)
-            queue->status = ss_progress_at(&plan->opts.progress,
-                                           (double)queue->done / (double)plan->total);
-        if (queue->status == SS_STOP)
-            queue->next = 0;
+        if (q->done != NULL && q->status == SS_OK) {
+            *q->done += q->part[i].n;
+            q->status = ss_progress_at(&q->plan->opts.progress, (double)*q->done / (double)q->plan->total);
+        }
+        if (q->status == SS_STOP)
+            q->next = 0;
     }
-    pthread_mutex_unlock(&queue->lock);
+    pthread_mutex_unlock(&q->lock);
     ss_fft_scratch_free(scratch);
+}
+
+ss_status
+ss_morlet_parts(const ss_morlet *plan, const transformed *of, const ss_map_part part[], size_t n, size_t *done,
+                ss_error *err)
+{
+    size_t threads = (size_t)plan->opts.threads;
+    queue q = { .plan = plan, .of = of, .part = part, .done = done, .next = n };
+    pthread_mutex_init(&q.lock, NULL);
+    ss_pool_run(compute_parts, &q, 0, threads < n ? threads : n);
+    pthread_mutex_destroy(&q.lock);
+    if (q.status != SS_OK && err != NULL)
+        *err = q.error;
+    return q.status;
+}
+
+ss_status
+ss_morlet_begin(const ss_morlet *plan, const double *x, transformed *of, ss_error *err)
+{
+    *of = (transformed){ .rec.x = NULL };
+    ss_status st = ss_morlet_record(&of->rec, x, plan->n, plan->opts.detrend, err);
+    return st == SS_OK ? ss_morlet_forward(plan, &of->rec, &of->spectra) : st;
+}
+
+void
+ss_morlet_end(transformed *of)
+{
+    ss_morlet_spectra_free(&of->spectra);
+    free(of->rec.x);
 }
 
 ss_status
@@ -64,20 +115,53 @@ ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *e
 {
     if (plan == NULL || x == NULL || w == NULL)
         return SS_FAIL_NULL(err);
-    scale_queue queue = { .plan = plan, .w = w, .next = plan->n_scales };
-    ss_status st = ss_morlet_record(&queue.rec, x, plan->n, plan->opts.detrend, err);
-    if (st != SS_OK)
-        return st;
-    st = ss_morlet_forward(plan, &queue.rec, &queue.spectra);
-    if (st == SS_OK) {
-        size_t threads = (size_t)plan->opts.threads;
-        pthread_mutex_init(&queue.lock, NULL);
-        ss_pool_run(compute_scales, &queue, 0, threads < plan->n_scales ? threads : plan->n_scales);
-        pthread_mutex_destroy(&queue.lock);
-        if ((st = queue.status) != SS_OK && err != NULL)
-            *err = queue.error;
+    transformed of;
+    size_t done = 0;
+    ss_map_part *part = malloc(plan->n_scales * sizeof *part);
+    ss_status st = ss_morlet_begin(plan, x, &of, err);
+    if (st == SS_OK && part == NULL)
+        st = SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++)
+        part[i] = (ss_map_part){ i, 0, plan->scale[i].n, w + 2 * plan->scale[i].offset, NULL };
+    if (st == SS_OK)
+        st = ss_morlet_parts(plan, &of, part, plan->n_scales, &done, err);
+    ss_morlet_end(&of);
+    free(part);
+    return st;
+}
+
+/* As many scales as there are threads are computed together and then passed to the sink, so only their
+ * coefficients are in memory. */
+ss_status
+ss_morlet_each(const ss_morlet *plan, const double *x, ss_coefficient_sink *sink, void *user, ss_error *err)
+{
+    if (plan == NULL || x == NULL || sink == NULL)
+        return SS_FAIL_NULL(err);
+    ss_map_part part[SS_THREADS_MAX];
+    size_t most = 0, done = 0, together = (size_t)plan->opts.threads;
+    transformed of;
+    ss_status st = ss_morlet_begin(plan, x, &of, err);
+    together = together < plan->n_scales ? together : plan->n_scales;
+    for (size_t i = 0; i < plan->n_scales; i++)
+        most = plan->scale[i].n > most ? plan->scale[i].n : most;
+    double *w = most <= SIZE_MAX / (2 * sizeof *w) / together ? malloc(2 * most * together * sizeof *w) : NULL;
+    if (st == SS_OK && w == NULL)
+        st = SS_ENOMEM;
+    for (size_t first = 0, n; st == SS_OK && first < plan->n_scales; first += n) {
+        n = plan->n_scales - first < together ? plan->n_scales - first : together;
+        for (size_t i = 0; i < n; i++)
+            part[i] = (ss_map_part){ first + i, 0, plan->scale[first + i].n, w + 2 * most * i, NULL };
+        st = ss_morlet_parts(plan, &of, part, n, NULL, err);
+        for (size_t i = 0; st == SS_OK && i < n; i++) {
+            const ss_scale *scale = &plan->scale[first + i];
+            if (sink(scale, 0, scale->n, part[i].w, plan->n, user) != 0)
+                st = SS_STOP;
+            done += scale->n;
+            if (st == SS_OK)
+                st = ss_progress_at(&plan->opts.progress, (double)done / (double)plan->total);
+        }
     }
-    ss_morlet_spectra_free(&queue.spectra);
-    free(queue.rec.x);
+    free(w);
+    ss_morlet_end(&of);
     return st;
 }

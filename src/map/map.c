@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/pool.h"
 #include "base/progress.h"
 #include "base/versions.h"
 #include "map/map.h"
@@ -78,72 +77,21 @@ ss_coefficients_max(const ss_coefficients *map)
 typedef struct computed {
     ss_map_source source;               /* must be the first member */
     ss_morlet *plan;
-    record rec;
-    spectra spectra;
+    transformed of;
 } computed;
-
-/* The parts of one thread: those from first on, `every` apart. */
-typedef struct task {
-    const computed *map;
-    const ss_map_part *part;
-    size_t n, first, every;
-    ss_status status;
-    ss_error error;
-} task;
-
-static ss_status
-compute_part(const computed *c, const ss_map_part *part, double *scratch, double *w, ss_error *err)
-{
-    ss_status st = SS_OK;
-    double most = 0;
-    for (size_t k = 0, n; st == SS_OK && k < part->n; k += n) {
-        n = ss_morlet_part_length(c->plan, part->scale, part->first + k);
-        n = n < part->n - k ? n : part->n - k;
-        span now = { part->first + k, n };
-        st = ss_morlet_part(c->plan, part->scale, &c->rec, &c->spectra, scratch, NULL, now, &most, w, err);
-        if (st == SS_OK)
-            ss_map_give(part, k, n, w);
-    }
-    return st;
-}
-
-static void
-compute_parts(void *user)
-{
-    task *t = user;
-    const computed *c = t->map;
-    double *w = malloc(2 * ss_morlet_part_most(c->plan) * sizeof *w), *scratch = NULL;
-    t->status = w != NULL ? ss_morlet_scratch(c->plan, &scratch) : SS_ENOMEM;
-    for (size_t i = t->first; t->status == SS_OK && i < t->n; i += t->every)
-        t->status = compute_part(c, &t->part[i], scratch, w, &t->error);
-    ss_fft_scratch_free(scratch);
-    free(w);
-}
 
 static ss_status
 compute(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err)
 {
     const computed *c = (const computed *)map->source;
-    task share[SS_THREADS_MAX];
-    size_t threads = (size_t)c->plan->opts.threads;
-    for (size_t t = 0; t < threads; t++)
-        share[t] = (task){ .map = c, .part = part, .n = n, .first = t, .every = threads };
-    ss_pool_run(compute_parts, share, sizeof *share, threads);
-    for (size_t t = 0; t < threads; t++)
-        if (share[t].status != SS_OK) {
-            if (err != NULL)
-                *err = share[t].error;
-            return share[t].status;
-        }
-    return SS_OK;
+    return ss_morlet_parts(c->plan, &c->of, part, n, NULL, err);
 }
 
 static void
 computed_free(ss_map_source *source)
 {
     computed *c = (computed *)source;
-    ss_morlet_spectra_free(&c->spectra);
-    free(c->rec.x);
+    ss_morlet_end(&c->of);
     ss_morlet_free(c->plan);
     free(c);
 }
@@ -182,8 +130,7 @@ ss_status
 ss_map_begin(ss_coefficients *map, const double *x, ss_error *err)
 {
     computed *c = (computed *)map->source;
-    ss_status st = ss_morlet_record(&c->rec, x, c->plan->n, c->plan->opts.detrend, err);
-    return st == SS_OK ? ss_morlet_forward(c->plan, &c->rec, &c->spectra) : st;
+    return ss_morlet_begin(c->plan, x, &c->of, err);
 }
 
 ss_status

@@ -143,12 +143,3 @@ ss_morlet_part_most(const ss_morlet *plan)
             most = ss_blocks_most(plan->blocks, i);
     return most;
 }
-
-ss_status
-ss_morlet_whole(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-                double *scratch, double *w, ss_error *err)
-{
-    double most = 0;
-    return ss_morlet_part(plan, i, rec, s, scratch, NULL, (span){ 0, plan->scale[i].n }, &most, w,
-                          err);
-}

@@ -120,6 +120,19 @@ typedef struct spectra {
     size_t first;
 } spectra;
 
+/* A record that is transformed by a plan. */
+typedef struct transformed {
+    record rec;
+    spectra spectra;
+} transformed;
+/* Make it of the plan's n samples; to be ended, failed or not. */
+ss_status ss_morlet_begin(const ss_morlet *plan, const double *x, transformed *of, ss_error *err);
+void ss_morlet_end(transformed *of);
+/* Compute n parts on the plan's threads.  The error is that of the first part that fails.  done, unless it
+ * is NULL, is raised by their coefficients and reported as progress. */
+ss_status ss_morlet_parts(const ss_morlet *plan, const transformed *of, const ss_map_part part[], size_t n,
+                          size_t *done, ss_error *err);
+
 double *ss_fft_doubles(size_t n);                      /* aligned; NULL: no memory */
 void ss_fft_scratch_free(double *scratch);              /* NULL is allowed */
 
@@ -139,8 +152,5 @@ ss_status ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, con
  * as the second returns. */
 size_t ss_morlet_part_length(const ss_morlet *plan, size_t i, size_t k);
 size_t ss_morlet_part_most(const ss_morlet *plan);
-/* The whole of scale i. */
-ss_status ss_morlet_whole(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-                          double *scratch, double *w, ss_error *err);
 
 #endif
