@@ -7,6 +7,7 @@
 #include <stickslip.h>
 
 #include "unit.h"
+#include "read_opts.h"
 
 static ss_scene scene = { .mass = 1, .stiffness = 1, .friction = 1, .base_amplitude = 1,
     .base_frequency = 1, .duration = 1, .rate = 8 };
@@ -685,6 +686,23 @@ plots_refuse_null(void **state)
 }
 
 /* A caller's stray integer in place of an enumeration, or a number that is none. */
+/* They are refused, as a program that was compiled with a later header might count on what it set. */
+static void
+options_of_another_size_are_refused(void **state)
+{
+    struct { ss_read_opts known; double later; } opts;
+    ss_signal *signal = NULL;
+    ss_error err = { 0 };
+    (void)state;
+    ss_read_opts_init(&opts.known, sizeof opts);
+    assert_int_equal(ss_signal_load(&signal, "/dev/null", &opts.known, &err), SS_EINVAL);
+    assert_non_null(strstr(err.text, "were they initialised?"));
+    opts.known.size = 0;
+    assert_int_equal(ss_signal_load(&signal, "/dev/null", &opts.known, &err), SS_EINVAL);
+    ss_read_opts_init(&opts.known, offsetof(ss_read_opts, progress));
+    assert_int_equal(ss_signal_load(&signal, "/dev/null", &opts.known, &err), SS_EDATA);
+}
+
 static void
 refuses_what_is_no_known_choice(void **state)
 {
@@ -701,7 +719,7 @@ refuses_what_is_no_known_choice(void **state)
         ss_scene copy = scene;
         ss_morlet_opts norm = ss_morlet_defaults, detrend = norm, engine = norm;
         ss_rank_opts rank = ss_rank_defaults;
-        ss_read_opts gaps = { .gaps = (ss_gaps)k };
+        ss_read_opts gaps = { READ_OPTS, .gaps = (ss_gaps)k };
         ss_morlet *plan;
         ss_reader *reader;
         ss_writer *writer;
@@ -748,7 +766,7 @@ refuses_what_is_no_known_choice(void **state)
     }
     static const double no_rate[] = { -1, NAN, INFINITY };
     for (int i = 0; i < 3; i++) {
-        ss_read_opts opts = { .rate = no_rate[i] };
+        ss_read_opts opts = { READ_OPTS, .rate = no_rate[i] };
         ss_reader *reader;
         assert_int_equal(ss_reader_new(&reader, in, "in", &opts, NULL), SS_EINVAL);
     }
@@ -813,6 +831,7 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(options_of_another_size_are_refused),
         cmocka_unit_test(readers_refuse_null),
         cmocka_unit_test(a_printable_text_drives_no_terminal),
         cmocka_unit_test(makers_and_writers_refuse_null),

@@ -2,6 +2,7 @@
  * a status, and the text of an error is one line that ends within its room. */
 #include "store_file.h"
 #include "shipped.h"
+#include "read_opts.h"
 
 #include <ctype.h>
 
@@ -244,7 +245,7 @@ keys_and_options_of_10000_letters_are_refused(void **state)
         ss_steady steady;
         ss_steady_opts opts;
         ss_steady_opts_init(&opts, sizeof opts);
-        ss_read_opts timed = { .time = name[i] };
+        ss_read_opts timed = { READ_OPTS, .time = name[i] };
         ss_axis axis;
         ss_format format;
         ss_error err = new_error();

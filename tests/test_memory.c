@@ -17,6 +17,7 @@
 #include "find/events.h"
 #include "store_samples.h"
 #include "unit.h"
+#include "read_opts.h"
 
 /* --- the allocator ------------------------------------------------------------------------- */
 
@@ -217,9 +218,9 @@ read_streams(int variant)
         "time,x\n44197.5,1\n44197.50000011574,2\n44197.50000023148,3\n",
     };
     static const ss_calibration first = { "1", 2, "N" };
-    static const ss_read_opts gaps = { .gaps = SS_GAPS_SPLIT }, uneven = { .resample = 7 },
-        days = { .time_unit = "d" },
-        second = { .table = 2, .from = 0, .to = 1, .calibration = &first, .n_calibrations = 1 };
+    static const ss_read_opts gaps = { READ_OPTS, .gaps = SS_GAPS_SPLIT }, uneven = { READ_OPTS, .resample = 7 },
+        days = { READ_OPTS, .time_unit = "d" },
+        second = { READ_OPTS, .table = 2, .from = 0, .to = 1, .calibration = &first, .n_calibrations = 1 };
     ss_signal *back = NULL;
     const ss_read_opts *opts = variant == 7 ? &gaps : variant == 8 ? &uneven : variant == 12 ? &second
         : variant == 15 ? &days : NULL;
@@ -236,7 +237,7 @@ static ss_status
 read_twice(int variant)
 {
     static const char table[] = "t,x\n0,1\n0.1,\n0.2,3\n";
-    static const ss_read_opts opts = { .gaps = SS_GAPS_INTERPOLATE };
+    static const ss_read_opts opts = { READ_OPTS, .gaps = SS_GAPS_INTERPOLATE };
     double row[64], *column[16];
     for (int c = 0; c < 16; c++)
         column[c] = row + 4 * c;
@@ -718,7 +719,7 @@ store_pieces(int variant)
 static ss_status
 loads(int variant)
 {
-    static const ss_read_opts timed = { .time = "t" };
+    static const ss_read_opts timed = { READ_OPTS, .time = "t" };
     ss_signal *back = NULL;
     ss_coefficients *c = NULL;
     char member[80];

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "signal_text.h"
+#include "read_opts.h"
 
 /* --- headers, columns and rows -------------------------------------------------------------- */
 
@@ -307,7 +308,7 @@ fills_gaps_and_says_where(void **state)
     };
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
         for (int how = SS_GAPS_SPLIT; how <= SS_GAPS_INTERPOLATE; how++) {
-            const ss_read_opts opts = { .gaps = (ss_gaps)how };
+            const ss_read_opts opts = { READ_OPTS, .gaps = (ss_gaps)how };
             ss_signal *s = read_text(row[i].text, &opts);
             ss_span *span;
             size_t n;

@@ -6,6 +6,7 @@
 #include "signal/gaps.h"
 #include "signal/source.h"
 #include "signal_text.h"
+#include "read_opts.h"
 
 /* Headers of LabVIEW's measurement files, with two channels. */
 #define LVM(x_columns) "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nMulti_Headings\tNo\n" \
@@ -121,7 +122,7 @@ reads_tables_as_recorders_write_them(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         const struct table_case *c = &table[i];
-        ss_read_opts opts = { .time = c->time, .rate = c->rate };
+        ss_read_opts opts = { READ_OPTS, .time = c->time, .rate = c->rate };
         ss_signal *s = read_text(c->text, &opts);
         char names[512] = "";
         for (size_t k = 0; k < s->head->n_columns; k++)
@@ -183,7 +184,7 @@ warns_of_what_is_guessed_or_left_out(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         ss_error warning = { 0 };
-        ss_read_opts opts = { .warn = keep_warning, .user = warning.text };
+        ss_read_opts opts = { READ_OPTS, .warn = keep_warning, .user = warning.text };
         ss_signal_free(read_text(row[i].text, &opts));
         assert_string_equal(warning.text, row[i].warning);
     }
@@ -223,7 +224,7 @@ refuses_what_it_cannot_know(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
-        ss_read_opts opts = { .time_unit = row[i].time_unit, .table = row[i].table };
+        ss_read_opts opts = { READ_OPTS, .time_unit = row[i].time_unit, .table = row[i].table };
         ss_signal *s = NULL;
         ss_error err = { 0 };
         ss_status st = read_bytes(&s, row[i].text, strlen(row[i].text), &opts, &err);
@@ -242,7 +243,7 @@ reads_one_of_several_tables(void **state)
     const char *steps = "Test 7\nStep 1\nt,Fx,Fz\nsec,N,N\n0,1,2\n0.01,3,4\n\nStep 2\nt,Fz\nsec,N\n0.02,5\n0.03,6\n";
     (void)state;
     for (size_t number = 1; number <= 2; number++) {
-        ss_read_opts opts = { .table = number };
+        ss_read_opts opts = { READ_OPTS, .table = number };
         ss_signal *s = read_text(text, &opts);
         assert_string_equal(s->head->column[0].name, number == 1 ? "a" : "c");
         assert_int_equal(s->n, number == 1 ? 2 : 3);
@@ -260,7 +261,7 @@ calibrates_and_cuts(void **state)
 {
     const char *text = "t_s,f (V),x (mm)\n0,1,2\n0.5,3,4\n1,5,6\n1.5,7,8\n";
     const ss_calibration of[] = { { "f", 250, NULL }, { "x", 0, "um" }, { "1", 0, "N" }, { "x", 1e3, NULL } };
-    ss_read_opts opts = { .from = 0.5, .to = 1.5, .calibration = of, .n_calibrations = 4 };
+    ss_read_opts opts = { READ_OPTS, .from = 0.5, .to = 1.5, .calibration = of, .n_calibrations = 4 };
     ss_signal *s = read_text(text, &opts);
     ss_error err = { 0 };
     (void)state;
@@ -274,7 +275,7 @@ calibrates_and_cuts(void **state)
     assert_int_equal(read_bytes(&s, text, strlen(text), &opts, &err), SS_EDATA);
     assert_non_null(strstr(err.text, "no samples from 7 to 8 s"));
     const ss_calibration unnamed = { NULL, 2, NULL };
-    opts = (ss_read_opts){ .calibration = &unnamed, .n_calibrations = 1 };
+    opts = (ss_read_opts){ READ_OPTS, .calibration = &unnamed, .n_calibrations = 1 };
     assert_int_equal(read_bytes(&s, text, strlen(text), &opts, &err), SS_EINVAL);
 }
 
@@ -313,7 +314,8 @@ refuses_options_that_a_clock_excludes(void **state)
     ss_error err = { 0 };
     const char *text = HEAD "0\t1\t2\n";
     (void)state;
-    ss_read_opts rate = { .rate = 20 }, time = { .time = "x" }, same = { .rate = 10 };
+    ss_read_opts rate = { READ_OPTS, .rate = 20 }, time = { READ_OPTS, .time = "x" },
+        same = { READ_OPTS, .rate = 10 };
     assert_int_equal(read_bytes(&s, text, strlen(text), &rate, &err), SS_EDATA);
     assert_int_equal(read_bytes(&s, text, strlen(text), &time, &err), SS_EDATA);
     ss_signal_free(read_text(text, &same));
@@ -358,7 +360,7 @@ interpolates_uneven_stamps_to_a_uniform_clock(void **state)
      * Error of a cubic spline: 5/384 h^4 of x's fourth derivative, for the widest step, here of under 1.8 periods. */
     enum { N = 2000 };
     const double rate = 1000, w = 2 * M_PI * 20, h = 1.8 / rate, bound = 5. / 384 * pow(h * w, 4);
-    const ss_read_opts opts = { .resample = 800 };
+    const ss_read_opts opts = { READ_OPTS, .resample = 800 };
     FILE *f = tmpfile();
     ss_signal *s;
     fputs("t,x\n", f);
@@ -426,7 +428,7 @@ a_long_record_is_interpolated_as_by_one_spline(void **state)
     for (size_t k = 0; k < sizeof rate / sizeof *rate; k++) {
         ss_signal *s = NULL;
         double worst = 0;
-        assert_int_equal(read_once(&s, text, &(ss_read_opts){ .resample = rate[k] }, NULL), SS_OK);
+        assert_int_equal(read_once(&s, text, &(ss_read_opts){ READ_OPTS, .resample = rate[k] }, NULL), SS_OK);
         assert_int_equal(s->n, (size_t)floor((t[N - 1] - t[0]) * rate[k]) + 1);
         for (size_t i = 0, at = 0; i < s->n; i++) {
             double when = t[0] + (double)i / rate[k];
@@ -495,14 +497,15 @@ reads_a_file_as_it_reads_a_pipe(void **state)
     };
     static const char *const last[] = { "", "100.000,1", "bad,1\n", "100.0005,1\n", "99.999,1\n",
         "100.3,1\n", "100,\n", "Step 2\nt,y\n0,1\n1,2\n" };
-    static const ss_read_opts opts[] = { { 0 }, { .rate = 100 }, { .gaps = SS_GAPS_INTERPOLATE }, { .table = 2 },
-                                         { .from = 0.5, .to = 2.5 }, { .resample = 7 } };
+    static const ss_read_opts opts[] = { { READ_OPTS }, { READ_OPTS, .rate = 100 },
+        { READ_OPTS, .gaps = SS_GAPS_INTERPOLATE }, { READ_OPTS, .table = 2 },
+                                         { READ_OPTS, .from = 0.5, .to = 2.5 }, { READ_OPTS, .resample = 7 } };
     (void)state;
     for (size_t k = 0; k < sizeof opts / sizeof *opts; k++)
         for (size_t i = 0; i < sizeof text / sizeof *text; i++)
             compare_readings(text[i], &opts[k]);
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
-        compare_readings(table[i].text, &(ss_read_opts){ .time = table[i].time, .rate = table[i].rate });
+        compare_readings(table[i].text, &(ss_read_opts){ READ_OPTS, .time = table[i].time, .rate = table[i].rate });
     for (size_t i = 0; i < sizeof last / sizeof *last; i++) {
         char *lines = long_table(LONG, last[i]);
         for (size_t k = 0; k < sizeof opts / sizeof *opts; k++)
@@ -526,8 +529,9 @@ table_with_gaps(void)
 static void
 fills_the_gaps_of_a_long_table(void **state)
 {
-    static const ss_read_opts opts[] = { { .gaps = SS_GAPS_INTERPOLATE }, { .gaps = SS_GAPS_SPLIT },
-                                         { .gaps = SS_GAPS_INTERPOLATE, .resample = 2000 } };
+    static const ss_read_opts opts[] = { { READ_OPTS, .gaps = SS_GAPS_INTERPOLATE },
+        { READ_OPTS, .gaps = SS_GAPS_SPLIT },
+                                         { READ_OPTS, .gaps = SS_GAPS_INTERPOLATE, .resample = 2000 } };
     char *text = table_with_gaps();
     (void)state;
     for (size_t k = 0; k < 3; k++) {

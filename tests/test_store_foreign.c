@@ -1,5 +1,6 @@
 /* test_store_foreign.c -- what others wrote is read, or refused in clear words. */
 #include "store_file.h"
+#include "read_opts.h"
 
 static void
 arrays_of_others_are_read_by_their_path(void **state)
@@ -9,7 +10,7 @@ arrays_of_others_are_read_by_their_path(void **state)
         { "/wide", 3, 2, { 1, 2, 3, 4, 5, 6 } },
         { "/line", 6, 1, { 1, 2, 3, 4, 5, 6 } },
     };
-    ss_read_opts opts = { .rate = 50 };
+    ss_read_opts opts = { READ_OPTS, .rate = 50 };
     (void)state;
     for (hsize_t block = 0; block <= 1024; block = block > 0 ? 2 * block : 512) {
         write_foreign(block);
@@ -73,7 +74,7 @@ static void
 assert_rows(size_t rows, size_t columns, double from)
 {
     enum { MOST = 5000 };
-    const ss_read_opts opts = { .rate = 1, .from = from, .to = from > 0 ? 1e9 : 0 };
+    const ss_read_opts opts = { READ_OPTS, .rate = 1, .from = from, .to = from > 0 ? 1e9 : 0 };
     ss_reader *reader = NULL;
     ss_error err = { 0 };
     size_t n, i = (size_t)from;
@@ -103,7 +104,7 @@ rows_in_pieces_are_those_of_the_array(void **state)
         { 300001, 3, 0, 0 }, { 300001, 3, 1000, 2 }, { 300001, 3, 200000, 1 }, { 600000, 1, 65536, 1 },
         { 700, 600, 11, 7 }, { 1, 1, 0, 0 },
     };
-    const ss_read_opts opts = { .rate = 1 }, filled = { .rate = 1, .gaps = SS_GAPS_SPLIT };
+    const ss_read_opts opts = { READ_OPTS, .rate = 1 }, filled = { READ_OPTS, .rate = 1, .gaps = SS_GAPS_SPLIT };
     (void)state;
     for (size_t r = 0; r < sizeof row / sizeof *row; r++)
         for (int along = 0; along < 2; along++) {
@@ -129,7 +130,7 @@ rows_in_pieces_are_those_of_the_array(void **state)
 static void
 a_bad_value_is_found_where_it_stands(void **state)
 {
-    const ss_read_opts opts = { .rate = 1 }, filled = { .rate = 1, .gaps = SS_GAPS_SPLIT };
+    const ss_read_opts opts = { READ_OPTS, .rate = 1 }, filled = { READ_OPTS, .rate = 1, .gaps = SS_GAPS_SPLIT };
     const hsize_t at = 600000, one = 1, n = 700000;
     const double bad = NAN;
     ss_reader *reader = NULL;
@@ -220,9 +221,9 @@ a_file_without_coefficients_says_so(void **state)
 static void
 a_clock_of_its_own_is_not_exchanged(void **state)
 {
-    static const ss_read_opts other = { .rate = 5 }, column = { .time = "none" };
+    static const ss_read_opts other = { READ_OPTS, .rate = 5 }, column = { READ_OPTS, .time = "none" };
     ss_signal *signal = new_signal(10), *back = NULL;
-    const ss_read_opts same = { .rate = signal->head->rate };
+    const ss_read_opts same = { READ_OPTS, .rate = signal->head->rate };
     ss_error err = { 0 };
     (void)state;
     write_ok(&(ss_record){ .signal = signal });
@@ -320,7 +321,7 @@ write_times(size_t n, int in_row, hsize_t chunk, hsize_t chunk_of_times)
 static void
 assert_timed(const char *time, const char *unit, size_t n, double start)
 {
-    const ss_read_opts opts = { .time = time, .time_unit = unit };
+    const ss_read_opts opts = { READ_OPTS, .time = time, .time_unit = unit };
     ss_signal *signal = NULL;
     ss_error err = { 0 };
     if (load_place(&signal, "/daq/ch0/x", &opts, &err) != SS_OK)
@@ -358,19 +359,19 @@ static void
 times_of_a_dataset_are_checked_as_those_of_text(void **state)
 {
     static const struct { ss_read_opts opts; ss_status status; size_t n; const char *words; } row[] = {
-        { { .time = "/none" }, SS_EDATA, 0, ":/none: no such dataset" },
-        { { .time = "none" }, SS_EDATA, 0, ":/daq/ch0/none: no such dataset" },
-        { { .time = "/daq" }, SS_EDATA, 0, ":/daq: no such dataset" },
-        { { .time = "/short" }, SS_EDATA, 0, ":/short: not one time for each row of the signal" },
-        { { .time = "/uneven" }, SS_EUNEVEN, 0, "time stamps are not uniform" },
-        { { .time = "/gap" }, SS_EGAPS, 0, ":/daq/ch0/x:52: 3 samples are missing before this time stamp" },
-        { { .time = "/nan" }, SS_EGAPS, 0, "row 6, column nan: not a finite number" },
-        { { .time = "/serial" }, SS_EUNIT, 0, "looks like days, 800 Hz from day 738000.25 on" },
-        { { .time = "x" }, SS_ECLOCK, 0, "time stamps do not ascend" },
-        { { .time = "/gap", .gaps = SS_GAPS_SPLIT }, SS_OK, 103, "" },
-        { { .time = "/nan", .gaps = SS_GAPS_INTERPOLATE }, SS_OK, 100, "" },
-        { { .time = "/uneven", .resample = 400 }, SS_OK, 50, "" },
-        { { .time = "/t", .from = 7.05, .to = 7.1 }, SS_OK, 40, "" },
+        { { READ_OPTS, .time = "/none" }, SS_EDATA, 0, ":/none: no such dataset" },
+        { { READ_OPTS, .time = "none" }, SS_EDATA, 0, ":/daq/ch0/none: no such dataset" },
+        { { READ_OPTS, .time = "/daq" }, SS_EDATA, 0, ":/daq: no such dataset" },
+        { { READ_OPTS, .time = "/short" }, SS_EDATA, 0, ":/short: not one time for each row of the signal" },
+        { { READ_OPTS, .time = "/uneven" }, SS_EUNEVEN, 0, "time stamps are not uniform" },
+        { { READ_OPTS, .time = "/gap" }, SS_EGAPS, 0, ":/daq/ch0/x:52: 3 samples are missing before this time stamp" },
+        { { READ_OPTS, .time = "/nan" }, SS_EGAPS, 0, "row 6, column nan: not a finite number" },
+        { { READ_OPTS, .time = "/serial" }, SS_EUNIT, 0, "looks like days, 800 Hz from day 738000.25 on" },
+        { { READ_OPTS, .time = "x" }, SS_ECLOCK, 0, "time stamps do not ascend" },
+        { { READ_OPTS, .time = "/gap", .gaps = SS_GAPS_SPLIT }, SS_OK, 103, "" },
+        { { READ_OPTS, .time = "/nan", .gaps = SS_GAPS_INTERPOLATE }, SS_OK, 100, "" },
+        { { READ_OPTS, .time = "/uneven", .resample = 400 }, SS_OK, 50, "" },
+        { { READ_OPTS, .time = "/t", .from = 7.05, .to = 7.1 }, SS_OK, 40, "" },
     };
     (void)state;
     write_times(100, 1, 0, 0);
@@ -405,7 +406,7 @@ a_column_of_an_array_gives_its_clock(void **state)
     H5Sclose(space);
     H5Fclose(file);
     for (size_t i = 0; i < 2; i++) {
-        const ss_read_opts opts = { .time = time[i] };
+        const ss_read_opts opts = { READ_OPTS, .time = time[i] };
         ss_signal *signal = NULL;
         ss_error err = { 0 };
         if (load_place(&signal, "/data", &opts, &err) != SS_OK)

@@ -1,5 +1,6 @@
 /* test_store_hostile.c -- a damaged or hostile file is refused, or does no harm. */
 #include "store_file.h"
+#include "read_opts.h"
 
 
 /* Every prefix of a file must be refused or read, never crash. */
@@ -127,7 +128,7 @@ nothing_leads_out_of_a_file_or_claims_more_than_it_holds(void **state)
         { "/chunk", ":/chunk: claims more values than a file of this size can hold" },
         { "/wide", ":/wide: does not hold real numbers" },
     };
-    static const ss_read_opts opts = { .rate = 1 };
+    static const ss_read_opts opts = { READ_OPTS, .rate = 1 };
     char other[80];
     ss_coefficients *c = NULL;
     ss_error err = { 0 };
@@ -331,7 +332,7 @@ one_text_under_many_names_is_not_read_many_times(void **state)
 static void
 the_list_of_arrays_ends_after_10000_objects(void **state)
 {
-    static const ss_read_opts opts = { .rate = 1 };
+    static const ss_read_opts opts = { READ_OPTS, .rate = 1 };
     ss_signal *signal = NULL;
     ss_error err = { 0 };
     char name[32];
@@ -407,7 +408,7 @@ static void
 the_sources_of_a_virtual_dataset_are_not_opened(void **state)
 {
     const hsize_t none = 0, one = 1, all = H5S_UNLIMITED;
-    static const ss_read_opts opts = { .rate = 1 };
+    static const ss_read_opts opts = { READ_OPTS, .rate = 1 };
     char fifo[80];
     ss_signal *signal = NULL;
     ss_error err = { 0 };
@@ -451,7 +452,7 @@ write_filtered(const H5Z_filter_t filter[])
 static void
 only_filters_that_bound_what_they_make_are_run(void **state)
 {
-    static const ss_read_opts opts = { .rate = 1 };
+    static const ss_read_opts opts = { READ_OPTS, .rate = 1 };
     static const H5Z_filter_t plain[] = { H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32, 0 },
         twice[] = { H5Z_FILTER_DEFLATE, H5Z_FILTER_DEFLATE, 0 }, other[] = { 32001, 0 };
     ss_signal *signal = NULL;
@@ -525,7 +526,7 @@ dimensions_are_multiplied_without_end(void **state)
         { { 900000000, 1 }, { 64, 1 }, 1, "claims more values than a file of this size can hold" },
         { { 1, 6 }, { 1 << 14, 1 << 14 }, 1, "claims more values than a file of this size can hold" },
     };
-    static const ss_read_opts opts = { .rate = 1 };
+    static const ss_read_opts opts = { READ_OPTS, .rate = 1 };
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         ss_signal *signal = NULL;
@@ -586,7 +587,7 @@ names_that_are_packed_are_not_unpacked(void **state)
     static const struct { const char *name, *dataset; } row[] = {
         { "group", "/group/y" }, { "group", "/z/y" }, { "group", "" }, { "signal", "" }, { "wavelet", NULL },
     };
-    static const ss_read_opts opts = { .rate = 1 };
+    static const ss_read_opts opts = { READ_OPTS, .rate = 1 };
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
         for (int deflated = 0; deflated < 2; deflated++) {

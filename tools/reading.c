@@ -59,6 +59,7 @@ tool_reading_options(tool_reading *r, tool_option row[TOOL_READING_OPTIONS])
     static const char *const gaps[] = { "refuse", "split", "interpolate", NULL };
     const ss_range positive = { DBL_MIN, DBL_MAX }, any = { -DBL_MAX, DBL_MAX };
     ss_read_opts *opts = &r->opts;
+    ss_read_opts_init(opts, sizeof *opts);
     opts->warn = warn;
     opts->folder = getenv("TMPDIR");
     r->from = r->to = NAN;

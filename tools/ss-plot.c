@@ -236,7 +236,9 @@ open_signal(const char *path, const ss_read_opts *reading, int is_read_again)
 static ss_signal *
 read_over(const drawing *d, const char *path, const char *folder, ss_plot_opts *opts)
 {
-    const ss_read_opts reading = { .folder = folder };
+    ss_read_opts reading;
+    ss_read_opts_init(&reading, sizeof reading);
+    reading.folder = folder;
     ss_error err = { 0 };
     ss_signal *other;
     ss_plot_opts own = *opts;

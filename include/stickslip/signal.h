@@ -77,8 +77,8 @@ typedef struct ss_calibration {
 /* The i-th unit that ss_read_opts.time_unit may be: "s", "ms", ...; NULL after the last. */
 const char *ss_time_unit_name(size_t i);
 
-/* All zeros are the defaults. */
 typedef struct ss_read_opts {
+    size_t size;                /* set by ss_read_opts_init */
     const char *time;           /* delimited text and .npy: name or number of the column of time; NULL:
                                    the one named t, time, ..., or the first column if its unit is one
                                    of time, or if no column has a name and it ascends uniformly.
@@ -110,6 +110,8 @@ typedef struct ss_read_opts {
     void *user;                 /* passed to warn */
     ss_progress progress;       /* called while a file is read, with the part that is done; it cannot stop it */
 } ss_read_opts;
+/* Fill in the defaults, all zeros; size is sizeof(ss_read_opts). */
+void ss_read_opts_init(ss_read_opts *opts, size_t size);
 
 /* The times t with from <= t < to, on the source's clock [s]. */
 typedef struct ss_span {

@@ -338,8 +338,7 @@ assemble(coefficient_reader *r)
 static ss_status
 read_all(coefficient_reader *r, FILE *in, const char *name)
 {
-    static const ss_read_opts opts;
-    struct opening o = { .opts = &opts, .kind = SS_KIND_COEFFICIENTS, .late_note = read_late_note, .user = r };
+    struct opening o = { .kind = SS_KIND_COEFFICIENTS, .late_note = read_late_note, .user = r };
     ss_status st = ss_reader_open(&r->in, in, name, &o, r->err);
     if (st != SS_OK)
         return st;

@@ -13,7 +13,7 @@
 /* A stream that is opened. */
 struct opening {
     struct input *in;           /* outlives the ss_source */
-    const ss_read_opts *opts;   /* of the call alone */
+    const ss_read_opts *opts;   /* of the call alone; to begin with, the caller's, or NULL */
     ss_kind kind;               /* a signal, or wavelet coefficients */
     /* Takes a line "# ..." that stands among the rows; NULL: it is passed over. */
     ss_status (*late_note)(void *user, char *line, ss_error *err);

@@ -76,7 +76,6 @@ base_column(const ss_header *head, const char *name)
 ss_status
 ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err)
 {
-    static const ss_read_opts opts = { 0 };
     ss_signal *signal = NULL;
     ss_base *b = NULL;
     ss_error why = { 0 };
@@ -84,7 +83,7 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
         return SS_FAIL_NULL(err);
     ss_status st = check_regular(path, err);
     if (st == SS_OK)
-        st = ss_signal_load(&signal, path, &opts, err);
+        st = ss_signal_load(&signal, path, NULL, err);
     if (st != SS_OK)
         return st;
     int c = base_column(signal->head, column);

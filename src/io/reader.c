@@ -8,14 +8,26 @@
 #include <sys/stat.h>
 #include <stickslip/store.h>
 #include "base/error.h"
+#include "base/options.h"
 #include "signal/header.h"
 #include "signal/resample.h"
 
-static const ss_read_opts no_opts;
+static const ss_read_opts defaults = { .size = sizeof defaults };
 
-static ss_status
-check_opts(const ss_read_opts *opts, ss_error *err)
+void
+ss_read_opts_init(ss_read_opts *opts, size_t size)
 {
+    if (opts != NULL && size >= sizeof size)
+        ss_options_init(opts, size, &defaults, sizeof defaults);
+}
+
+/* The caller's options, all of which this library has. */
+static ss_status
+take_opts(ss_read_opts *opts, const ss_read_opts *given, ss_error *err)
+{
+    ss_status st = ss_options_take(opts, sizeof *opts, &defaults, given, err);
+    if (st != SS_OK)
+        return st;
     if (opts->needed == NULL && opts->n_needed > 0)
         return SS_FAIL_NULL(err);
     if ((unsigned)opts->gaps > SS_GAPS_INTERPOLATE || !(opts->rate >= 0) || !(opts->resample >= 0)
@@ -29,10 +41,12 @@ check_opts(const ss_read_opts *opts, ss_error *err)
 ss_status
 ss_reader_open(ss_reader **out, FILE *in, const char *name, struct opening *o, ss_error *err)
 {
+    ss_read_opts opts;
     *out = NULL;
-    ss_status st = check_opts(o->opts, err);
+    ss_status st = take_opts(&opts, o->opts, err);
     if (st != SS_OK)
         return st;
+    o->opts = &opts;
     ss_reader *reader = calloc(1, sizeof *reader);
     if (reader == NULL)
         return ss_fail_memory(err, name);
@@ -55,25 +69,25 @@ ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *o
 {
     if (out == NULL || in == NULL || name == NULL)
         return SS_FAIL_NULL(err);
-    struct opening o = { .opts = opts != NULL ? opts : &no_opts, .kind = SS_KIND_SIGNAL };
+    struct opening o = { .opts = opts, .kind = SS_KIND_SIGNAL };
     return ss_reader_open(out, in, name, &o, err);
 }
 
 /* Open a file of a format that only its path opens. */
 static ss_status
 open_place(ss_reader **out, const struct format *format, const char *path, const char *place,
-           const ss_read_opts *opts, ss_error *err)
+           const ss_read_opts *given, ss_error *err)
 {
-    opts = opts != NULL ? opts : &no_opts;
-    ss_status st = check_opts(opts, err);
+    ss_read_opts opts;
+    ss_status st = take_opts(&opts, given, err);
     if (st != SS_OK)
         return st;
     ss_reader *reader = calloc(1, sizeof *reader);
     if (reader == NULL)
         return ss_fail_memory(err, path);
-    st = format->open_file(&reader->source, path, place, opts, err);
+    st = format->open_file(&reader->source, path, place, &opts, err);
     if (st == SS_OK)
-        st = ss_source_adjust(&reader->source, opts, err);
+        st = ss_source_adjust(&reader->source, &opts, err);
     if (st == SS_OK)
         *out = reader;
     else

@@ -35,12 +35,14 @@ main(int argc, char *argv[])
     ss_signal *signal = NULL;
     ss_coefficients *coefficients = NULL;
     ss_error err = { 0 };
-    ss_read_opts read = { .gaps = SS_GAPS_INTERPOLATE };
+    ss_read_opts read;
     ss_morlet_opts opts = ss_morlet_defaults;
     if (argc != 3) {
         fputs("usage: recording FILE COLUMN\n", stderr);
         return 2;
     }
+    ss_read_opts_init(&read, sizeof read);
+    read.gaps = SS_GAPS_INTERPOLATE;
     opts.detrend = SS_DETREND_MEAN;
     opts.norm = SS_NORM_L1;             /* a sine then reads at its own frequency */
 

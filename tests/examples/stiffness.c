@@ -49,7 +49,10 @@ main(int argc, char *argv[])
     }
 
     const char *const needed[] = { argv[2] };
-    ss_read_opts read = { .needed = needed, .n_needed = 1 };
+    ss_read_opts read;
+    ss_read_opts_init(&read, sizeof read);
+    read.needed = needed;
+    read.n_needed = 1;
     ss_status status = ss_signal_load(&signal, argv[1], &read, &err);
     int column = status == SS_OK ? ss_header_column(signal->head, argv[2]) : -1;
     if (status == SS_OK && column < 0) {

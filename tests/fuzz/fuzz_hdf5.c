@@ -4,6 +4,7 @@
 #include "io/hdf5/groups.h"
 #include "io/reader.h"
 #include "fuzz.h"
+#include "../read_opts.h"
 
 static hid_t
 open_image(const uint8_t *bytes, size_t size)
@@ -63,7 +64,8 @@ read_coefficients(const uint8_t *bytes, size_t size)
 int
 LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    static const ss_read_opts opts = { .rate = 1000, .gaps = SS_GAPS_SPLIT }, none, timed = { .time = "t" };
+    static const ss_read_opts opts = { READ_OPTS, .rate = 1000, .gaps = SS_GAPS_SPLIT }, none = { READ_OPTS },
+        timed = { READ_OPTS, .time = "t" };
     if (size == 0)
         return 0;
     H5E_BEGIN_TRY {
