@@ -8,6 +8,8 @@
 
 #include "unit.h"
 #include "read_opts.h"
+#include "signal/gaps.h"
+#include "signal/header.h"
 
 static ss_scene scene = { .mass = 1, .stiffness = 1, .friction = 1, .base_amplitude = 1,
     .base_frequency = 1, .duration = 1, .rate = 8 };

@@ -10,6 +10,7 @@
 #include "new_signal.h"
 #include "plot/isoline.h"
 #include "unit.h"
+#include "signal/gaps.h"
 
 /* --- ss_isolines ------------------------------------------------------------------------------ */
 

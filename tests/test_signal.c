@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include "signal_text.h"
 #include "read_opts.h"
+#include "signal/gaps.h"
+#include "signal/header.h"
 
 /* --- headers, columns and rows -------------------------------------------------------------- */
 

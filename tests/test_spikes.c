@@ -7,6 +7,7 @@
 #include "find/drops.h"
 #include "spike_score.h"
 #include "unit.h"
+#include "signal/gaps.h"
 
 #define RATE 2000.
 

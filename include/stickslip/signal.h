@@ -48,10 +48,6 @@ void ss_header_free(ss_header *head);                                       /* N
  * quantities. */
 int ss_header_column(const ss_header *head, const char *name);
 
-/* The first row at time t or later, counted from 0; a row that lies less than 1e-6 sample periods
- * before t counts as at t. */
-size_t ss_header_row(const ss_header *head, double t);
-
 /* Copy a header for a signal that has the n columns of these indices, in this order, and starts at
  * the row first. */
 ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
@@ -123,8 +119,6 @@ typedef struct ss_span {
  * those that overlap are one.  The caller frees *out with free().  SS_EDATA: the note is something
  * else; readers of files refuse it. */
 ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head, ss_error *err);
-/* 1 if t lies in one of n gaps, which are in time order, or nearer than margin to one; else 0. */
-int ss_gaps_near(const ss_span *gap, size_t n, double t, double margin);
 
 typedef struct ss_reader ss_reader;
 

@@ -17,6 +17,7 @@
 #include "find/drops.h"
 #include "find/loading.h"
 #include "find/reversals.h"
+#include "signal/gaps.h"
 
 #define OUTLIERS 0.02           /* part of the samples at either end of the range that may be wrong */
 #define SLOWER 1.05             /* factor: less may be made by the sampling of turning points */

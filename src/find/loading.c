@@ -22,6 +22,7 @@
 #include "find/line.h"
 #include "find/medians.h"
 #include "find/slip.h"
+#include "signal/gaps.h"
 
 #define NEAR 3.0                /* standard deviations within which a sample is near the line */
 #define AWAY 4                  /* samples in a row that are farther away end the line */

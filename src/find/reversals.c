@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "find/medians.h"
+#include "signal/gaps.h"
 
 #define NEAR 0.05               /* part of the step, or of a level, within which a sample is near it */
 #define STAYS 0.5               /* the least part of the time from one break-away to the next at or above the

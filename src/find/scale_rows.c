@@ -19,6 +19,7 @@
 #include "base/error.h"
 #include "find/levels.h"
 #include "find/scale_rows.h"
+#include "signal/gaps.h"
 #include <stickslip/morlet.h>
 
 #define FALSE_ALARMS 0.01       /* maxima above the threshold that a record of noise has */

@@ -13,6 +13,7 @@
 #include "base/sort.h"
 #include "find/breakpoint.h"
 #include "find/events.h"
+#include "signal/gaps.h"
 
 #define DEEPEST 5.0             /* octaves in which the first spike is sought: 100 samples are smooth */
 #define REACH 2.0               /* octaves in which spikes are sought from the first row with a spike on */

@@ -5,6 +5,7 @@
 #include "find/extent.h"
 #include "find/force.h"
 #include "find/search.h"
+#include "signal/gaps.h"
 
 #define SPIKES 60.0             /* [dB] range of the spikes that are counted in a transition */
 #define APART 6.0               /* [dB] above the next weaker one: such events are no swells of noise */

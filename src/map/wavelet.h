@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stickslip/morlet.h>
+#include "signal/gaps.h"
 
 #define PI_M14 0.75112554446494248286   /* pi^-1/4 */
 #define WAVELET_CENTER 6.0              /* omega_c, where none is asked for */

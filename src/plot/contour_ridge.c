@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include "map/wavelet.h"
+#include "signal/gaps.h"
 
 #define RISE 3.0                /* [dB] of a ridge above the saddles beside it */
 

@@ -9,6 +9,7 @@
 #include "map/wavelet.h"
 #include "plot/extremes.h"
 #include "plot/noise_level.h"
+#include "signal/gaps.h"
 
 enum { BLOCKS = 4096 };
 

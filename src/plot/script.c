@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "base/utf8.h"
+#include "signal/gaps.h"
 
 #define WIDTH 8.5               /* [cm] */
 #define PIXELS_PER_CM 118.11    /* 300 dots per inch */

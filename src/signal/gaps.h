@@ -14,6 +14,9 @@ ss_status ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err);
 /* SS_EDATA: the note of the gaps is not what ss_header_gaps reads. */
 ss_status ss_header_check_gaps(const ss_header *head);
 
+/* 1 if t lies in one of n gaps, which are in time order, or nearer than margin to one; else 0. */
+int ss_gaps_near(const ss_span *gap, size_t n, double t, double margin);
+
 /* The gaps of a record of so many rows, which head notes, in seconds from its first sample.  Each
  * is a whole number of samples and lies within the record.  *out is to be freed. */
 ss_status ss_gaps_of(ss_span **out, size_t *n, const ss_header *head, size_t rows);
