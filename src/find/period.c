@@ -35,7 +35,7 @@ static ss_status
 autocorrelation(real_fft *r, const double *x, size_t n)
 {
     double mean = 0, largest = 0;
-    size_t size = 2 * n;        /* the compressed samples are a circle: so that the ends of the record do not meet */
+    size_t size = 2 * (n + n / 8);      /* the compressed samples are a circle, whose ends do not meet */
     while (!is_smooth(size))
         size += 2;
     if (ss_real_fft_new(r, size, 0) != SS_OK)
