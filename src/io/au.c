@@ -190,7 +190,7 @@ encode_number(char *to, double x, int last)
     return sizeof bits;
 }
 
-const struct format ss_format_au = {
+FORMAT(au) = {
     .name = "au",
     .magic = ".snd",
     .has_header = 1,

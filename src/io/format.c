@@ -5,8 +5,8 @@
 #include "base/error.h"
 
 #define ROW(name) &ss_format_##name,
-static const struct format *const list[] = { FORMAT_LIST(ROW) };
-enum { FORMATS = sizeof list / sizeof *list, LONGEST_MAGIC = 12 };
+static const struct format *const list[FORMATS] = { FORMAT_LIST(ROW) };
+enum { LONGEST_MAGIC = 12 };
 
 /* --- reading ------------------------------------------------------------------------------- */
 

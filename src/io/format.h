@@ -59,6 +59,16 @@ struct format {
 #define FORMAT_DECLARATION(name) extern const struct format ss_format_##name;
 FORMAT_LIST(FORMAT_DECLARATION)
 #undef FORMAT_DECLARATION
+#define FORMAT_NUMBER(name) FORMAT_##name,
+enum { FORMAT_LIST(FORMAT_NUMBER) FORMATS };
+#undef FORMAT_NUMBER
+_Static_assert((int)SS_TSV == FORMAT_tsv && (int)SS_AU == FORMAT_au && (int)SS_CSV == FORMAT_delimited,
+               "the list has the order of ss_format");
+
+/* Begins the table of a format, FORMAT(au) = { ... };.  Without a row of the list it does not compile. */
+#define FORMAT(name) \
+    enum { ROW_OF_##name = FORMAT_##name }; \
+    const struct format ss_format_##name
 
 /* The table of a format in which streams are written, or NULL. */
 const struct format *ss_format_table(ss_format of);

@@ -334,4 +334,4 @@ open_npy(ss_source **out, const struct opening *o, ss_error *err)
     return st == SS_ENOMEM ? ss_fail_memory(err, in->name) : st;
 }
 
-const struct format ss_format_npy = { .name = "npy", .magic = "\223NUMPY", .open = open_npy };
+FORMAT(npy) = { .name = "npy", .magic = "\223NUMPY", .open = open_npy };

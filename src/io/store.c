@@ -38,7 +38,7 @@ open_signal(ss_source **out, const char *path, const char *dataset, const ss_rea
     return hdf5 != NULL ? hdf5->open_signal(out, path, dataset, opts, err) : SS_EIO;
 }
 
-const struct format ss_format_hdf5 = {
+FORMAT(hdf5) = {
     .name = "h5", .magic = "\211HDF", .is_file = ss_store_is_hdf5, .open_file = open_signal
 };
 

@@ -171,7 +171,7 @@ format_number(char *to, double x, int last)
     return n + 1;
 }
 
-const struct format ss_format_tsv = {
+FORMAT(tsv) = {
     .name = "tsv",
     .magic = "# stickslip",
     .has_header = 1,

@@ -147,4 +147,4 @@ open_wav(ss_source **out, const struct opening *o, ss_error *err)
     return ss_refuse_clock(in->name, f->base.head->rate, o->opts, err);
 }
 
-const struct format ss_format_wav = { .name = "wav", .magic = "RIFF????WAVE", .open = open_wav };
+FORMAT(wav) = { .name = "wav", .magic = "RIFF????WAVE", .open = open_wav };

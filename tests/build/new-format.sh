@@ -52,7 +52,7 @@ open_fish(ss_source **out, const struct opening *o, ss_error *err)
         return st;
     f->base.head->rate = ss_number_parse(line, &end);
     for (char *name = strtok(end, "|"); name != NULL; name = strtok(NULL, "|"))
-        ss_header_add_column(f->base.head, name, NULL);
+        ss_header_add_column(f->base.head, name, NULL, err);
     return SS_OK;
 }
 
@@ -77,11 +77,15 @@ format_fish(char *to, double x, int last)
     return n + 1;
 }
 
-const struct format ss_format_fish = {
+FORMAT(fish) = {
     .name = "fish", .magic = "FISH", .open = open_fish,
     .begin = begin_fish, .number = format_fish, .separator = '|'
 };
 C
+# The file alone, without the row, does not compile.
+# shellcheck disable=SC2086  # flags are a list
+! $CC -std=c11 -D_XOPEN_SOURCE=700 -I"$SRC/include" -I"$SRC/src" $INCLUDES -c src/io/fish.c 2> log || echo "compiled"
+grep -o 'FORMAT_fish.* undeclared\|undeclared.*FORMAT_fish' log | head -n 1 | tr -d "'‘’" || cat log
 for file in "$SRC"/src/io/*.c src/io/fish.c; do
     # shellcheck disable=SC2086  # flags are a list
     $CC -std=c11 -D_XOPEN_SOURCE=700 -Isrc -I"$SRC/include" -I"$SRC/src" $INCLUDES -c "$file"

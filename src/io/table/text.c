@@ -652,7 +652,7 @@ write_number(char *to, double x, int last)
     return n + 1;
 }
 
-const struct format ss_format_delimited = {
+FORMAT(delimited) = {
     .name = "csv",
     .open = open_text,
     .begin = begin_csv,
