@@ -112,12 +112,7 @@ static ss_status
 choose(choice *s, ss_sim_opts *opts, ss_error *err)
 {
     const char *witness[2];
-    ss_status st = ss_trade_run_init(&s->ref, &s->p);
-    if (st == SS_OK)
-        st = ss_trade_run_init(&s->run, &s->p);
-    if (st != SS_OK)
-        return st;
-    st = SS_ETOL;
+    ss_status st = SS_ETOL;
     for (int i = 0; st == SS_ETOL && ss_method_pair(&s->p.scene, i, witness); i++)
         st = refer_to(s, witness, err);
     if (st != SS_OK)

@@ -17,10 +17,13 @@ const ss_models_row *ss_models_cheapest(const ss_models *models, const ss_need *
 ss_status ss_trade_opts_take(ss_trade_opts *own, const ss_trade_opts *given, ss_error *err);
 /* The CPU time of this thread [s]. */
 double ss_trade_cpu_time(void);
-/* Measure the times of short rows again, in turns.  again runs a row and gives its seconds; done
- * is the part of the whole work that is done. */
-typedef ss_status ss_trade_again(void *user, const ss_trade_row *row, double done, double *seconds);
-ss_status ss_trade_repeat(ss_trade *trade, ss_trade_again *again, void *user);
-void ss_trade_mark_frontier(ss_trade *trade);
+/* Run row i, which is measured, or again: only its time counts.  done is the part of the whole work that is
+ * done.  *seconds becomes its time; NaN: it was not measured, and is not run again. */
+typedef ss_status ss_trade_runner(size_t i, int again, double done, double *seconds, void *user);
+/* Run n rows one after the other, then short ones again, in turns, so that a disturbance of the machine affects
+ * all of them alike.  *seconds becomes an array of the times, medians of those of short rows. */
+ss_status ss_trade_race(double **seconds, size_t n, ss_trade_runner *runner, const ss_progress *progress, void *user);
+/* Give the rows that were measured these times, and mark those that no other row beats. */
+void ss_trade_finish(ss_trade *trade, const double *seconds);
 
 #endif

@@ -9,7 +9,6 @@
 #include <stickslip/features.h>
 #include <stickslip/sweep.h>
 #include "base/options.h"
-#include "base/progress.h"
 #include "find/numbers.h"
 #include "motion/method.h"
 #include "study/curve.h"
@@ -288,72 +287,57 @@ make_rows(ss_models *models, const ss_scene *scene, const portrait *ref)
     return settled->status == SS_ENOMEM ? SS_ENOMEM : SS_OK;
 }
 
+typedef struct comparison {
+    ss_models *models;
+    const ss_models_opts *how;
+    portrait ref;               /* that of row 0 */
+    double seconds;             /* that it took */
+} comparison;
+
+/* A ss_trade_runner. */
 static ss_status
-measure_row(ss_models_row *row, const portrait *ref, const ss_scene *scene, const ss_models_opts *how)
+run_row(size_t i, int again, double done, double *seconds, void *user)
 {
+    comparison *c = user;
+    ss_models_row *row = &c->models->row[i];
+    const ss_scene *scene = &c->models->row[SS_MODELS_SCENE].scene;
     portrait p;
+    (void)done;
+    if (again)
+        return simulate(&row->scene, NULL, seconds, NULL);
+    *seconds = c->seconds;
+    if (i == SS_MODELS_SCENE) {
+        compare(row, &c->ref, &c->ref, scene, c->how);
+        return SS_OK;
+    }
+    *seconds = NAN;
     if (row->status != SS_OK)
         return SS_OK;
-    row->status = portray(&p, &row->scene, how, &row->seconds, &row->reason);
+    row->status = portray(&p, &row->scene, c->how, seconds, &row->reason);
     if (row->status == SS_OK)
-        compare(row, &p, ref, scene, how);
+        compare(row, &p, &c->ref, scene, c->how);
+    else
+        *seconds = NAN;
     portrait_free(&p);
     return row->status == SS_ENOMEM ? SS_ENOMEM : SS_OK;
-}
-
-typedef struct timing {
-    const ss_models *models;
-    ss_trade_row *first;
-    const ss_models_opts *how;
-} timing;
-
-static ss_status
-run_again(void *user, const ss_trade_row *row, double done, double *seconds)
-{
-    const timing *t = user;
-    ss_status st = ss_progress_at(&t->how->progress, done);
-    return st == SS_OK ? simulate(&t->models->row[row - t->first].scene, NULL, seconds, NULL) : st;
-}
-
-/* Repeat short runs, as those of methods are repeated. */
-static ss_status
-repeat(ss_models *models, const ss_models_opts *how)
-{
-    ss_trade trade = { .n = models->n, .row = calloc(models->n, sizeof *trade.row) };
-    timing t = { models, trade.row, how };
-    ss_status st = trade.row != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t i = 0; st == SS_OK && i < models->n; i++) {
-        trade.row[i].status = models->row[i].status;
-        trade.row[i].seconds = models->row[i].seconds;
-    }
-    if (st == SS_OK)
-        st = ss_trade_repeat(&trade, run_again, &t);
-    for (size_t i = 0; st == SS_OK && i < models->n; i++)
-        models->row[i].seconds = trade.row[i].seconds;
-    free(trade.row);
-    return st;
 }
 
 static ss_status
 measure_rows(ss_models *models, const ss_scene *scene, const ss_models_opts *how, ss_error *err)
 {
-    portrait ref = { .seen = 0 };
-    double seconds;
-    ss_status st = portray(&ref, scene, how, &seconds, err);
+    comparison c = { .models = models, .how = how };
+    double *seconds = NULL;
+    ss_status st = portray(&c.ref, scene, how, &c.seconds, err);
     models->samples = ss_scene_samples(scene);
     if (st == SS_OK)
-        st = make_rows(models, scene, &ref);
-    if (st == SS_OK) {
-        compare(models->row, &ref, &ref, scene, how);
-        models->row->seconds = seconds;
-    }
-    for (size_t i = 1; st == SS_OK && i < models->n; i++) {
-        st = ss_progress_at(&how->progress, 0.7 * (double)i / (double)models->n);
-        if (st == SS_OK)
-            st = measure_row(&models->row[i], &ref, scene, how);
-    }
-    portrait_free(&ref);
-    return st == SS_OK ? repeat(models, how) : st;
+        st = make_rows(models, scene, &c.ref);
+    if (st == SS_OK)
+        st = ss_trade_race(&seconds, models->n, run_row, &how->progress, &c);
+    for (size_t i = 0; st == SS_OK && i < models->n; i++)
+        models->row[i].seconds = isnan(seconds[i]) ? 0 : seconds[i];
+    portrait_free(&c.ref);
+    free(seconds);
+    return st;
 }
 
 ss_status

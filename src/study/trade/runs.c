@@ -17,6 +17,7 @@
 #include "base/list.h"
 #include "base/progress.h"
 #include "motion/engine.h"
+#include "study/curve.h"
 #include "study/trade/common.h"
 
 /* At most so many samples are compared.  It is a prime, so that samples fall on all phases of the base
@@ -114,6 +115,12 @@ ss_trade_run(run *k, const probe *p, const char *method, double tol, unsigned lo
     const ss_sim_opts opts = { .method = method, .tol = tol, .max_steps = max_steps,
                                .samples = keep_samples, .progress = { watch, k }, .user = k,
                                .events = k->wants_events ? keep_event : NULL };
+    if (k->x == NULL)
+        k->x = malloc((p->n + 1) * sizeof *k->x);
+    if (k->a == NULL)
+        k->a = malloc((p->n + 1) * sizeof *k->a);
+    if (k->x == NULL || k->a == NULL)
+        return ss_fail_memory(err, NULL);
     k->p = p;
     k->seen = k->n_events = 0;
     k->over = 0;
@@ -126,14 +133,6 @@ ss_trade_run(run *k, const probe *p, const char *method, double tol, unsigned lo
         return SS_EBUDGET;
     k->seconds = ss_trade_cpu_time() - k->began;
     return st;
-}
-
-ss_status
-ss_trade_run_init(run *k, const probe *p)
-{
-    k->x = malloc((p->n + 1) * sizeof *k->x);
-    k->a = malloc((p->n + 1) * sizeof *k->a);
-    return k->x != NULL && k->a != NULL ? SS_OK : SS_ENOMEM;
 }
 
 void
@@ -149,9 +148,7 @@ ss_trade_run_free(run *k)
 static double
 largest(const double *x, size_t n)
 {
-    double max = 0;
-    for (size_t i = 0; i < n; i++)
-        max = fmax(max, fabs(x[i]));
+    double max = curve_largest(x, n);
     return max > 0 ? max : 1;               /* nothing moves: errors are absolute */
 }
 
@@ -164,21 +161,26 @@ ss_trade_error_x(const run *k, const run *ref)
     return worst / largest(ref->x, ref->p->n);
 }
 
-/* The event of k nearest to e with the same kind and direction, or SIZE_MAX.  *from is an index near e at
- * which the search begins; it follows e from call to call. */
-static size_t
-nearest(const run *k, const ss_event *e, size_t *from)
+/* The event of k nearest to e with the same kind and direction, or NULL. */
+static const ss_event *
+nearest(const run *k, const ss_event *e)
 {
-    size_t best = SIZE_MAX;
-    while (*from < k->n_events && k->event[*from].t < e->t)
-        ++*from;
+    const ss_event *best = NULL;
+    size_t from = 0, end = k->n_events;
+    while (from < end) {                /* the first that is not earlier than e is in [from, end] */
+        size_t mid = from + (end - from) / 2;
+        if (k->event[mid].t < e->t)
+            from = mid + 1;
+        else
+            end = mid;
+    }
     for (int after = 0; after <= 1; after++)
-        for (size_t i = *from; after ? i < k->n_events : i > 0; i += after ? 1 : (size_t)-1) {
+        for (size_t i = from; after ? i < k->n_events : i > 0; i += after ? 1 : (size_t)-1) {
             const ss_event *other = &k->event[after ? i : i - 1];
             if (other->kind != e->kind || other->direction != e->direction)
                 continue;
-            if (best == SIZE_MAX || fabs(other->t - e->t) < fabs(k->event[best].t - e->t))
-                best = (size_t)(other - k->event);
+            if (best == NULL || fabs(other->t - e->t) < fabs(best->t - e->t))
+                best = other;
             break;
         }
     return best;
@@ -189,19 +191,12 @@ nearest(const run *k, const ss_event *e, size_t *from)
 static void
 compare_events(ss_trade_row *row, const run *k, const run *ref, double *own)
 {
-    size_t from = 0, from_back = 0, matched = 0;
+    size_t matched = 0;
     row->error_t = 0;
     for (size_t i = 0; i < ref->n_events; i++) {
-        const ss_event *e = &ref->event[i];
-        size_t j = nearest(k, e, &from);
-        from_back = i;
-        int mutual = j != SIZE_MAX;
-        if (mutual) {
-            while (from_back > 0 && ref->event[from_back - 1].t >= k->event[j].t)
-                from_back--;
-            mutual = nearest(ref, &k->event[j], &from_back) == i;
-        }
-        own[i] = mutual ? fabs(k->event[j].t - e->t) : 0;
+        const ss_event *e = &ref->event[i], *same = nearest(k, e);
+        int mutual = same != NULL && nearest(ref, same) == e;
+        own[i] = mutual ? fabs(same->t - e->t) : 0;
         row->error_t = fmax(row->error_t, own[i]);
         matched += (size_t)mutual;
     }

@@ -34,12 +34,11 @@ typedef struct run {              /* what a run gave */
 /* The part of a scene that is compared. */
 probe ss_trade_probe(const ss_scene *scene);
 
-/* Allocate the samples of a probe; to be freed even after a failure. */
-ss_status ss_trade_run_init(run *k, const probe *p);
-void ss_trade_run_free(run *k);
-/* Run a probe.  SS_EBUDGET: it needs more steps or CPU time than it is allowed. */
+/* Run a probe, always the same with one k, which is to be freed even after a failure.  SS_EBUDGET: it needs more
+ * steps or CPU time than it is allowed. */
 ss_status ss_trade_run(run *k, const probe *p, const char *method, double tol, unsigned long max_steps,
                        ss_error *err);
+void ss_trade_run_free(run *k);
 
 /* Run the reference into ref, and its witness into other; text names them.  The methods are
  * a pair of ss_method_pair. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/options.h"
+#include "base/progress.h"
 #include "base/sort.h"
 #include "motion/method.h"
 #include "study/trade/common.h"
@@ -83,72 +84,67 @@ make_rows(ss_trade *trade, const ss_scene *scene)
     return SS_OK;
 }
 
+/* A ss_trade_runner. */
 static ss_status
-run_row(measurement *t, const ss_trade_row *row, ss_error *err)
+run_row(size_t i, int again, double done, double *seconds, void *user)
 {
-    return ss_trade_run(&t->run, &t->p, row->method, row->tol > 0 ? row->tol : 1e-12, 0, err);
-}
-
-static ss_status
-measure_row(measurement *t, ss_trade_row *row)
-{
-    const ss_trade_row *best = t->opts->target > 0 ? ss_trade_cheapest(t->trade, t->opts->target)
-        : NULL;
-    t->run.budget = t->opts->budget;
-    if (best != NULL)
-        t->run.budget = fmin(t->run.budget, 2 * best->seconds);
-    row->status = run_row(t, row, NULL);
+    measurement *t = user;
+    ss_trade_row *row = &t->trade->row[i];
+    const ss_trade_row *best = t->opts->target > 0 ? ss_trade_cheapest(t->trade, t->opts->target) : NULL;
+    t->run.budget = again ? 0 : best != NULL ? fmin(t->opts->budget, 2 * best->seconds) : t->opts->budget;
+    t->run.done = done;
+    t->run.share = again ? 0 : 0.7 / (double)t->trade->n;
+    ss_status st = ss_trade_run(&t->run, &t->p, row->method, row->tol > 0 ? row->tol : 1e-12, 0, NULL);
+    *seconds = st == SS_OK ? t->run.seconds : NAN;
+    if (again)
+        return st;
+    row->status = st;
     row->seconds = t->run.seconds;
     row->steps = t->run.stats.steps;
     row->rhs = t->run.stats.rhs;
-    if (row->status == SS_STOP || row->status == SS_ENOMEM)
-        return row->status;
-    if (row->status != SS_OK)
-        return SS_OK;
-    ss_status st = ss_trade_compare(row, &t->run, &t->ref);
+    if (st != SS_OK)
+        return st == SS_STOP || st == SS_ENOMEM ? st : SS_OK;
+    st = ss_trade_compare(row, &t->run, &t->ref);
     row->error_x = fmax(row->error_x, t->trade->known_x);
     row->error_a = fmax(row->error_a, t->trade->known_a);
     row->error_t = fmax(row->error_t, t->trade->known_t);
     return st;
 }
 
-/* Rows are repeated in turns, so that a disturbance of the machine affects all of them alike.  Their times
- * become the medians. */
 ss_status
-ss_trade_repeat(ss_trade *trade, ss_trade_again *again, void *user)
+ss_trade_race(double **out, size_t n, ss_trade_runner *runner, const ss_progress *progress, void *user)
 {
-    double (*seconds)[REPEATS] = calloc(trade->n, sizeof *seconds);
-    ss_status st = seconds != NULL ? SS_OK : SS_ENOMEM;
-    for (int k = 0; st == SS_OK && k < REPEATS; k++)
-        for (size_t i = 0; st == SS_OK && i < trade->n; i++) {
-            const ss_trade_row *row = &trade->row[i];
-            double done = 0.7 + 0.3 * ((double)k + (double)i / (double)trade->n) / REPEATS;
-            if (row->status == SS_OK && row->seconds <= SHORT)
-                st = again(user, row, done, &seconds[i][k]);
+    enum { FIRST = 1 };
+    double *seconds = malloc((n + 1) * sizeof *seconds), (*all)[REPEATS] = calloc(n + 1, sizeof *all);
+    ss_status st = seconds != NULL && all != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t lap = 0; lap < FIRST + REPEATS; lap++)
+        for (size_t i = 0; st == SS_OK && i < n; i++) {
+            double part = (double)i / (double)n;
+            double done = lap < FIRST ? 0.7 * part : 0.7 + 0.3 * ((double)(lap - FIRST) + part) / REPEATS;
+            if (lap >= FIRST && !(seconds[i] <= SHORT))
+                continue;
+            st = ss_progress_at(progress, done);
+            if (st == SS_OK)
+                st = runner(i, lap >= FIRST, done, lap < FIRST ? &seconds[i] : &all[i][lap - FIRST], user);
         }
-    for (size_t i = 0; st == SS_OK && i < trade->n; i++)
-        if (trade->row[i].status == SS_OK && trade->row[i].seconds <= SHORT) {
-            qsort(seconds[i], REPEATS, sizeof *seconds[i], ss_ascending);
-            trade->row[i].seconds = seconds[i][REPEATS / 2];
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        if (seconds[i] <= SHORT) {
+            qsort(all[i], REPEATS, sizeof *all[i], ss_ascending);
+            seconds[i] = all[i][REPEATS / 2];
         }
-    free(seconds);
-    return st;
-}
-
-static ss_status
-run_again(void *user, const ss_trade_row *row, double done, double *seconds)
-{
-    measurement *t = user;
-    t->run.budget = 0;
-    t->run.done = done;
-    ss_status st = run_row(t, row, NULL);
-    *seconds = t->run.seconds;
+    free(all);
+    if (st != SS_OK)
+        free(seconds);
+    *out = st == SS_OK ? seconds : NULL;
     return st;
 }
 
 void
-ss_trade_mark_frontier(ss_trade *trade)
+ss_trade_finish(ss_trade *trade, const double *seconds)
 {
+    for (size_t i = 0; i < trade->n; i++)
+        if (!isnan(seconds[i]))
+            trade->row[i].seconds = seconds[i];
     for (size_t i = 0; i < trade->n; i++) {
         ss_trade_row *row = &trade->row[i];
         row->frontier = row->status == SS_OK;
@@ -169,11 +165,7 @@ measure_rows(measurement *t, ss_error *err)
     ss_trade_row between = { .tol = 0 };
     const char *method[2];
     ss_method_pair(&t->p.scene, 0, method);
-    ss_status st = ss_trade_run_init(&t->ref, &t->p);
-    if (st == SS_OK)
-        st = ss_trade_run_init(&t->run, &t->p);
-    if (st == SS_OK)
-        st = make_rows(trade, &t->p.scene);
+    ss_status st = make_rows(trade, &t->p.scene);
     t->ref.budget = t->run.budget = REFERENCE_BUDGET * t->opts->budget;
     if (st == SS_OK)
         st = ss_trade_refer(&t->ref, &t->run, &t->p, method, 0, trade->reference, err);
@@ -188,16 +180,12 @@ measure_rows(measurement *t, ss_error *err)
     trade->known_t = between.error_t;
     trade->events = t->ref.n_events;
     trade->samples = t->p.n;
-    for (size_t i = 0; st == SS_OK && i < trade->n; i++) {
-        t->run.done = 0.7 * (double)i / (double)trade->n;
-        t->run.share = 0.7 / (double)trade->n;
-        st = measure_row(t, &trade->row[i]);
-    }
-    t->run.share = 0;
+    double *seconds = NULL;
     if (st == SS_OK)
-        st = ss_trade_repeat(trade, run_again, t);
+        st = ss_trade_race(&seconds, trade->n, run_row, &t->opts->progress, t);
     if (st == SS_OK)
-        ss_trade_mark_frontier(trade);
+        ss_trade_finish(trade, seconds);
+    free(seconds);
     return st;
 }
 

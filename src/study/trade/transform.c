@@ -38,6 +38,7 @@ typedef struct trial {
     size_t n_scales;
     scale_reference *reference;
     ss_trade *trade;
+    ss_error *err;
 } trial;
 
 /* --- the reference ---------------------------------------------------------------------------- */
@@ -95,7 +96,7 @@ refer(trial *t, ss_error *err)
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
         st = refer_scale(t, plan, &rec, i, err);
         if (st == SS_OK)
-            st = ss_progress_at(&t->how->progress, 0.1 * (double)i / (double)plan->n_scales);
+            st = ss_progress_at(&t->how->progress, 0);
     }
     t->x_max = ldexp(rec.x_max, rec.exponent);
     if (!t->opts.octaves) {
@@ -126,52 +127,42 @@ worst_error(const trial *t, const ss_morlet *plan)
     return worst;
 }
 
-/* Make the transform of a row.  *error becomes its error, unless error is NULL. */
+/* A ss_trade_runner. */
 static ss_status
-transform(trial *t, const ss_trade_row *row, double *seconds, double *error, ss_error *err)
-{
-    ss_morlet *plan = NULL;
-    ss_morlet_opts opts = t->opts;
-    for (int i = 0; i < ENGINES; i++)
-        if (strcmp(row->method, method[i]) == 0)
-            opts.engine = engine[i];
-    opts.accuracy = row->tol;
-    ss_status st = ss_morlet_new(&plan, t->n, t->rate, &opts, err);
-    if (st != SS_OK)
-        return st;
-    *seconds = ss_trade_cpu_time();
-    st = ss_morlet_execute(plan, t->x, t->w, err);
-    *seconds = ss_trade_cpu_time() - *seconds;
-    if (st == SS_OK && error != NULL)
-        *error = fmax(t->trade->known_x, worst_error(t, plan));
-    ss_morlet_free(plan);
-    return st;
-}
-
-static ss_status
-transform_again(void *user, const ss_trade_row *row, double done, double *seconds)
+run_row(size_t i, int again, double done, double *seconds, void *user)
 {
     trial *t = user;
-    ss_status st = ss_progress_at(&t->how->progress, done);
-    return st == SS_OK ? transform(t, row, seconds, NULL, NULL) : st;
-}
-
-static ss_status
-measure_row(trial *t, ss_trade_row *row, ss_error *err)
-{
+    ss_trade_row *row = &t->trade->row[i];
+    size_t e = i / (ROWS / ENGINES);
     double reach = sqrt(log(row->tol) / log(DBL_EPSILON));  /* as a part of the whole window */
-    if (strcmp(row->method, method[0]) == 0 && t->by_sum * reach > t->how->budget) {
+    ss_morlet *plan = NULL;
+    ss_morlet_opts opts = t->opts;
+    (void)done;
+    *seconds = NAN;
+    if (engine[e] == SS_ENGINE_QUADRATURE && t->by_sum * reach > t->how->budget) {
         row->status = SS_EBUDGET;
         row->seconds = t->by_sum * reach;
         return SS_OK;
     }
-    return transform(t, row, &row->seconds, &row->error_x, err);
+    opts.engine = engine[e];
+    opts.accuracy = row->tol;
+    ss_status st = ss_morlet_new(&plan, t->n, t->rate, &opts, t->err);
+    if (st != SS_OK)
+        return st;
+    double began = ss_trade_cpu_time();
+    st = ss_morlet_execute(plan, t->x, t->w, t->err);
+    *seconds = ss_trade_cpu_time() - began;
+    if (st == SS_OK && !again)
+        row->error_x = fmax(t->trade->known_x, worst_error(t, plan));
+    ss_morlet_free(plan);
+    return st;
 }
 
 static ss_status
 fill_rows(trial *t, ss_error *err)
 {
     ss_trade *trade = t->trade;
+    double *seconds = NULL;
     ss_status st = refer(t, err);
     trade->row = calloc(ROWS, sizeof *trade->row);
     if (st == SS_OK && trade->row == NULL)
@@ -181,17 +172,14 @@ fill_rows(trial *t, ss_error *err)
     trade->transform = 1;
     strcpy(trade->reference, "quadrature in full");
     for (int e = 0; st == SS_OK && e < ENGINES; e++)
-        for (int i = LOOSEST; st == SS_OK && i <= TIGHTEST; i++) {
-            ss_trade_row *row = &trade->row[trade->n++];
-            *row = (ss_trade_row){ .method = method[e], .tol = ss_trade_tolerance[i] };
-            st = measure_row(t, row, err);
-            if (st == SS_OK)
-                st = ss_progress_at(&t->how->progress, 0.1 + 0.6 * (double)trade->n / ROWS);
-        }
+        for (int i = LOOSEST; i <= TIGHTEST; i++)
+            trade->row[trade->n++] = (ss_trade_row){ .method = method[e], .tol = ss_trade_tolerance[i] };
+    t->err = err;
     if (st == SS_OK)
-        st = ss_trade_repeat(trade, transform_again, t);
+        st = ss_trade_race(&seconds, trade->n, run_row, &t->how->progress, t);
     if (st == SS_OK)
-        ss_trade_mark_frontier(trade);
+        ss_trade_finish(trade, seconds);
+    free(seconds);
     return st;
 }
 
