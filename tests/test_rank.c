@@ -5,9 +5,8 @@
 #include <stickslip.h>
 #include "foreign.h"
 #include "shipped.h"
-#include "fit/candidate.h"
 #include "fit/cycle.h"
-#include "fit/held.h"
+#include "fit/forced.h"
 #include "fit/samples.h"
 #include "unit.h"
 
@@ -124,17 +123,17 @@ static void
 a_lighter_mass_is_the_nearest_explanation(void **state)
 {
     ss_scene scene = shipped(LIGHT);
-    candidate c = ss_candidate_of(&scene, SS_ACCELERATION, 1.5);
+    forced c = ss_forced_of(&scene, SS_ACCELERATION, 1.5);
     (void)state;
-    double key[CANDIDATE_KEYS];
+    double key[FORCED_KEYS];
     memcpy(key, c.own, sizeof key);
-    assert_true(ss_candidate_distance(&c, key) == 0);
+    assert_true(ss_forced_distance(&c, key) == 0);
     key[0] += 0.2, key[2] += 0.2, key[3] += 0.2;
     /* mass by -mu: 3 (0.2 - mu)^2 + mu^2 is least at mu = 0.15, where it is 0.03 */
-    assert_true(fabs(ss_candidate_distance(&c, key) - sqrt(0.03 / 5)) <= 1e-12);
+    assert_true(fabs(ss_forced_distance(&c, key) - sqrt(0.03 / 5)) <= 1e-12);
     memcpy(key, c.own, sizeof key);
     key[1] += 0.3;
-    assert_true(fabs(ss_candidate_distance(&c, key) - sqrt(0.09 / 5)) <= 1e-12);
+    assert_true(fabs(ss_forced_distance(&c, key) - sqrt(0.09 / 5)) <= 1e-12);
 }
 
 static void
@@ -145,7 +144,7 @@ the_literal_law_is_ranked_as_the_scaled_one_that_equals_it(void **state)
     (void)state;
     ss_scene_set_text(&literal, "law", "literal", NULL);
     literal.duration = 0.2;
-    candidate c = ss_candidate_of(&literal, SS_ACCELERATION, 1);
+    forced c = ss_forced_of(&literal, SS_ACCELERATION, 1);
     c.scene.duration = 0.2;
     assert_string_equal(ss_scene_word(&c.scene, "law"), "scaled");
     assert_int_equal(ss_samples_run(&literal, SS_ACCELERATION, SAMPLES_FINE, x, NULL, 400, &steps),
@@ -438,48 +437,48 @@ lag(double *x, size_t n, double samples)
     }
 }
 
-/* Match the light scene to a record at 40 dB of a rig that differs from it in terms that a match holds.  *part
+/* Fit the light scene to a record at 40 dB of a rig that differs from it in terms that a fit holds.  *part
  * becomes what is left of the power. */
 static void
-ask(held of[HELD_TERMS], double *part, const ss_scene *rig, double lag_samples)
+ask(forced_held of[HELD_TERMS], double *part, const ss_scene *rig, double lag_samples)
 {
-    const ss_stretch silent = { { NULL, NULL }, 0, 1 };
     const ss_scene scene = shipped(LIGHT);
     const double period = 1 / scene.base_frequency;
     ss_signal *signal = record_of(rig, 300);
-    candidate c = ss_candidate_of(&scene, SS_ACCELERATION, 2);
-    candidate_start start = { .size = 1, .shift = remainder(-scene.settle / period, 1) };
+    forced c = ss_forced_of(&scene, SS_ACCELERATION, 2);
+    forced_start start = { .size = 1, .shift = remainder(-scene.settle / period, 1) };
     rank_record r = { .x = signal->values, .n = signal->n, .rate = scene.rate };
-    match m;
+    forced_fit m;
+    c.period = period;
     memcpy(start.key, c.own, sizeof start.key);
-    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS] = c.own[CANDIDATE_STIFFNESS];
+    c.range[FORCED_STIFFNESS] = (ss_range){ c.own[FORCED_STIFFNESS], c.own[FORCED_STIFFNESS] };
     if (lag_samples > 0)
         lag(signal->values, signal->n, lag_samples);
     ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, 40), 5, NULL);
     assert_int_equal(ss_record_noise(&r, period * r.rate), SS_OK);
-    assert_int_equal(ss_match_find(&m, &c, &start, period, &r, NULL, 0, &silent), SS_OK);
-    assert_int_equal(ss_held_gains(of, &c, &m, &r), SS_OK);
-    assert_true(m.compared > 0);
-    *part = m.left / m.power;
+    assert_int_equal(ss_forced_fit(&m, &c, &start, &r, NULL, 0), SS_OK);
+    assert_int_equal(ss_forced_gains(of, &c, &m, &r), SS_OK);
+    assert_true(m.of_samples.compared > 0);
+    *part = m.of_samples.left / m.of_samples.power;
     ss_signal_free(signal);
 }
 
 /* Damping and f_s / f_k that the scene lacks come back within three standard errors, where the gain is the
  * square of the change in standard errors.  Without them no gain is significant. */
 static void
-terms_that_a_match_holds_come_back(void **state)
+terms_that_a_fit_holds_come_back(void **state)
 {
     static const struct { double damping, ratio; } row[] = {
         { 0, 1 }, { 0.1, 1 }, { 0.5, 1 }, { 2, 1 }, { 8, 1 }, { 0, 1.01 }, { 0, 1.03 }, { 0, 1.1 } };
     (void)state;
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
         ss_scene rig = shipped(LIGHT);
-        held of[HELD_TERMS];
+        forced_held of[HELD_TERMS];
         double part;
         rig.damping = row[k].damping;
         rig.static_friction = row[k].ratio > 1 ? row[k].ratio * rig.friction : 0;
         ask(of, &part, &rig, 0);
-        const held *damping = &of[HELD_DAMPING], *ratio = &of[HELD_STATIC];
+        const forced_held *damping = &of[HELD_DAMPING], *ratio = &of[HELD_STATIC];
         if (row[k].ratio == 1 && !(fabs(damping->nearer - rig.damping) * sqrt(damping->gain) <= 3 * damping->nearer))
             fail_msg("damping %g: %g", rig.damping, damping->nearer);
         if (row[k].damping == 0
@@ -491,13 +490,13 @@ terms_that_a_match_holds_come_back(void **state)
     }
 }
 
-/* The gain by a lag is what a match to the same record leaves less if the sensor has none.  The noise in the
+/* The gain by a lag is what a fit to the same record leaves less if the sensor has none.  The noise in the
  * record moves the gain by 2 sqrt(gain) for each standard error; two are allowed. */
 static void
 a_lag_of_the_sensor_is_seen(void **state)
 {
     const ss_scene rig = shipped(LIGHT);
-    held of[HELD_TERMS];
+    forced_held of[HELD_TERMS];
     double without, part;
     (void)state;
     ask(of, &without, &rig, 0);
@@ -650,7 +649,7 @@ main(void)
         cmocka_unit_test(scores_are_distances_over_thresholds_up_to_three),
         cmocka_unit_test(a_threshold_that_moves_can_change_the_order),
         cmocka_unit_test(finds_the_parameters_of_a_compliant_signal),
-        cmocka_unit_test(terms_that_a_match_holds_come_back),
+        cmocka_unit_test(terms_that_a_fit_holds_come_back),
         cmocka_unit_test(a_lag_of_the_sensor_is_seen),
         cmocka_unit_test(gaps_do_not_matter),
         cmocka_unit_test(progress_goes_on_to_the_end_or_stops),

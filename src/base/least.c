@@ -3,15 +3,18 @@
  * GSL's trust region with Levenberg's and Marquardt's step (More 1978) does the work.  What is added: ranges,
  * models that do not exist everywhere, slopes by differences, and an end that knows the noise.
  *
- * An unknown v with a range is a sine of one without: v = from + (to - from) (1 + sin w) / 2.  A model that
- * does not exist at a trial step is an infinite residual there, so that the step is refused.
+ * GSL's point only adds up GSL's steps.  The unknowns follow each of them as far as their ranges, and the
+ * longest step, allow; one at an end of its range that would leave it has no slope for GSL.  A model that does
+ * not exist at a trial step is an infinite residual there, so that the step is refused.
  *
  * Slopes by differences cost one run of the model for each unknown, a step only one run.  So slopes are kept
  * as long as steps by them gain half of what they predict.  A fit ends by fresh slopes only. */
 #include "base/least.h"
 
+#include <float.h>
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
@@ -19,9 +22,7 @@
 #include <string.h>
 
 enum { REFUSED = 6 };           /* steps in a row, each shorter, that end a fit: it is at the least */
-#define INSIDE 1e-3             /* of a range: the distance from its ends of a start */
 #define LITTLE_NOISE 0.01       /* times noise: the squares change by about noise for no reason */
-#define LITTLE 1e-4             /* times the squares beyond twice the noise: there the model is wrong */
 #define UNSEEN 1e-12            /* of a column that others explain: less is rounding */
 
 enum { REFRESH = GSL_EMAXITER + 1000, AT_LEAST };       /* what ends an iteration of GSL's early */
@@ -29,8 +30,9 @@ enum { REFRESH = GSL_EMAXITER + 1000, AT_LEAST };       /* what ends an iteratio
 typedef struct descent {
     const least *fit;
     size_t n, *free;            /* the unknowns that are free */
-    double *u, *residual;       /* of the point evaluated last */
+    double *residual, *u;       /* of the point evaluated last; behind u there is room */
     double *at, *left, *slopes; /* of the last step that was taken: u, residuals, slopes by u */
+    double *place;              /* GSL's point there */
     double squares;             /* of left; NAN: none was taken */
     int is_old;                 /* slopes are those of a point before */
     int refresh;                /* the next slopes must be new */
@@ -38,37 +40,24 @@ typedef struct descent {
     ss_status status;
 } descent;
 
-/* --- ranges -------------------------------------------------------------------------------- */
-
-static double
-width_of(const least *fit, size_t k)
+static ss_range
+range_of(const least *fit, size_t k)
 {
-    return fit->range != NULL ? fit->range[k].to - fit->range[k].from : INFINITY;
+    return fit->range != NULL ? fit->range[k] : (ss_range){ -INFINITY, INFINITY };
 }
 
-static double
-bounded(const least *fit, size_t k, double w)
+/* Follow GSL's step as far as the ranges allow.  0: it is too long. */
+static int
+follow(descent *d, const gsl_vector *w)
 {
-    double width = width_of(fit, k);
-    return isinf(width) ? w : fit->range[k].from + width * (0.5 + 0.5 * sin(w));
-}
-
-static double
-unbounded(const least *fit, size_t k, double u)
-{
-    double width = width_of(fit, k);
-    if (isinf(width))
-        return u;
-    double part = (u - fit->range[k].from) / width;
-    return asin(2 * fmin(fmax(part, INSIDE), 1 - INSIDE) - 1);
-}
-
-/* The slope of bounded. */
-static double
-stretch_at(const least *fit, size_t k, double w)
-{
-    double width = width_of(fit, k);
-    return isinf(width) ? 1 : 0.5 * width * cos(w);
+    int is_long = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        size_t k = d->free[i];
+        ss_range range = range_of(d->fit, k);
+        d->u[k] = fmax(range.from, fmin(d->at[k] + (gsl_vector_get(w, i) - d->place[i]), range.to));
+        is_long = is_long || (d->fit->farthest > 0 && fabs(d->u[k] - d->at[k]) > d->fit->farthest);
+    }
+    return !is_long;
 }
 
 /* --- residuals and slopes ------------------------------------------------------------------ */
@@ -86,14 +75,12 @@ residuals(const gsl_vector *w, void *user, gsl_vector *out)
 {
     descent *d = user;
     const size_t rows = d->fit->rows;
-    for (size_t i = 0; i < d->n; i++)
-        d->u[d->free[i]] = bounded(d->fit, d->free[i], gsl_vector_get(w, i));
-    int is_known = !isnan(d->squares) && memcmp(d->u, d->at, d->fit->unknowns * sizeof *d->u) == 0;
-    if (is_known)
-        memcpy(d->residual, d->left, rows * sizeof *d->left);
-    else
+    const int is_first = isnan(d->squares);
+    const int is_run = follow(d, w) && (is_first || memcmp(d->u, d->at, d->fit->unknowns * sizeof *d->u) != 0);
+    memcpy(d->residual, d->left, rows * sizeof *d->left);
+    if (is_run)
         d->status = d->fit->model(d->u, d->residual, NULL, d->fit->user);
-    if (d->status == SS_EDATA && !isnan(d->squares)) {
+    if (!follow(d, w) || (d->status == SS_EDATA && !is_first)) {
         memset(d->residual, 0, rows * sizeof *d->residual);
         d->residual[0] = INFINITY;
         d->status = SS_OK;
@@ -101,7 +88,7 @@ residuals(const gsl_vector *w, void *user, gsl_vector *out)
     if (d->status != SS_OK)
         return GSL_EFAILED;
     memcpy(out->data, d->residual, rows * sizeof *d->residual);
-    if (is_known || isnan(d->squares) || squares_of(d->residual, rows) < d->squares)
+    if (is_first || !is_run || squares_of(d->residual, rows) < d->squares)
         return GSL_SUCCESS;
     return d->is_old ? REFRESH : ++d->refused < REFUSED ? GSL_SUCCESS : AT_LEAST;
 }
@@ -174,25 +161,73 @@ slopes(const gsl_vector *w, void *user, gsl_matrix *out)
     memcpy(d->left, d->residual, fit->rows * sizeof *d->left);
     d->squares = squares_of(d->left, fit->rows);
     for (size_t j = 0; j < d->n; j++) {
-        double stretch = stretch_at(fit, d->free[j], gsl_vector_get(w, j));
+        const size_t k = d->free[j];
+        double rise = 0;                        /* half the slope of the squares */
+        d->place[j] = gsl_vector_get(w, j);
         for (size_t i = 0; i < fit->rows; i++)
-            gsl_matrix_set(out, i, j, stretch * d->slopes[i * fit->unknowns + d->free[j]]);
+            rise += d->slopes[i * fit->unknowns + k] * d->left[i];
+        int is_held = (d->at[k] <= range_of(fit, k).from && rise > 0)
+                      || (d->at[k] >= range_of(fit, k).to && rise < 0);
+        for (size_t i = 0; i < fit->rows; i++)
+            gsl_matrix_set(out, i, j, is_held ? 0 : d->slopes[i * fit->unknowns + k]);
     }
     return GSL_SUCCESS;
 }
 
 /* --- the fit ------------------------------------------------------------------------------- */
 
+/* Is a gain too little to go on for? */
+static int
+is_little_gain(const descent *d, double gain)
+{
+    double beyond = fmax(d->squares - 2 * d->fit->noise * (double)d->fit->rows, 0);
+    return gain < LITTLE_NOISE * d->fit->noise + d->fit->gain * beyond;
+}
+
+/* How much the squares would fall by the best step that is not too long, if the slopes held.  As this costs as
+ * much as a step of GSL's, only costly models are asked.  room holds n * (2 n + 2) numbers. */
+static double
+predicted_gain(const descent *d, const gsl_multifit_nlinear_workspace *space, double *room)
+{
+    const size_t n = d->n;
+    gsl_matrix_view a = gsl_matrix_view_array(room, n, n), l = gsl_matrix_view_array(room + n * n, n, n);
+    gsl_vector_view by = gsl_vector_view_array(room + 2 * n * n, n);
+    gsl_vector_view step = gsl_vector_view_array(room + 2 * n * n + n, n);
+    const gsl_matrix *j = gsl_multifit_nlinear_jac(space);
+    const double most = d->fit->farthest > 0 ? d->fit->farthest : INFINITY;
+    double gain = INFINITY, size = 0;
+    gsl_permutation *p = gsl_permutation_alloc(n);
+    gsl_blas_dsyrk(CblasLower, CblasTrans, 1, j, 0, &a.matrix);
+    gsl_blas_dgemv(CblasTrans, 1, j, gsl_multifit_nlinear_residual(space), 0, &by.vector);
+    for (size_t k = 0; k < n; k++)
+        size = fmax(size, room[k * (n + 1)]);
+    /* directions that the residuals do not show promise nothing */
+    for (double damping = UNSEEN; p != NULL && damping < 1; damping *= 10) {
+        double longest = 0;
+        gsl_matrix_memcpy(&l.matrix, &a.matrix);
+        for (size_t k = 0; k < n; k++)
+            *gsl_matrix_ptr(&l.matrix, k, k) += damping * size + DBL_MIN;
+        gsl_linalg_mcholesky_decomp(&l.matrix, p, NULL);
+        gsl_linalg_mcholesky_solve(&l.matrix, p, &by.vector, &step.vector);
+        gsl_blas_ddot(&by.vector, &step.vector, &gain);
+        for (size_t k = 0; k < n; k++)
+            longest = fmax(longest, fabs(gsl_vector_get(&step.vector, k)));
+        if (longest <= most)
+            break;
+    }
+    gsl_permutation_free(p);
+    return gain;
+}
+
 /* Does a step from `before` that gained so much end the fit? */
 static int
 is_little(const descent *d, const double *before, double gain)
 {
     const least *fit = d->fit;
-    double beyond = fmax(d->squares - 2 * fit->noise * (double)fit->rows, 0);
     int is_short = 1;
     for (size_t k = 0; k < fit->unknowns; k++)
         is_short = is_short && fabs(d->at[k] - before[k]) <= fit->tol * (fabs(d->at[k]) + fit->tol);
-    return is_short || (fit->noise > 0 && gain < LITTLE_NOISE * fit->noise + LITTLE * beyond);
+    return is_short || is_little_gain(d, gain);
 }
 
 static void
@@ -207,10 +242,13 @@ iterate(descent *d, gsl_multifit_nlinear_workspace *space, gsl_multifit_nlinear_
     while (ended == GSL_SUCCESS && isfinite(d->squares) && !end->converged && end->steps < d->fit->steps) {
         double squares = d->squares;
         int was_old = d->is_old;
-        memcpy(before, d->at, d->fit->unknowns * sizeof *before);
-        ended = gsl_multifit_nlinear_iterate(space);
-        end->steps++;
-        int is_still = ended != GSL_SUCCESS || is_little(d, before, squares - d->squares);
+        int is_still = d->fit->costly && is_little_gain(d, predicted_gain(d, space, before + d->fit->unknowns));
+        if (!is_still) {
+            memcpy(before, d->at, d->fit->unknowns * sizeof *before);
+            ended = gsl_multifit_nlinear_iterate(space);
+            end->steps++;
+            is_still = ended != GSL_SUCCESS || is_little(d, before, squares - d->squares);
+        }
         if (d->status != SS_OK && d->status != SS_EDATA)
             return;
         if (was_old && is_still) {
@@ -254,7 +292,7 @@ ss_status
 ss_least_fit(least_end *end, const least *fit, double u[], double *residual, double *covariance)
 {
     const size_t m = fit->unknowns, rows = fit->rows;
-    double *room = malloc((3 * m + 2 * rows + rows * m) * sizeof *room);
+    double *room = malloc((6 * m + 2 * m * m + 2 * rows + rows * m) * sizeof *room);
     size_t *of = malloc(m * sizeof *of);
     *end = (least_end){ .squares = NAN };
     if (room == NULL || of == NULL) {
@@ -262,13 +300,14 @@ ss_least_fit(least_end *end, const least *fit, double u[], double *residual, dou
         free(of);
         return SS_ENOMEM;
     }
-    descent d = { .fit = fit, .free = of, .u = room, .at = room + 2 * m, .residual = room + 3 * m,
-                  .left = room + 3 * m + rows, .slopes = room + 3 * m + 2 * rows, .squares = NAN };
+    descent d = { .fit = fit, .free = of, .at = room, .place = room + m, .residual = room + 2 * m,
+                  .left = room + 2 * m + rows, .slopes = room + 2 * m + 2 * rows,
+                  .u = room + 2 * m + 2 * rows + rows * m, .squares = NAN };
     memcpy(d.u, u, m * sizeof *u);
     memcpy(d.at, u, m * sizeof *u);
     memset(d.slopes, 0, rows * m * sizeof *d.slopes);
     for (size_t k = 0; k < m; k++)
-        if (width_of(fit, k) > 0)
+        if (range_of(fit, k).to > range_of(fit, k).from)
             of[d.n++] = k;
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     how.solver = gsl_multifit_nlinear_solver_mcholesky;     /* it never fails; rounding is far below noise */
@@ -279,8 +318,8 @@ ss_least_fit(least_end *end, const least *fit, double u[], double *residual, dou
     if (space == NULL || w == NULL)
         d.status = SS_ENOMEM;
     else {
-        for (size_t i = 0; i < d.n; i++)
-            gsl_vector_set(w, i, unbounded(fit, of[i], u[of[i]]));
+        gsl_vector_set_zero(w);
+        memset(d.place, 0, m * sizeof *d.place);
         iterate(&d, space, &f, w, end);
     }
     if (isfinite(d.squares)) {

@@ -7,22 +7,24 @@
 
 /* What a model makes of its unknowns u.  If slopes is NULL, write the residuals, in one unit or in their
  * standard errors.  Else these are there already, and slopes, which is 0 everywhere, takes their slopes:
- * slopes[row * unknowns + k] by unknown k.  SS_EDATA: u has no model, and a shorter step is tried; any other
- * failure ends the fit. */
+ * slopes[row * unknowns + k] by unknown k.  SS_EDATA: u has no model, and a shorter step is tried; any
+ * other failure ends the fit. */
 typedef ss_status least_model(const double *u, double *residual, double *slopes, void *user);
 
 typedef struct least {
     size_t rows, unknowns;      /* rows >= unknowns that are free >= 1 */
     least_model *model;
     void *user;
-    const ss_range *range;      /* of each unknown: from < to, both finite; both infinite: free; from == to:
-                                   held; NULL: all are free */
+    const ss_range *range;      /* of each unknown; from == to: it is held; NULL: all are free */
     const double *difference;   /* a step of each unknown for its slopes; NULL: the model gives slopes */
-    int costly;                 /* 1: slopes are kept as long as steps by them gain as they predict */
+    int costly;                 /* 1: slopes are kept as long as steps by them gain as they predict; they may
+                                   then be wanted for another u than the residuals written last */
+    double farthest;            /* the longest step of an unknown, as slopes do not hold farther; 0: any */
     size_t steps;               /* at most */
     double tol;                 /* a step ends the fit if no unknown changes by more than this part of it, */
-    double noise;               /* or if it lessens the squares by less than noise lets one tell: the variance
-                                   of a residual; 0: not known */
+    double noise;               /* or if it lessens the squares by less than a hundredth of this variance of a
+                                   residual, */
+    double gain;                /* and this part of what is left beyond twice the noise */
 } least;
 
 typedef struct least_end {
@@ -34,7 +36,7 @@ typedef struct least_end {
 
 /* Move u, the start, to the least sum of squares near it.
  *
- * needs:  u within its ranges (one at an end of its range starts a little inside)
+ * needs:  u within its ranges
  * gives:  the best u found, also where the fit has not converged; residual[rows] there, and the covariance
  *         [unknowns * unknowns] for residuals of variance 1: 0 for what is held, infinite variance for what
  *         the residuals do not show (either may be NULL)

@@ -39,7 +39,7 @@ typedef struct problem {
     const falls *r;
     const ss_scene *scene;
     pulled_fit *out;
-    double spread, steps;
+    double spread, steps, time[FALLS_MOST];     /* at which the scene of each fall falls, of the last residuals */
     const ss_stretch *progress;
 } problem;
 
@@ -151,28 +151,43 @@ rows_of(const fall *w)
     return w->n + 1;
 }
 
-/* Write them.  As long as a slider never slips back, a constant may be subtracted from f_s and f_k: the force
- * is less by the same constant, and the first stick is shorter. */
+/* The scene of fall i.  As long as a slider never slips back, a constant may be subtracted from f_s and f_k: the
+ * force is less by the same constant, and the first stick is shorter. */
+static ss_scene
+fall_scene(const problem *f, const double u[], size_t i)
+{
+    const local l = local_of(f, u, i);
+    ss_scene s = scene_of(f, u);
+    s.friction = fmax(fmin(l.middle, LEAST * l.half), 0);
+    s.static_friction = s.friction + l.half;
+    return s;
+}
+
+/* Find the time at which the scene of fall i falls.  SS_EDATA: never. */
 static ss_status
-fall_rows(problem *f, size_t i, const double u[], double *row)
+fall_time(problem *f, const double u[], size_t i, double *time)
+{
+    const ss_scene s = fall_scene(f, u, i);
+    if (ss_scene_check(&s, NULL) != SS_OK || f->steps > PULLED_BUDGET)
+        return SS_EDATA;
+    ss_status st = find_fall(time, &s, &f->steps);
+    return st == SS_OK && isnan(*time) ? SS_EDATA : st;
+}
+
+/* Write the rows of fall i, at which time the scene falls. */
+static ss_status
+fall_rows(problem *f, const double u[], size_t i, double time, double *row)
 {
     const falls *r = f->r;
     const fall *w = &r->fall[i];
     const local l = local_of(f, u, i);
     const double step = (double)w->step / r->rate, before = floor((l.onset - (double)w->first) / (double)w->step);
-    double time = NAN;
-    ss_scene s = scene_of(f, u);
-    s.friction = fmax(fmin(l.middle, LEAST * l.half), 0);
-    s.static_friction = s.friction + l.half;
-    if (ss_scene_check(&s, NULL) != SS_OK || f->steps > PULLED_BUDGET)
-        return SS_EDATA;
-    ss_status st = find_fall(&time, &s, &f->steps);
-    if (st != SS_OK)
-        return st;
+    ss_scene s = fall_scene(f, u, i);
     s.settle = time - (l.onset - (double)w->first) / r->rate;
     s.rate = 1 / step;
     s.duration = (double)w->n * step;
-    st = s.settle >= 0 ? ss_samples_run(&s, SS_SPRING, SAMPLES_FINE, row, NULL, w->n, &f->steps) : SS_EDATA;
+    ss_status st = s.settle >= 0 ? ss_samples_run(&s, SS_SPRING, SAMPLES_FINE, row, NULL, w->n, &f->steps)
+                                 : SS_EDATA;
     if (st != SS_OK)
         return st == SS_ENOMEM ? st : SS_EDATA;
     /* the slips of another law than Coulomb's may begin and end elsewhere than the slope was read */
@@ -185,24 +200,32 @@ fall_rows(problem *f, size_t i, const double u[], double *row)
     return SS_OK;
 }
 
-/* The slopes of the rows of fall i, which begin with row `first`, by one unknown. */
+/* The slopes of the rows of fall i, which begin with row `first`, by one unknown: its own k, or k = LOCALS for a
+ * key.  The onset only shifts the motion; f_k only lifts the force, if it is not small. */
 static ss_status
-fall_slopes(problem *f, size_t i, size_t first, size_t column, double *u, const double *here, double *changed,
-            double *slopes)
+fall_slopes(problem *f, size_t i, size_t k, size_t column, size_t first, double *u, const double *here,
+            double *changed, double *slopes)
 {
+    const fall *w = &f->r->fall[i];
     const size_t unknowns = f->out->n_keys + LOCALS * f->r->n;
-    const double at = u[column];
-    double h = DIFFERENCE;
-    u[column] = at + h;
-    ss_status st = fall_rows(f, i, u, changed);
-    if (st == SS_EDATA) {
-        h = -h;
+    const double at = u[column], height = w->top - w->middle;
+    const local l = local_of(f, u, i);
+    ss_status st = SS_EDATA;
+    if (k == MIDDLE && l.middle > LEAST * l.half + DIFFERENCE * height) {
+        for (size_t n = 0; n < w->n; n++)
+            slopes[(first + n) * unknowns + column] = height;
+        return SS_OK;
+    }
+    for (double h = DIFFERENCE; st == SS_EDATA && h >= -DIFFERENCE; h -= 2 * DIFFERENCE) {
+        double time = f->time[i];
         u[column] = at + h;
-        st = fall_rows(f, i, u, changed);
+        st = k == ONSET ? SS_OK : fall_time(f, u, i, &time);
+        if (st == SS_OK)
+            st = fall_rows(f, u, i, time, changed);
+        for (size_t n = 0; st == SS_OK && n < rows_of(w); n++)
+            slopes[(first + n) * unknowns + column] = (changed[n] - here[first + n]) / h;
     }
     u[column] = at;
-    for (size_t k = 0; st == SS_OK && k < rows_of(&f->r->fall[i]); k++)
-        slopes[(first + k) * unknowns + column] = (changed[k] - here[first + k]) / h;
     return st;
 }
 
@@ -222,9 +245,13 @@ falls_model(const double *u, double *residual, double *slopes, void *user)
     memcpy(moved, u, unknowns * sizeof *u);
     for (size_t i = 0; st == SS_OK && i < f->r->n; i++) {
         if (slopes == NULL)
-            st = fall_rows(f, i, u, residual + first);
-        for (size_t k = 0; st == SS_OK && slopes != NULL && k < keys + LOCALS; k++)
-            st = fall_slopes(f, i, first, k < keys ? k : k + LOCALS * i, moved, residual, changed, slopes);
+            st = fall_time(f, u, i, &f->time[i]);
+        if (slopes == NULL && st == SS_OK)
+            st = fall_rows(f, u, i, f->time[i], residual + first);
+        for (size_t k = 0; st == SS_OK && slopes != NULL && k < LOCALS; k++)
+            st = fall_slopes(f, i, k, keys + LOCALS * i + k, first, moved, residual, changed, slopes);
+        for (size_t k = 0; st == SS_OK && slopes != NULL && k < keys; k++)
+            st = fall_slopes(f, i, LOCALS, k, first, moved, residual, changed, slopes);
         first += rows_of(&f->r->fall[i]);
     }
     for (size_t k = 0; k < keys; k++) {         /* what the scene knows */
@@ -251,12 +278,14 @@ start_fall(problem *f, size_t i, double top, double *u, double *row)
     enum { PASSES = 8 };
     const fall *w = &f->r->fall[i];
     double *v = u + f->out->n_keys + LOCALS * i, height = w->top - w->middle;
-    double slides = 0, slips = INFINITY, half = height;
+    double slides = 0, slips = INFINITY, half = height, time;
     for (int pass = 0; pass <= PASSES; pass++) {
         half = pass < PASSES || isinf(slips) ? half : slips;
         v[HALF] = log(half / height);
         v[MIDDLE] = (top - half - w->middle) / height;
-        ss_status st = pass < PASSES ? fall_rows(f, i, u, row) : SS_OK;
+        ss_status st = pass < PASSES ? fall_time(f, u, i, &time) : SS_OK;
+        if (pass < PASSES && st == SS_OK)
+            st = fall_rows(f, u, i, time, row);
         if (st != SS_OK && st != SS_EDATA)
             return st;
         double low = INFINITY, high = -INFINITY;
@@ -370,7 +399,7 @@ ss_pulled_fit(pulled_fit *out, const falls *r, const ss_scene *scene, double spr
     ss_range *range = malloc(m * sizeof *range);
     ss_status st = u != NULL && range != NULL ? start(&f, 0.9 * far, u, residual) : SS_ENOMEM;
     least fit = { .rows = rows, .unknowns = m, .model = falls_model, .user = &f, .range = range,
-                  .steps = 60, .tol = 1e-6, .noise = r->noise };
+                  .steps = 60, .tol = 1e-6, .noise = r->noise, .gain = 1e-4 };
     least_end end = { .why = "" };
     for (size_t stage = 0; st == SS_OK && stage < sizeof free_keys / sizeof *free_keys; stage++) {
         for (size_t k = 0; k < m; k++)

@@ -9,7 +9,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
-#include "fit/candidate.h"
 #include "fit/forced.h"
 #include "fit/order.h"
 #include "fit/pull.h"
@@ -73,13 +72,13 @@ is_compared(const ss_ranking *r)
 
 /* Does the signal move as the pulled scenes do rather than as the forced ones? */
 static int
-is_pull(const ss_ranking *forced, const ss_ranking *pulled)
+is_pull(const ss_ranking *others, const ss_ranking *pulled)
 {
-    if (!is_compared(pulled) || !is_compared(forced))
+    if (!is_compared(pulled) || !is_compared(others))
         return is_compared(pulled);
-    if ((pulled->verdict == SS_NAMED) != (forced->verdict == SS_NAMED))
+    if ((pulled->verdict == SS_NAMED) != (others->verdict == SS_NAMED))
         return pulled->verdict == SS_NAMED;
-    return pulled->row[0].explained > forced->row[0].explained;
+    return pulled->row[0].explained > others->row[0].explained;
 }
 
 /* The row of a scene that does not fit. */
@@ -115,17 +114,17 @@ static ss_status
 rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
           const ss_rank_opts *opts, ss_error *err)
 {
-    ss_ranking *forced = NULL, *pulled = NULL;
-    ss_status st = rank_kind(&forced, 0, signal, column, scene, r->n, opts, err);
+    ss_ranking *others = NULL, *pulled = NULL;
+    ss_status st = rank_kind(&others, 0, signal, column, scene, r->n, opts, err);
     if (st == SS_OK)
         st = rank_kind(&pulled, 1, signal, column, scene, r->n, opts, err);
     if (st == SS_OK)
-        copy_answer(r, is_pull(forced, pulled) ? pulled : forced, scene);
-    if (st == SS_OK && forced->verdict == SS_NAMED && pulled != NULL && pulled->verdict == SS_NAMED) {
+        copy_answer(r, is_pull(others, pulled) ? pulled : others, scene);
+    if (st == SS_OK && others->verdict == SS_NAMED && pulled != NULL && pulled->verdict == SS_NAMED) {
         r->verdict = SS_UNDECIDED;
         snprintf(r->why, sizeof r->why, "a pull and a forced motion explain the signal");
     }
-    ss_ranking_free(forced);
+    ss_ranking_free(others);
     ss_ranking_free(pulled);
     return st;
 }
@@ -142,7 +141,7 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
     size_t pulled = 0;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         pulled += (size_t)ss_scene_is_pulled(&scene[i]);
-        st = (ss_scene_is_pulled(&scene[i]) ? ss_scene_check : ss_candidate_check)(&scene[i], err);
+        st = (ss_scene_is_pulled(&scene[i]) ? ss_scene_check : ss_forced_check)(&scene[i], err);
     }
     if (st != SS_OK)
         return st;
@@ -159,8 +158,8 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
         r->value[i] = NAN;
     for (size_t i = 0; i < n; i++)
         r->row[i] = (ss_rank_row){ .scene = i, .total = NAN, .excess = NAN };
-    st = (pulled == n ? ss_pull_compare : pulled == 0 ? ss_forced_compare : rank_both)(r, signal, column, scene, opts,
-                                                                             err);
+    st = (pulled == n ? ss_pull_compare : pulled == 0 ? ss_forced_compare : rank_both)
+        (r, signal, column, scene, opts, err);
     if (st == SS_OK)
         *out = r;
     else

@@ -11,7 +11,7 @@
 #include <gsl/gsl_statistics_double.h>
 #include "base/error.h"
 #include "base/gauss.h"
-#include "fit/normal.h"
+#include "base/least.h"
 
 const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "s", NULL };
 
@@ -144,11 +144,11 @@ cycle_variance(const rank_record *r, double samples, double *d)
 static double
 step_variance(const rank_record *r)
 {
-    double least = INFINITY;
+    double smallest = INFINITY;
     for (size_t i = 1; i < r->n; i++)
         if (r->x[i] != r->x[i - 1])
-            least = fmin(least, fabs(r->x[i] - r->x[i - 1]));
-    return isfinite(least) ? least * least * (1. / 12 + 1. / 9) : 0;
+            smallest = fmin(smallest, fabs(r->x[i] - r->x[i - 1]));
+    return isfinite(smallest) ? smallest * smallest * (1. / 12 + 1. / 9) : 0;
 }
 
 ss_status
@@ -160,45 +160,30 @@ ss_record_noise(rank_record *r, double samples)
     double fast = fast_variance(r, d);
     double repeated = samples > 0 && samples < (double)r->n
         ? cycle_variance(r, samples, d) : INFINITY;
-    double least = fmin(fast, repeated);
+    double smallest = fmin(fast, repeated);
     r->steps = step_variance(r);
-    r->noise = fmax(isfinite(least) ? least : 0, r->steps);
+    r->noise = fmax(isfinite(smallest) ? smallest : 0, r->steps);
     free(d);
     return SS_OK;
 }
 
-enum { OF_SINUSOID = 3 };       /* cosine, sine and offset */
-
-static void
-sinusoid_at(const rank_record *r, double frequency, size_t i, double row[OF_SINUSOID])
+ss_status
+ss_record_sinusoid(const rank_record *r, double frequency, double *left)
 {
-    double phase = 2 * M_PI * frequency * (double)i / r->rate;
-    row[0] = cos(phase), row[1] = sin(phase), row[2] = 1;
-}
-
-double
-ss_record_sinusoid(const rank_record *r, double frequency)
-{
-    double row[OF_SINUSOID], c[OF_SINUSOID], squares = 0, count = 0;
-    normal e = { .n = OF_SINUSOID };
+    enum { COLUMNS = 3 };       /* cosine, sine and offset */
+    double *x = malloc((r->n + 1) * (COLUMNS + 1) * sizeof *x), *y = x + COLUMNS * r->n, c[COLUMNS], squares;
+    size_t n = 0;
+    if (x == NULL)
+        return SS_ENOMEM;
     for (size_t i = 0; i < r->n; i++) {
+        double phase = 2 * M_PI * frequency * (double)i / r->rate;
         if (is_missing(r, i, 1))
             continue;
-        sinusoid_at(r, frequency, i, row);
-        for (size_t k = 0; k < e.n; k++) {
-            e.g[k] -= row[k] * r->x[i];
-            for (size_t l = 0; l < e.n; l++)
-                e.a[k][l] += row[k] * row[l];
-        }
+        memcpy(x + COLUMNS * n, (double[COLUMNS]){ cos(phase), sin(phase), 1 }, COLUMNS * sizeof *x);
+        y[n++] = r->x[i];
     }
-    ss_normal_step(&e, 0, NULL, NULL, c);
-    for (size_t i = 0; i < r->n; i++) {
-        if (is_missing(r, i, 1))
-            continue;
-        sinusoid_at(r, frequency, i, row);
-        double left = r->x[i] - c[0] * row[0] - c[1] * row[1] - c[2] * row[2];
-        squares += left * left;
-        count++;
-    }
-    return squares / fmax(count, 1);
+    ss_status st = ss_least_linear(x, y, n, COLUMNS, c, &squares, NULL);
+    *left = squares / fmax((double)n, 1);
+    free(x);
+    return st;
 }

@@ -47,7 +47,7 @@ ss_status ss_column_check_unit(const ss_signal *signal, size_t column, ss_quanti
 double ss_record_power(const rank_record *r);
 /* Set r->noise and r->steps of a record that repeats after so many samples; 0: nothing repeats. */
 ss_status ss_record_noise(rank_record *r, double samples);
-/* The mean square residual of the best sinusoid of this frequency [Hz] with an offset. */
-double ss_record_sinusoid(const rank_record *r, double frequency);
+/* Find the mean square residual of the best sinusoid of this frequency [Hz] with an offset.  SS_ENOMEM. */
+ss_status ss_record_sinusoid(const rank_record *r, double frequency, double *left);
 
 #endif

@@ -1,9 +1,9 @@
-/* fit.c -- find the only compliant scene that moves as a signal does.
+/* contact.c -- find the only compliant scene that moves as a signal does.
  *
- * The settled cycle of the scene is fitted to the mean cycle of the signal (candidate.c).  The
+ * The settled cycle of the scene is fitted to the mean cycle of the signal (forced_search.c).  The
  * search begins at the stiffness and damping that the transitions show; if they show none, in a
  * wide range about those of the scene.  From the best results of this search, the motion is fitted
- * to the record (match.c).
+ * to the record (forced_fit.c).
  *
  * The sum of squares has many minima: a motion with one micro-slip more or less is another motion.
  * So there are several starts.  The lowest minimum is the answer only if its residual is no more
@@ -15,16 +15,13 @@
 #include <stdlib.h>
 #include <stickslip/sim.h>
 #include "base/error.h"
-#include "base/progress.h"
+#include "fit/forced.h"
+#include "fit/samples.h"
 #include "scene/model.h"
 #include "signal/gaps.h"
-#include "fit/candidate.h"
-#include "fit/held.h"
-#include "fit/match.h"
-#include "fit/samples.h"
 
-enum { STARTS = 96, KEEP = 8, STEPS = 150 };
-enum { LONGER = 2 };                    /* the first match takes as long as so many others, and its own time */
+enum { POINTS = 96, KEEP = FORCED_KEPT, STEPS = 60 };  /* of a search */
+enum { LONGER = 2 };                    /* the first fit takes as long as so many others, and its own time */
 enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at most */
 #define BUDGET 1e8                      /* integration steps of a fit: less than a minute */
 #define NEAR 1.5                        /* factor within which the features' estimates are right */
@@ -41,18 +38,20 @@ typedef struct fitting {
     size_t n;
     double rate;
     cycle goal;
-    candidate c;
-    rank_record record;                /* the part of it that is fitted */
-    match best;
+    forced scene;                       /* all keys are free but k, which is known */
+    rank_record record;                 /* the part of x that is fitted */
+    forced_start start[FORCED_KEPT];
+    size_t n_starts;
+    forced_fit best;
     double rival;                       /* residual of the best of other parameters; infinite: none */
 } fitting;
 
-/* --- matches ------------------------------------------------------------------------------- */
+/* --- fits ---------------------------------------------------------------------------------- */
 
 /* Narrow the ranges of the contact's stiffness and damping to those about the values that the transitions show;
  * *is_narrow becomes 0 if they show neither. */
 static ss_status
-narrow_ranges(candidate *c, int *is_narrow, const ss_signal *signal, size_t column, ss_error *err)
+narrow_ranges(forced *c, int *is_narrow, const ss_signal *signal, size_t column, ss_error *err)
 {
     ss_features *f = NULL;
     ss_features_opts opts;
@@ -67,135 +66,119 @@ narrow_ranges(candidate *c, int *is_narrow, const ss_signal *signal, size_t colu
     *is_narrow = 0;
     for (size_t i = 0; i < 2; i++)
         if (estimate[i] > 0) {                  /* NaN is not */
-            c->lo[CANDIDATE_OWN + i] = log(estimate[i] / NEAR);
-            c->hi[CANDIDATE_OWN + i] = log(estimate[i] * NEAR);
+            c->range[FORCED_OWN + i] = (ss_range){ log(estimate[i] / NEAR), log(estimate[i] * NEAR) };
             *is_narrow = 1;
         }
     return SS_OK;
 }
 
-/* The candidate of the fit: all keys are free but k, which is known. */
-static candidate
-candidate_of(const ss_scene *start, ss_quantity quantity)
-{
-    candidate c = ss_candidate_of(start, (int)quantity, FAR);
-    c.lo[CANDIDATE_STIFFNESS] = c.hi[CANDIDATE_STIFFNESS] = c.own[CANDIDATE_STIFFNESS];
-    c.lo[CANDIDATE_RATIO] = log(LOW);
-    c.hi[CANDIDATE_RATIO] = start->friction > 0
-        ? log(start->friction / fmax(start->static_friction, start->friction)) : 0;
-    c.budget = BUDGET;
-    return c;
-}
-
-/* Starts near the values that the transitions show, and from all over the range. */
+/* Find starts near the values that the transitions show, and from all over the range. */
 static ss_status
-search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stretch *progress,
-              ss_error *err)
+search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stretch *progress, ss_error *err)
 {
-    const ss_stretch first = ss_stretch_part(progress, 0, 0.5);
-    const ss_stretch second = ss_stretch_part(progress, 0.5, 1);
-    candidate near = w->c;
+    forced near = w->scene;
+    forced_start closer[FORCED_KEPT];
+    size_t n = 0;
     int is_narrow = 0;
     ss_status st = narrow_ranges(&near, &is_narrow, signal, column, err);
+    near.progress = ss_stretch_part(progress, 0, 0.5);
+    w->scene.progress = ss_stretch_part(progress, 0.5, 1);
     if (st == SS_OK && is_narrow)
-        st = ss_candidate_search(&near, &w->goal, STARTS, KEEP / 2, STEPS, &first);
-    w->c.steps = near.steps;
+        st = ss_forced_search(closer, &n, &near, &w->goal, POINTS, KEEP / 2, STEPS);
+    w->scene.steps = near.steps;
     if (st == SS_OK)
-        st = ss_candidate_search(&w->c, &w->goal, STARTS, is_narrow ? KEEP / 2 : KEEP, STEPS, &second);
-    for (size_t i = 0; is_narrow && i < near.n_starts && w->c.n_starts < CANDIDATE_KEPT; i++) {
-        for (size_t k = 0; k < near.n; k++)     /* the ranges hold both */
-            w->c.lo[k] = fmin(w->c.lo[k], near.lo[k]), w->c.hi[k] = fmax(w->c.hi[k], near.hi[k]);
-        w->c.start[w->c.n_starts++] = near.start[i];
+        st = ss_forced_search(w->start, &w->n_starts, &w->scene, &w->goal, POINTS,
+                              is_narrow ? KEEP / 2 : KEEP, STEPS);
+    for (size_t k = 0; n > 0 && k < near.n; k++) {      /* the ranges hold both */
+        w->scene.range[k].from = fmin(w->scene.range[k].from, near.range[k].from);
+        w->scene.range[k].to = fmax(w->scene.range[k].to, near.range[k].to);
     }
+    for (size_t i = 0; i < n && w->n_starts < FORCED_KEPT; i++)
+        w->start[w->n_starts++] = closer[i];
     return st;
 }
 
-/* The part of the matches' work before the match of start i.  The first match takes the longest, as others
- * often are found to be the same. */
-static double
-part_before(size_t i, size_t n)
-{
-    return i == 0 ? 0 : (double)(i + LONGER) / (double)(n + LONGER);
-}
-
+/* Fit from all starts.  The first fit takes the longest, as others often are found to be the same. */
 static ss_status
-match_all(fitting *w, const ss_stretch *progress)
+fit_starts(fitting *w, const ss_stretch *progress)
 {
-    match found[CANDIDATE_KEPT] = { { .left = INFINITY } };
-    size_t best = 0, n = w->c.n_starts;
+    forced_fit found[FORCED_KEPT] = { { .left_all = 0 } };
+    const double parts = (double)(w->n_starts + LONGER);
+    size_t best = 0, n = w->n_starts;
     for (size_t i = 0; i < n; i++) {
-        const ss_stretch part = ss_stretch_part(progress, part_before(i, n), part_before(i + 1, n));
-        ss_status st = ss_match_find(&found[i], &w->c, &w->c.start[i], w->goal.period, &w->record,
-                                     found, i, &part);
+        w->scene.progress = ss_stretch_part(progress, i == 0 ? 0 : (double)(i + LONGER) / parts,
+                                            (double)(i + 1 + LONGER) / parts);
+        ss_status st = ss_forced_fit(&found[i], &w->scene, &w->start[i], &w->record, found, i);
         if (st != SS_OK)
             return st;
-        best = found[i].left < found[best].left ? i : best;
+        best = found[i].of_samples.left < found[best].of_samples.left ? i : best;
     }
     w->best = found[best];
     w->rival = INFINITY;
     for (size_t i = 0; i < n; i++)
-        if (found[i].compared > 0 && !ss_match_same(&w->best, &found[i]))
-            w->rival = fmin(w->rival, found[i].left);
+        if (found[i].of_samples.compared > 0 && !ss_forced_same(&w->best, &found[i]))
+            w->rival = fmin(w->rival, found[i].of_samples.left);
     return SS_OK;
 }
 
 /* --- the scene ----------------------------------------------------------------------------- */
 
-/* The numbers that are adjusted.  Each is the product of so many unknowns of a match. */
+/* The numbers that are adjusted.  Each is the product of so many unknowns of a fit. */
 static const struct {
     const char *name;
     size_t n, unknown[2];
 } fitted[SS_FIT_KEYS] = {
-    { "friction", 2, { CANDIDATE_RATIO, MATCH_SIZE } }, { "base_amplitude", 1, { MATCH_SIZE } },
-    { "base_frequency", 1, { MATCH_FREQUENCY } }, { "contact_stiffness", 1, { CANDIDATE_OWN } },
-    { "contact_damping", 1, { CANDIDATE_OWN + 1 } } };
+    { "friction", 2, { FORCED_RATIO, FORCED_SIZE } }, { "base_amplitude", 1, { FORCED_SIZE } },
+    { "base_frequency", 1, { FORCED_FREQUENCY } }, { "contact_stiffness", 1, { FORCED_OWN } },
+    { "contact_damping", 1, { FORCED_OWN + 1 } } };
+
+static void
+list_keys(ss_fit *fit, const ss_scene *start)
+{
+    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
+        ss_fitted *k = &fit->key[i];
+        k->name = fitted[i].name;
+        k->given = ss_scene_get(start, k->name);
+        k->unit = ss_scene_unit(start, k->name);
+        k->found = (ss_value){ NAN, NAN };
+    }
+}
 
 /* The standard error of the logarithm of a number. */
 static double
-error_of(const match *m, size_t key)
+error_of(const forced_fit *m, size_t key)
 {
     double sum = 0;
     for (size_t i = 0; i < fitted[key].n; i++)
         for (size_t k = 0; k < fitted[key].n; k++)
             sum += m->covariance[fitted[key].unknown[i]][fitted[key].unknown[k]];
-    return sqrt(m->left * sum);
+    return sqrt(m->of_samples.left * sum);
 }
 
-/* The scene from rest, settled and in step with the whole record. */
-static ss_scene
-settled_scene(const fitting *w)
+/* The scene from rest, settled and in step with the whole record; its numbers; and what it leaves of the record
+ * without their offset. */
+static ss_status
+report(ss_fit *fit, const fitting *w)
 {
+    const residue *of = &w->best.of_samples;
     ss_scene s = w->best.scene;
     s.phase = remainder(s.phase + 2 * M_PI * s.base_frequency * (s.settle - w->record.from), 2 * M_PI);
     s.x0 = s.v0 = 0;
-    s.settle = CANDIDATE_SETTLE / s.base_frequency;
+    s.settle = FORCED_SETTLE / s.base_frequency;
     s.duration = (double)w->n / w->rate;
-    return s;
-}
-
-static void
-report(ss_fit *fit, const fitting *w)
-{
-    const match *m = &w->best;
-    fit->scene = settled_scene(w);
+    fit->scene = s;
     for (size_t i = 0; i < SS_FIT_KEYS; i++) {
         double value = ss_scene_get(&fit->scene, fitted[i].name);
-        fit->key[i].found = (ss_value){ value, value * error_of(m, i) };
+        fit->key[i].found = (ss_value){ value, value * error_of(&w->best, i) };
     }
-    fit->residual_started = sqrt(m->left / m->power);
-    fit->noise = sqrt(fmin(w->record.noise, m->white) / m->power);
-}
-
-/* Find the residual of the whole record: its difference from the settled scene, without their offset. */
-static ss_status
-find_residual(ss_fit *fit, const fitting *w)
-{
+    fit->residual_started = sqrt(of->left / of->power);
+    fit->noise = sqrt(fmin(w->record.noise, of->white) / of->power);
     double *y = malloc((w->n + 1) * sizeof *y), steps = 0;
     if (y == NULL)
         return SS_ENOMEM;
     const rank_record all = { .x = w->x, .missing = w->missing, .n = w->n };
     const rank_record left = { .x = y, .missing = w->missing, .n = w->n };
-    ss_status st = ss_samples_run(&fit->scene, w->c.pick, SAMPLES_FINE, y, NULL, w->n, &steps);
+    ss_status st = ss_samples_run(&fit->scene, w->scene.pick, SAMPLES_FINE, y, NULL, w->n, &steps);
     for (size_t i = 0; st == SS_OK && i < w->n; i++)
         y[i] -= w->x[i];
     if (st == SS_OK)
@@ -240,9 +223,11 @@ vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *erro
 {
     for (size_t i = 0; i < SS_FIT_KEYS; i++) {
         size_t k = fitted[i].unknown[0];
-        int ends = k < CANDIDATE_KEYS && (w->best.p[k] <= w->c.lo[k] || w->best.p[k] >= w->c.hi[k]);
+        const ss_range *range = k < FORCED_KEYS ? &w->scene.range[k] : NULL;
         *value = fit->key[i].found.value;
-        *error = ends ? INFINITY : fit->key[i].found.error;
+        *error = fit->key[i].found.error;
+        if (range != NULL && (w->best.u[k] <= range->from || w->best.u[k] >= range->to))
+            *error = INFINITY;
         if (!(*error <= VAGUE * *value))
             return fit->key[i].name;
     }
@@ -253,12 +238,12 @@ vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *erro
 static ss_status
 judge_held(ss_fit *fit, const fitting *w)
 {
-    held of[HELD_TERMS];
-    held_term most = 0;
-    ss_status st = ss_held_gains(of, &w->c, &w->best, &w->record);
+    forced_held of[HELD_TERMS];
+    forced_term most = 0;
+    ss_status st = ss_forced_gains(of, &w->scene, &w->best, &w->record);
     if (st != SS_OK)
         return st;
-    for (held_term term = 1; term < HELD_TERMS; term++)
+    for (forced_term term = 1; term < HELD_TERMS; term++)
         most = of[term].gain > of[most].gain ? term : most;
     if (!(of[most].gain > REFUTED))
         return SS_OK;
@@ -277,19 +262,19 @@ judge_held(ss_fit *fit, const fitting *w)
 static ss_status
 judge(ss_fit *fit, const fitting *w)
 {
-    const match *m = &w->best;
+    const residue *of = &w->best.of_samples;
     double value, error, periods = 0;
-    ss_status st = find_longest_stick(&periods, &m->scene);
+    ss_status st = find_longest_stick(&periods, &w->best.scene);
     const char *vague = vague_parameter(fit, w, &value, &error);
     if (st != SS_OK)
         return st;
-    if (m->compared == 0)
+    if (of->compared == 0)
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
-    else if (!ss_match_explains(m, w->record.noise))
+    else if (!ss_residue_explains(of, w->record.noise))
         snprintf(fit->why, sizeof fit->why, "the best compliant scene leaves %.3g %% of the signal, "
                  "%.3g times the noise", 100 * fit->residual_started,
-                 sqrt(ss_match_excess(m, w->record.noise)));
-    else if ((w->rival - m->left) * (double)m->compared < MATCH_DECISIVE * m->left)
+                 sqrt(ss_residue_excess(of, w->record.noise)));
+    else if ((w->rival - of->left) * of->compared < RESIDUE_DECISIVE * of->left)
         snprintf(fit->why, sizeof fit->why, "scenes with other parameters leave as little of the "
                  "signal, %.3g %%", 100 * fit->residual_started);
     else if (periods < SHORT)
@@ -307,48 +292,41 @@ judge(ss_fit *fit, const fitting *w)
     return st;
 }
 
-static void
-list_keys(ss_fit *fit, const ss_scene *start)
-{
-    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
-        ss_fitted *k = &fit->key[i];
-        k->name = fitted[i].name;
-        k->given = ss_scene_get(start, k->name);
-        k->unit = ss_scene_unit(start, k->name);
-        k->found = (ss_value){ NAN, NAN };
-    }
-}
-
-/* Take all numbers back: a fit that is not conclusive gives none. */
-static void
-withdraw(ss_fit *fit, const ss_scene *start)
-{
-    fit->scene = *start;
-    list_keys(fit, start);
-}
-
 /* --- all ----------------------------------------------------------------------------------- */
 
-/* The part of a long record that begins after half a cycle.  A fitted motion starts in a slip before its
+static void
+set_scene(fitting *w, const ss_scene *start, ss_quantity quantity)
+{
+    forced *c = &w->scene;
+    *c = ss_forced_of(start, (int)quantity, FAR);
+    c->period = w->goal.period;
+    c->budget = BUDGET;
+    c->range[FORCED_STIFFNESS] = (ss_range){ c->own[FORCED_STIFFNESS], c->own[FORCED_STIFFNESS] };
+    c->range[FORCED_RATIO] = (ss_range){ log(LOW), start->friction > 0
+        ? log(start->friction / fmax(start->static_friction, start->friction)) : 0 };
+}
+
+/* Choose the part of a long record that begins after half a cycle.  A fitted motion starts in a slip before its
  * record, but the record itself may start from rest. */
-static rank_record
-fitted_part(const fitting *w)
+static ss_status
+choose_part(fitting *w)
 {
     double samples = w->goal.period * w->rate;
     size_t first = (double)w->n > 2.5 * samples ? (size_t)(samples / 2) : 0;
     size_t n = (size_t)fmin(fmin((double)(w->n - first), CYCLES * samples), MOST);
-    return (rank_record){ .x = w->x + first, .n = n, .rate = w->rate,
-                           .missing = w->missing != NULL ? w->missing + first : NULL,
-                           .from = (double)first / w->rate };
+    w->record = (rank_record){ .x = w->x + first, .n = n, .rate = w->rate,
+                               .missing = w->missing != NULL ? w->missing + first : NULL,
+                               .from = (double)first / w->rate };
+    return ss_record_noise(&w->record, samples);
 }
 
 /* The part of all work that the search is, in cycles of the motion: for the progress. */
 static double
 search_share(const fitting *w)
 {
-    double runs = 2 * STARTS + 1.5 * KEEP * STEPS, cycles = CANDIDATE_SETTLE + 1;
-    double record = (double)w->record.n / w->rate / w->goal.period + CANDIDATE_SETTLE;
-    return runs * cycles / (runs * cycles + (KEEP + LONGER) * MATCH_RUNS / 3 * record);
+    double runs = 2 * POINTS + 1.5 * KEEP * STEPS, cycles = FORCED_SETTLE + 1;
+    double record = (double)w->record.n / w->rate / w->goal.period + FORCED_SETTLE;
+    return runs * cycles / (runs * cycles + (KEEP + LONGER) * FORCED_RUNS / 3 * record);
 }
 
 static ss_status
@@ -356,39 +334,20 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
            ss_error *err)
 {
     const ss_stretch whole = { opts->progress, 0, 1 };
-    w->c = candidate_of(&fit->scene, opts->quantity);
-    w->record = fitted_part(w);
+    set_scene(w, &fit->scene, opts->quantity);
+    ss_status st = choose_part(w);
     double split = search_share(w);
-    const ss_stretch searching = ss_stretch_part(&whole, 0, split);
-    const ss_stretch matching = ss_stretch_part(&whole, split, 1);
-    ss_status st = ss_record_noise(&w->record, w->goal.period * w->rate);
+    const ss_stretch searching = ss_stretch_part(&whole, 0, split), fits = ss_stretch_part(&whole, split, 1);
     if (st == SS_OK)
         st = search_starts(w, signal, column, &searching, err);
     if (st == SS_OK)
-        st = match_all(w, &matching);
-    if (st == SS_OK && w->c.steps > BUDGET)
+        st = fit_starts(w, &fits);
+    if (st == SS_OK && w->scene.steps > BUDGET)
         return ss_fail(err, SS_EBUDGET, "its fits take more than %.0e integration steps: the contact is "
                        "too stiff, or too many samples stand in a cycle", BUDGET);
-    if (st != SS_OK)
-        return st;
-    report(fit, w);
-    st = find_residual(fit, w);
     if (st == SS_OK)
-        st = judge(fit, w);
-    return st;
-}
-
-static ss_status
-check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
-      ss_error *err)
-{
-    if (start->model == NULL || !start->model->has_contact)
-        return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
-                       ss_model_name(start->model));
-    ss_status st = ss_column_check(signal, column, opts, err);
-    if (st == SS_OK)
-        st = ss_column_check_unit(signal, column, opts->quantity, err);
-    return st == SS_OK ? ss_candidate_check(start, err) : st;
+        st = report(fit, w);
+    return st == SS_OK ? judge(fit, w) : st;
 }
 
 ss_status
@@ -399,7 +358,14 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
         return SS_FAIL_NULL(err);
     if (opts == NULL)
         opts = &ss_rank_defaults;
-    ss_status st = check(signal, column, start, opts, err);
+    if (start->model == NULL || !start->model->has_contact)
+        return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
+                       ss_model_name(start->model));
+    ss_status st = ss_column_check(signal, column, opts, err);
+    if (st == SS_OK)
+        st = ss_column_check_unit(signal, column, opts->quantity, err);
+    if (st == SS_OK)
+        st = ss_forced_check(start, err);
     if (st != SS_OK)
         return st;
     const ss_stretch at_once = { opts->progress, 0, 0 };    /* the fit takes longer */
@@ -417,8 +383,10 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
                            opts->forcing_frequency, &at_once);
     if (st == SS_OK && w->goal.period > 0)
         st = fit_signal(fit, w, signal, column, opts, err);
-    if (!fit->conclusive)
-        withdraw(fit, start);
+    if (!fit->conclusive) {             /* then it gives no number */
+        fit->scene = *start;
+        list_keys(fit, start);
+    }
     free(missing);
     free(w);
     return st;

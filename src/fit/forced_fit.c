@@ -1,0 +1,617 @@
+/* forced_fit.c -- fit a scene whose base moves to a record, sample by sample.
+ *
+ * The mean cycle finds the right motion (forced_search.c).  But a record is seldom completely settled,
+ * and the rest of the transient would shift the parameters or look like an error of the model.  So
+ * the motion is fitted to the record itself, with its own start: position and velocity within a slip, half a
+ * cycle or more before the record.  These two are the whole state there, or the rest of the state has decayed
+ * when the record begins.  Size and offset are linear, and follow from the rest in closed form.
+ *
+ * When a parameter moves an event across a sample, the sample jumps, so the sum of squares has steps.  But an
+ * event slightly out of place changes only the samples beside it: these have weight 0, and the weight of
+ * others grows with their distance from the events of the motion.  The weighted sum is smooth, with one
+ * minimum and the errors of a linear problem.  At first the weights reach 1 after many samples, then after
+ * fewer and fewer.  In the end some two samples per event are lost, of hundreds per cycle, with their
+ * information on its time.
+ *
+ * A fit that explains a record leaves white noise.  Half the mean square difference of the residual over any
+ * lag is the variance of that noise if it is white, and less at some lag if it is not. */
+#include "fit/forced.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/least.h"
+#include "fit/samples.h"
+#include "scene/model.h"
+
+enum { LAGS = 32 };
+enum { LOOKED_AT = 128 };       /* samples of half a cycle, to find the fastest slip */
+#define UNLIKELY 0.1            /* part of the power: if more is left, no descent or start helps */
+#define FARTHEST 0.2            /* the longest step of an unknown */
+#define ANYWHERE 5              /* units to either side, in which a start of the motion is sought */
+
+typedef struct fitting {
+    forced *c;
+    const rank_record *r;
+    forced_origin o;
+    ss_range range[FORCED_MOVED];
+    double runs;                /* of the motion so far */
+    double wide;                /* weights grow from 0 to 1 over so many samples */
+    double *motion, *clear, *weight;    /* of each sample, at the unknowns `at` */
+    double at[FORCED_MOVED], used, size, offset;        /* used: the sum of the weights */
+    double *moved, moved_at[FORCED_MOVED], step;        /* slopes of the motion by each unknown, where, and the
+                                                           step of the motion's start for them */
+} fitting;
+
+/* --- the motion of the unknowns ------------------------------------------------------------ */
+
+static ss_scene
+scene_of(const fitting *w, const double *u)
+{
+    double frequency = w->o.frequency * exp(w->o.turn * u[FORCED_FREQUENCY]);
+    ss_scene s = ss_forced_scene(w->c, u, 1 / frequency);
+    s.rate = w->r->rate;
+    s.duration = (double)w->r->n / s.rate;
+    s.settle = w->o.lead;
+    /* the phase in the middle of the record: there it does not depend on the frequency */
+    s.phase = u[FORCED_PHASE] - 2 * M_PI * frequency * (w->o.lead + s.duration / 2);
+    s.x0 = w->o.x_unit * u[FORCED_X0];
+    s.v0 = w->o.v_unit * u[FORCED_V0];
+    return s;
+}
+
+/* SS_EDATA: there is no such motion. */
+static ss_status
+run(fitting *w, const double *u, double *motion, double *clear)
+{
+    const ss_scene s = scene_of(w, u);
+    ss_status st = ss_stretch_at(&w->c->progress, 1 - exp(-w->runs++ / FORCED_RUNS));
+    if (st != SS_OK)
+        return st;
+    if (w->c->steps > w->c->budget)
+        return SS_EDATA;
+    st = ss_samples_run(&s, w->c->pick, SAMPLES_FINE, motion, clear, w->r->n, &w->c->steps);
+    return st == SS_OK || st == SS_ENOMEM ? st : SS_EDATA;
+}
+
+/* Run the motion of u, weigh its samples, and find the size and the offset that leave least of them. */
+static ss_status
+move_to(fitting *w, const double *u)
+{
+    const rank_record *r = w->r;
+    double mean_m = 0, mean_x = 0, mm = 0, mx = 0;
+    w->at[0] = NAN;
+    ss_status st = run(w, u, w->motion, w->clear);
+    if (st != SS_OK)
+        return st;
+    w->used = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        int missing = r->missing != NULL && r->missing[i];
+        w->weight[i] = missing ? 0 : fmin(fmax((w->clear[i] - 1) / w->wide, 0), 1);
+        w->used += w->weight[i];
+    }
+    if (!(w->used > (w->wide > 1 ? 0.5 * (double)r->n : 2 * (double)FORCED_UNKNOWNS)))
+        return SS_EDATA;
+    for (size_t i = 0; i < r->n; i++) {
+        mean_m += w->weight[i] * w->motion[i] / w->used;
+        mean_x += w->weight[i] * r->x[i] / w->used;
+    }
+    for (size_t i = 0; i < r->n; i++) {
+        double m = w->motion[i] - mean_m;
+        mm += w->weight[i] * m * m;
+        mx += w->weight[i] * m * (r->x[i] - mean_x);
+    }
+    w->size = mm > 0 ? mx / mm : 0;
+    w->offset = mean_x - w->size * mean_m;
+    memcpy(w->at, u, sizeof w->at);
+    return w->size > 0 ? SS_OK : SS_EDATA;
+}
+
+static double
+left_at(const fitting *w, size_t i)
+{
+    return w->r->x[i] - w->size * w->motion[i] - w->offset;
+}
+
+/* The step of an unknown for its slope: as small as a method of simulation resolves, but wider for the start
+ * while weights are wide, as the motion can change unevenly with it. */
+static double
+step_of(const fitting *w, size_t unknown)
+{
+    if (w->wide > 1 && (unknown == FORCED_X0 || unknown == FORCED_V0))
+        return 0.01;
+    return w->c->model->linear ? 1e-6 : 1e-4;
+}
+
+static int
+moves(const fitting *w, size_t unknown)
+{
+    return unknown >= FORCED_MOVED || w->range[unknown].to > w->range[unknown].from;
+}
+
+/* Find the slopes of the motion at w->at by each unknown that is free, unless they are known. */
+static ss_status
+move_unknowns(fitting *w)
+{
+    const size_t n = w->r->n;
+    double u[FORCED_MOVED];
+    ss_status st = SS_OK;
+    int has_start = moves(w, FORCED_X0) && w->step != step_of(w, FORCED_X0);
+    if (memcmp(w->moved_at, w->at, sizeof w->at) == 0 && !has_start)
+        return SS_OK;
+    w->moved_at[0] = NAN;
+    for (size_t k = 0; st == SS_OK && k < FORCED_MOVED; k++) {
+        double h = step_of(w, k), *slope = w->moved + k * n;
+        memcpy(u, w->at, sizeof u);
+        u[k] += h;
+        if (moves(w, k))
+            st = run(w, u, slope, NULL);
+        for (size_t i = 0; st == SS_OK && i < n; i++)
+            slope[i] = moves(w, k) ? (slope[i] - w->motion[i]) / h : 0;
+    }
+    if (st == SS_OK)
+        memcpy(w->moved_at, w->at, sizeof w->at);
+    w->step = step_of(w, FORCED_X0);
+    return st;
+}
+
+/* The slope of residual i at w->at by an unknown; the weights are taken as constant. */
+static double
+slope_at(const fitting *w, size_t i, size_t unknown)
+{
+    double by = unknown < FORCED_MOVED ? w->size * w->moved[unknown * w->r->n + i]
+              : unknown == FORCED_SIZE ? w->size * w->motion[i] : 1;
+    return -sqrt(w->weight[i]) * by;
+}
+
+/* Write the slopes of the root of the mean square by each unknown, less what size and offset make up for
+ * (Kaufman 1975). */
+static void
+write_slopes(const fitting *w, double *slopes)
+{
+    double mean_m = 0, mm = 0;
+    for (size_t i = 0; i < w->r->n; i++)
+        mean_m += w->weight[i] * w->motion[i] / w->used;
+    for (size_t i = 0; i < w->r->n; i++)
+        mm += w->weight[i] * (w->motion[i] - mean_m) * (w->motion[i] - mean_m);
+    for (size_t k = 0; k < FORCED_MOVED; k++) {
+        double level = 0, along = 0;
+        for (size_t i = 0; moves(w, k) && i < w->r->n; i++) {
+            double slope = sqrt(w->weight[i]) * slope_at(w, i, k);
+            level += slope / w->used;
+            along += slope * (w->motion[i] - mean_m) / mm;
+        }
+        for (size_t i = 0; moves(w, k) && i < w->r->n; i++)
+            slopes[i * FORCED_MOVED + k] = (slope_at(w, i, k) - sqrt(w->weight[i])
+                                            * (level + along * (w->motion[i] - mean_m))) / sqrt(w->used);
+    }
+}
+
+/* See least_model: of the mean square residual of the samples used. */
+static ss_status
+motion_model(const double *u, double *residual, double *slopes, void *user)
+{
+    fitting *w = user;
+    ss_status st = slopes == NULL || memcmp(u, w->at, sizeof w->at) != 0 ? move_to(w, u) : SS_OK;
+    for (size_t i = 0; st == SS_OK && slopes == NULL && i < w->r->n; i++)
+        residual[i] = sqrt(w->weight[i] / w->used) * left_at(w, i);
+    if (st == SS_OK && slopes != NULL) {
+        st = move_unknowns(w);
+        if (st == SS_OK)
+            write_slopes(w, slopes);
+    }
+    return st;
+}
+
+/* Move u to the least residual, with narrower and narrower weights. */
+static ss_status
+minimise(fitting *w, double *u)
+{
+    static const double wide[] = { SAMPLES_REACH - 1, 4, 1 };
+    least fit = { .rows = w->r->n, .unknowns = FORCED_MOVED, .model = motion_model, .user = w, .costly = 1,
+                  .range = w->range, .farthest = FARTHEST, .steps = 48, .tol = 1e-9 };
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i < sizeof wide / sizeof *wide; i++) {
+        least_end end;
+        w->wide = wide[i];
+        fit.gain = w->wide > 1 ? 1e-2 : 1e-3;
+        fit.noise = w->wide > 1 ? 0 : w->r->noise / (double)w->r->n;
+        st = ss_least_fit(&end, &fit, u, NULL, NULL);
+    }
+    return st;
+}
+
+/* --- the start of the motion --------------------------------------------------------------- */
+
+static int
+find_fastest(const ss_sample *s, size_t n, void *user)
+{
+    ss_sample *fastest = user;
+    for (size_t i = 0; i < n; i++)
+        if (s[i].mode != 0 && fabs(s[i].v) > fabs(fastest->v))
+            *fastest = s[i];
+    return 0;
+}
+
+/* Does the record depend on the start?  A change by less than RESIDUE_QUIET of the power for a whole
+ * unit of the start does not count. */
+static ss_status
+remembers(fitting *w, const double *u, double power, int *is)
+{
+    double squares = 0, h = 0.01, q[FORCED_MOVED], *changed = malloc((w->r->n + 1) * sizeof *changed);
+    memcpy(q, u, sizeof q);
+    q[FORCED_X0] += h;
+    ss_status st = changed != NULL ? move_to(w, u) : SS_ENOMEM;
+    if (st == SS_OK)
+        st = run(w, q, changed, NULL);
+    for (size_t i = 0; st == SS_OK && i < w->r->n; i++) {
+        double d = w->size * (changed[i] - w->motion[i]) / h;
+        squares += d * d / (double)w->r->n;
+    }
+    free(changed);
+    *is = st == SS_OK && squares > RESIDUE_QUIET * power;
+    return st == SS_EDATA ? SS_OK : st;
+}
+
+static void
+free_ranges(fitting *w)
+{
+    w->moved_at[0] = NAN;
+    for (size_t k = FORCED_X0; k <= FORCED_V0; k++)
+        w->range[k] = (ss_range){ -ANYWHERE, ANYWHERE };
+}
+
+/* Free the start of the motion, `cycles` cycles before the record or up to half a cycle later: it
+ * is moved to the fastest slip if x and v are the whole state there.  *is_free becomes 0 if the motion does
+ * not slip, or if the record does not depend on the start. */
+static ss_status
+free_start(fitting *w, double cycles, double *u, double power, int *is_free)
+{
+    ss_sample fastest = { .v = 0 };
+    ss_scene s = scene_of(w, u);
+    const double period = 1 / s.base_frequency;
+    *is_free = 0;
+    if (w->c->model->dim > 2) {         /* from rest, once */
+        int was_free = w->o.x_unit > 0;
+        w->o.x_unit = s.base_amplitude;
+        w->o.v_unit = 2 * M_PI * s.base_frequency * s.base_amplitude;
+        free_ranges(w);
+        return was_free ? SS_OK : remembers(w, u, power, is_free);
+    }
+    s.settle = w->o.lead - cycles * period;
+    s.duration = period / 2;
+    s.rate = 2 * LOOKED_AT / period;
+    ss_sim_opts opts = ss_samples_opts(&s, SAMPLES_FINE);
+    opts.samples = find_fastest;
+    opts.user = &fastest;
+    ss_status st = s.settle >= 0 ? ss_sim_run(&s, &opts, NULL, NULL) : SS_EINVAL;
+    if (st != SS_OK || fastest.mode == 0)
+        return st == SS_ENOMEM ? st : SS_OK;
+    w->o.lead = cycles * period - fastest.t;
+    w->o.x_unit = fmax(fabs(fastest.x), s.base_amplitude);
+    w->o.v_unit = fabs(fastest.v);
+    u[FORCED_X0] = fastest.x / w->o.x_unit;
+    u[FORCED_V0] = fastest.v / w->o.v_unit;
+    free_ranges(w);
+    *is_free = 1;
+    return SS_OK;
+}
+
+/* --- the answer ---------------------------------------------------------------------------- */
+
+/* The least of half the mean square differences over a lag: see the head of this file. */
+static double
+whiteness(const fitting *w)
+{
+    double lowest = INFINITY;
+    for (size_t lag = 1; lag <= LAGS && lag < w->r->n / 4; lag++) {
+        double squares = 0, count = 0;
+        for (size_t i = lag; i < w->r->n; i++)
+            if (w->weight[i] == 1 && w->weight[i - lag] == 1) {
+                double d = left_at(w, i) - left_at(w, i - lag);
+                squares += d * d;
+                count++;
+            }
+        if (count > 0)
+            lowest = fmin(lowest, squares / count / 2);
+    }
+    return lowest;
+}
+
+/* The linear problem at w->at: residual[i], and their slopes by the n unknowns that are free, whose names
+ * they have.  One column more, `extra`, is left empty. */
+typedef struct linear {
+    size_t n, name[FORCED_UNKNOWNS];
+    double *residual, *slopes, *extra;
+} linear;
+
+static ss_status
+linearise(fitting *w, linear *l)
+{
+    const size_t rows = w->r->n;
+    l->residual = malloc((rows * (FORCED_UNKNOWNS + 2) + 1) * sizeof *l->residual);
+    l->n = 0;
+    for (size_t k = 0; k < FORCED_UNKNOWNS; k++)
+        if (moves(w, k))
+            l->name[l->n++] = k;
+    ss_status st = l->residual != NULL ? move_unknowns(w) : SS_ENOMEM;
+    if (st != SS_OK)
+        return st;
+    l->slopes = l->residual + rows;
+    l->extra = l->slopes + rows * FORCED_UNKNOWNS;
+    for (size_t i = 0; i < rows; i++) {
+        l->residual[i] = sqrt(w->weight[i]) * left_at(w, i);
+        for (size_t k = 0; k < l->n; k++)
+            l->slopes[i * l->n + k] = slope_at(w, i, l->name[k]);
+    }
+    return SS_OK;
+}
+
+/* Fill in the fit at u, unless it leaves more than it does already. */
+static ss_status
+report(fitting *w, const double *u, forced_fit *m)
+{
+    const rank_record *r = w->r;
+    double unit[FORCED_UNKNOWNS], step[FORCED_UNKNOWNS], squares, inverse[FORCED_UNKNOWNS * FORCED_UNKNOWNS];
+    double left = 0, all = 0, count = 0;
+    linear l;
+    w->wide = 1;
+    ss_status st = move_to(w, u);
+    if (st != SS_OK)
+        return st == SS_EDATA ? SS_OK : st;
+    for (size_t i = 0; i < r->n; i++)
+        left += w->weight[i] * left_at(w, i) * left_at(w, i);
+    if (m->of_samples.compared > 0 && left / w->used >= m->of_samples.left)
+        return SS_OK;
+    st = linearise(w, &l);
+    if (st == SS_OK)
+        st = ss_least_linear(l.slopes, l.residual, r->n, l.n, step, &squares, inverse);
+    free(l.residual);
+    if (st != SS_OK)
+        return st == SS_EDATA ? SS_OK : st;
+    memset(m->covariance, 0, sizeof m->covariance);
+    for (size_t k = 0; k < l.n; k++)
+        unit[k] = l.name[k] == FORCED_FREQUENCY ? w->o.turn : 1;
+    for (size_t k = 0; k < l.n; k++)
+        for (size_t i = 0; i < l.n; i++)
+            m->covariance[l.name[i]][l.name[k]] = unit[i] * unit[k] * inverse[k * l.n + i];
+    for (size_t i = 0; i < r->n; i++)
+        if (r->missing == NULL || !r->missing[i])
+            all += left_at(w, i) * left_at(w, i), count++;
+    m->left_all = all / count;
+    m->of_samples = (residue){ left / (w->used - (double)l.n), m->of_samples.power,
+                               fmax(whiteness(w), r->steps),    /* steps are not white where they are coarse */
+                               floor(w->used) };
+    m->scene = ss_forced_resized(w->c, scene_of(w, u), w->size);
+    memcpy(m->u, u, sizeof m->u);
+    m->origin = w->o;
+    return SS_OK;
+}
+
+/* Do two sets of keys differ by no more than RESIDUE_DECISIVE of their errors in a fit? */
+static int
+are_same(const forced_fit *m, const double a[], const double b[])
+{
+    for (size_t i = 0; i < FORCED_KEYS; i++) {
+        double d = a[i] - b[i];
+        if (d * d > RESIDUE_DECISIVE * m->of_samples.left * m->covariance[i][i] + 1e-12)
+            return 0;
+    }
+    return 1;
+}
+
+int
+ss_forced_same(const forced_fit *a, const forced_fit *b)
+{
+    return are_same(a, a->u, b->u);
+}
+
+/* --- all ----------------------------------------------------------------------------------- */
+
+/* Prepare a fit that explains nothing yet: the residual is the record. */
+static ss_status
+begin(fitting *w, forced_fit *m, forced *c, const rank_record *r)
+{
+    const double power = ss_record_power(r);
+    *m = (forced_fit){ .scene = c->scene, .of_samples = { power, power, 0, 0 }, .left_all = power };
+    for (size_t i = 0; i < FORCED_UNKNOWNS; i++)
+        for (size_t k = 0; k < FORCED_UNKNOWNS; k++)
+            m->covariance[i][k] = NAN;
+    *w = (fitting){ .c = c, .r = r, .wide = 1, 
+                    .motion = malloc(((3 + FORCED_MOVED) * r->n + 1) * sizeof(double)) };
+    w->clear = w->motion + r->n;
+    w->weight = w->clear + r->n;
+    w->moved = w->weight + r->n;
+    w->moved_at[0] = w->at[0] = NAN;
+    for (size_t k = 0; k < c->n; k++)
+        w->range[k] = c->range[k];
+    return w->motion != NULL ? SS_OK : SS_ENOMEM;
+}
+
+/* Where frequency and phase are sought. */
+static void
+set_ranges(fitting *w, const double *u)
+{
+    w->range[FORCED_FREQUENCY] = (ss_range){ u[FORCED_FREQUENCY] - ANYWHERE, u[FORCED_FREQUENCY] + ANYWHERE };
+    w->range[FORCED_PHASE] = (ss_range){ u[FORCED_PHASE] - M_PI, u[FORCED_PHASE] + M_PI };
+}
+
+/* The settled motion is fitted first, then motions from any start if they leave less.  The record hardly
+ * depends on a start three cycles before it, so that the residual changes slowly with that start.
+ * For a start one cycle before it, descents end too early unless they begin near the solution. */
+ss_status
+ss_forced_fit(forced_fit *m, forced *c, const forced_start *start, const rank_record *r,
+              const forced_fit *others, size_t n)
+{
+    static const double before[] = { 3, 1 };            /* cycles */
+    const double cycles = (double)r->n / r->rate / c->period;
+    double u[FORCED_MOVED] = { 0 };
+    int is_free = 1;
+    fitting w;
+    ss_status st = begin(&w, m, c, r);
+    const double power = m->of_samples.power;
+    /* from rest, FORCED_SETTLE cycles before the record, as the search did */
+    w.o = (forced_origin){ .frequency = 1 / c->period, .lead = FORCED_SETTLE * c->period,
+                           .turn = 1 / (2 * M_PI * fmax(cycles, 1)) };
+    memcpy(u, start->key, sizeof start->key);
+    u[FORCED_PHASE] = 2 * M_PI * (r->from / c->period - start->shift + cycles / 2);
+    set_ranges(&w, u);
+    m->scene = ss_forced_scene(c, start->key, c->period);
+    m->scene.phase = 2 * M_PI * (r->from / c->period - start->shift);
+    m->scene.rate = r->rate;
+    m->scene.duration = (double)r->n / r->rate;
+    m->scene = ss_forced_resized(c, m->scene, start->size > 0 ? start->size : 1);
+    memcpy(m->u, u, sizeof m->u);
+    if (st == SS_OK && start->size > 0 && start->misfit < UNLIKELY * power)
+        st = minimise(&w, u);
+    if (st == SS_OK && start->size > 0)
+        st = report(&w, u, m);
+    memcpy(m->settled, m->u, sizeof m->settled);
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        if (are_same(m, m->settled, others[i].settled)) {
+            *m = others[i];
+            free(w.motion);
+            return SS_OK;
+        }
+    for (size_t i = 0; st == SS_OK && is_free && i < 2; i++) {
+        double left = m->of_samples.left;
+        if (m->of_samples.compared == 0 || left > UNLIKELY * power)
+            break;
+        st = free_start(&w, before[i], u, power, &is_free);
+        if (st == SS_OK && is_free)
+            st = minimise(&w, u);
+        if (st == SS_OK && is_free)
+            st = report(&w, u, m);
+        is_free = is_free && m->of_samples.left < left;
+    }
+    free(w.motion);
+    return st;
+}
+
+/* Take a fit up again. */
+static void
+resume(fitting *w, const forced_fit *from)
+{
+    w->o = from->origin;
+    set_ranges(w, from->u);
+    if (w->o.x_unit > 0)
+        free_ranges(w);
+}
+
+ss_status
+ss_forced_refit(forced_fit *m, forced *c, const forced_fit *from, const rank_record *r)
+{
+    double u[FORCED_MOVED];
+    fitting w;
+    ss_status st = begin(&w, m, c, r);
+    resume(&w, from);
+    m->scene = from->scene;
+    memcpy(m->u, from->u, sizeof m->u);
+    memcpy(u, from->u, sizeof u);
+    if (st == SS_OK && m->of_samples.power > 0)
+        st = minimise(&w, u);
+    if (st == SS_OK && m->of_samples.power > 0)
+        st = report(&w, u, m);
+    free(w.motion);
+    return st;
+}
+
+/* --- terms that are held ------------------------------------------------------------------- */
+
+/* How much less than `without` the sum of squares of l would be with one unknown more, whose slopes are
+ * l->extra, and how far it would go.  (Near the least residual the sum of squares is quadratic: no other fit is
+ * needed.) */
+static ss_status
+find_gain(const fitting *w, const linear *l, double without, double *gain, double *step)
+{
+    const size_t rows = w->r->n, n = l->n + 1;
+    double *x = malloc((rows * n + 1) * sizeof *x), c[FORCED_UNKNOWNS + 1], with = 0;
+    if (x == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < rows; i++) {
+        memcpy(x + i * n, l->slopes + i * l->n, l->n * sizeof *x);
+        x[i * n + l->n] = l->extra[i];
+    }
+    ss_status st = ss_least_linear(x, l->residual, rows, n, c, &with, NULL);
+    *gain = without - with;
+    *step = -c[l->n];           /* residuals fall by slope times step */
+    free(x);
+    return st;
+}
+
+/* Change a term of the scene; returns what it becomes. */
+static double
+change_term(ss_scene *s, forced_term term, double by)
+{
+    if (term == HELD_DAMPING)
+        return s->damping += by * sqrt(s->stiffness * s->mass);
+    s->static_friction = fmax(s->static_friction, s->friction) + by * s->friction;
+    return s->static_friction / s->friction;
+}
+
+/* The slopes by a term of the scene. */
+static ss_status
+slopes_by_scene(fitting *w, forced_term term, double *slopes)
+{
+    const double h = step_of(w, 0);
+    const ss_scene own = w->c->scene;
+    change_term(&w->c->scene, term, h);
+    ss_status st = run(w, w->at, slopes, NULL);
+    w->c->scene = own;
+    for (size_t i = 0; i < w->r->n; i++)
+        slopes[i] = -sqrt(w->weight[i]) * w->size * (slopes[i] - w->motion[i]) / h;
+    return st;
+}
+
+/* What a lag of so many samples changes in the residuals; the motion is straight between samples. */
+static void
+slopes_by_lag(const fitting *w, double samples, double *slopes)
+{
+    const double *x = w->motion, keep = exp(-1 / samples), part = samples * (1 - keep);
+    double y = x[0];
+    slopes[0] = 0;
+    for (size_t i = 1; i < w->r->n; i++) {
+        y = keep * y + (1 - part) * x[i] + (part - keep) * x[i - 1];
+        slopes[i] = -sqrt(w->weight[i]) * w->size * (y - x[i]);
+    }
+}
+
+ss_status
+ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m, const rank_record *r)
+{
+    forced own = *c;
+    forced_fit unused;
+    fitting w;
+    linear l = { .residual = NULL };
+    double gain, step, without = 0, c_of[FORCED_UNKNOWNS];
+    own.progress.progress.function = NULL;
+    for (forced_term term = 0; term < HELD_TERMS; term++)
+        of[term] = (forced_held){ 0, NAN };
+    ss_status st = begin(&w, &unused, &own, r);
+    resume(&w, m);
+    if (st == SS_OK)
+        st = move_to(&w, m->u);
+    if (st == SS_OK)
+        st = linearise(&w, &l);
+    if (st == SS_OK)
+        st = ss_least_linear(l.slopes, l.residual, r->n, l.n, c_of, &without, NULL);
+    const double unit = fmax(m->of_samples.left, RESIDUE_QUIET * m->of_samples.power);
+    for (forced_term term = 0; st == SS_OK && term < HELD_LAG; term++) {
+        ss_scene changed = c->scene;
+        st = slopes_by_scene(&w, term, l.extra);
+        if (st == SS_OK)
+            st = find_gain(&w, &l, without, &gain, &step);
+        if (st == SS_OK)
+            of[term] = (forced_held){ gain / unit, change_term(&changed, term, step) };
+    }
+    /* longer lags leave more than noise */
+    for (double samples = 0.125; st == SS_OK && samples <= 8; samples *= 2) {
+        slopes_by_lag(&w, samples, l.extra);
+        st = find_gain(&w, &l, without, &gain, &step);
+        if (st == SS_OK)
+            of[HELD_LAG].gain = fmax(of[HELD_LAG].gain, gain / unit);
+    }
+    free(l.residual);
+    free(w.motion);
+    return st == SS_EDATA ? SS_OK : st;
+}

@@ -1,0 +1,356 @@
+/* forced_rank.c -- rank scenes whose base moves: by the samples of a signal, and the features of its contours.
+ *
+ * A scene represents all rigs within the spread of its parameters.  So each scene is first
+ * adjusted to the signal's mean cycle and then to its samples (forced.h).  It is run
+ * for the duration of the signal with the same noise.  After that, scene and signal are treated in
+ * the same way: the same features, the same transform, the same phase.
+ *
+ * A scene is named only if its residual is no more than the noise; no criterion replaces this.  A
+ * model of a real rig is wrong in details, which the residual shows too; the other criteria then
+ * tell which model has the features of the signal. */
+#include "fit/order.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip/sim.h>
+#include "base/error.h"
+#include "fit/forced.h"
+#include "fit/observation.h"
+#include "signal/gaps.h"
+
+enum { POINTS = 32, KEEP = 2, STEPS = 40 };      /* of the search, within the usual spread */
+#define EQUAL 0.01                      /* of the spread: two scenes are equally near to within this */
+#define HOPELESS 0.03                   /* of the power of a cycle: see fit_scene */
+#define BUDGET 2e7                      /* integration steps of a scene: some seconds */
+enum { WINDOW = 4 };                    /* cycles that are compared */
+
+typedef struct comparison {
+    const ss_signal *signal;            /* the window */
+    size_t column;
+    rank_record record;                 /* of the column */
+    const ss_rank_opts *opts;
+    ss_span *gap;                       /* of the window [s] */
+    size_t n_gaps;
+    cycle goal;
+    observation observation;            /* of the signal */
+} comparison;
+
+/* A scene's variants, and the best fit of them. */
+typedef struct found {
+    forced scene;
+    forced_fit fit;
+} found;
+
+/* --- a scene ------------------------------------------------------------------------------- */
+
+/* The adjusted scene as the signal's window would show it, its gaps included. */
+static ss_status
+observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, ss_error *err)
+{
+    ss_signal *run = NULL;
+    size_t column = (size_t)w->opts->quantity;
+    const char *gaps = ss_header_find_note(w->signal->head, "gaps");
+    ss_status st = ss_sim_signal(&run, adjusted, err);
+    if (st != SS_OK)
+        return st;
+    run->head->start = w->signal->head->start;
+    st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps, NULL) : SS_OK;
+    if (st == SS_OK)
+        st = ss_noise_add_once(run->values + column * run->n, run->n, sqrt(w->record.noise), 1, NULL);
+    for (size_t c = 0; c < run->head->n_columns; c++)
+        ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
+    if (st == SS_OK)
+        st = ss_observation_of(l, run, column, w->goal.period, err);
+    ss_signal_free(run);
+    return st;
+}
+
+/* Find the best of the fits from the starts that a search within a factor finds: a wider range than the usual
+ * has more minima.  If a start leaves much of the cycle, a descent over the record changes this little: of
+ * such starts only the best is fitted. */
+static ss_status
+fit_scene(found *f, const comparison *w, double factor)
+{
+    const double usual = (1 + ss_rank_defaults.spread) / (1 - ss_rank_defaults.spread);
+    const double wider = log(factor) / log(usual), more = fmax(1, fmin(wider * wider, FORCED_KEPT / KEEP));
+    const ss_stretch whole = f->scene.progress;
+    forced_start start[FORCED_KEPT];
+    forced_fit fit[FORCED_KEPT];
+    size_t n;
+    f->scene.budget = more * BUDGET;
+    f->scene.progress = ss_stretch_part(&whole, 0, 0.5);
+    ss_status st = ss_forced_search(start, &n, &f->scene, &w->goal, (size_t)(more * POINTS),
+                                    (size_t)(more * KEEP), STEPS);
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        if (i > 0 && (ss_residue_explains(&f->fit.of_samples, w->record.noise)
+                      || start[i].misfit > HOPELESS * w->goal.power))
+            break;
+        f->scene.progress = ss_stretch_part(&whole, 0.5 + 0.5 * (double)i / (double)n,
+                                            0.5 + 0.5 * (double)(i + 1) / (double)n);
+        st = ss_forced_fit(&fit[i], &f->scene, &start[i], &w->record, fit, i);
+        if (i == 0 || fit[i].of_samples.left < f->fit.of_samples.left)
+            f->fit = fit[i];
+    }
+    return st;
+}
+
+static ss_status
+rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scene,
+           const ss_stretch *progress, ss_error *err)
+{
+    observation l;
+    const double spread = w->opts->spread, factor = (1 + spread) / (1 - spread);
+    f->scene = ss_forced_of(scene, (int)w->opts->quantity, factor);
+    f->scene.period = w->goal.period;
+    f->scene.progress = *progress;
+    ss_status st = fit_scene(f, w, factor);
+    if (st == SS_OK && f->scene.steps > f->scene.budget)
+        return ss_fail(err, SS_EBUDGET, "scene %zu takes more than %.0e integration steps to be "
+                       "adjusted: it is too stiff to be ranked", row->scene + 1, f->scene.budget);
+    if (st != SS_OK)
+        return ss_fail(err, st, "%s", ss_strerror(st));
+    const residue *of = &f->fit.of_samples;
+    row->adjusted = f->fit.scene;
+    st = observe_scene(&l, w, &row->adjusted, err);
+    if (st != SS_OK)
+        return st;
+    ss_observation_compare(row, &w->observation, &l);
+    ss_observation_free(&l);
+    row->explained = 1 - f->fit.left_all / of->power;
+    row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(of->left, 1e-12 * of->power) / of->power);
+    row->value[SS_BY_ADJUSTMENT] = ss_forced_distance(&f->scene, f->fit.u);
+    row->distance[SS_BY_ADJUSTMENT] = spread > 0 ? row->value[SS_BY_ADJUSTMENT] / log(1 + spread) : 0;
+    return SS_OK;
+}
+
+/* --- the verdict --------------------------------------------------------------------------- */
+
+static double
+variance_of(const forced_fit *m, size_t key)
+{
+    return fmax(m->of_samples.left, RESIDUE_QUIET * m->of_samples.power) * m->covariance[key][key];
+}
+
+/* The error of the difference of two adjustments to one record: an error that both share cancels. */
+static double
+difference_error(const found *a, const found *b)
+{
+    const double h = 1e-4;
+    double squares = 0;
+    for (size_t k = 0; k < a->scene.n; k++) {
+        double p[FORCED_MOVED], q[FORCED_MOVED];
+        memcpy(p, a->fit.u, sizeof p);
+        memcpy(q, b->fit.u, sizeof q);
+        p[k] += h, q[k] += h;
+        double slope = (ss_forced_distance(&a->scene, p) - ss_forced_distance(&b->scene, q)
+                        - ss_forced_distance(&a->scene, a->fit.u) + ss_forced_distance(&b->scene, b->fit.u)) / h;
+        squares += slope * slope * variance_of(&a->fit, k);
+    }
+    return sqrt(squares);
+}
+
+/* Find the verdict from what the scenes leave: the first is named if it explains the signal, no sinusoid does
+ * (the motion of every linear rig), no scene leaves less, and none that leaves as little has another law or
+ * is as near. */
+static ss_status
+judge(ss_ranking *r, const comparison *w, const found *f)
+{
+    const ss_rank_row *first = &r->row[0];
+    const residue *own = &f[first->scene].fit.of_samples, *best = own;
+    residue sinusoid = *own;
+    double noise = w->record.noise;
+    size_t explain = 0;
+    r->verdict = SS_UNDECIDED;
+    for (size_t i = 0; i < r->n; i++) {
+        best = f[i].fit.of_samples.left < best->left ? &f[i].fit.of_samples : best;
+        explain += (size_t)ss_residue_explains(&f[i].fit.of_samples, noise);
+    }
+    ss_status st = ss_record_sinusoid(&w->record, f[first->scene].fit.scene.base_frequency, &sinusoid.left);
+    if (explain == 0) {
+        r->verdict = SS_NONE_FITS;
+        snprintf(r->why, sizeof r->why, "each leaves at least %.3g %% of the signal's power, "
+                 "%.3g times the noise", 100 * best->left / best->power, ss_residue_excess(best, noise));
+    } else if (ss_residue_explains(&sinusoid, noise)) {
+        snprintf(r->why, sizeof r->why, "a sinusoid explains the signal as well: it shows no "
+                 "transitions");
+    } else if (ss_residue_lead(best, own, noise) > RESIDUE_DECISIVE) {
+        snprintf(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the signal's "
+                 "power, and another, which leaves %.3g %%, shows other transitions",
+                 100 * own->left / own->power, 100 * best->left / best->power);
+    } else {
+        r->verdict = SS_NAMED;
+    }
+    for (size_t i = 1; r->verdict == SS_NAMED && i < r->n; i++) {
+        const ss_rank_row *other = &r->row[i];
+        const residue *of = &f[other->scene].fit.of_samples;
+        double farther = other->value[SS_BY_ADJUSTMENT] - first->value[SS_BY_ADJUSTMENT];
+        double allowed = sqrt(RESIDUE_DECISIVE) * difference_error(&f[first->scene], &f[other->scene]);
+        if (!ss_residue_explains(of, noise) || ss_residue_lead(own, of, noise) >= RESIDUE_DECISIVE)
+            continue;
+        if (other->adjusted.model != first->adjusted.model)
+            snprintf(r->why, sizeof r->why, "%s and %s friction explain the signal equally well",
+                     ss_model_name(first->adjusted.model), ss_model_name(other->adjusted.model));
+        else if (fabs(farther) <= fmax(allowed, EQUAL * log(1 + w->opts->spread)))
+            snprintf(r->why, sizeof r->why, "two scenes with %s friction are equally near to the signal",
+                     ss_model_name(first->adjusted.model));
+        if (r->why[0] != '\0')
+            r->verdict = SS_UNDECIDED;
+    }
+    return st;
+}
+
+/* The key in which two fits of one scene differ most, significantly, and their difference in standard errors;
+ * n: they do not contradict each other. */
+static size_t
+contradicted_key(const forced_fit *a, const forced_fit *b, size_t n, double *errors)
+{
+    double most = RESIDUE_DECISIVE;
+    size_t worst = n;
+    for (size_t i = 0; i < n; i++) {
+        double d = a->u[i] - b->u[i], squares = d * d / (variance_of(a, i) + variance_of(b, i));
+        if (squares > most)             /* NaN is not: a key without an error */
+            most = squares, worst = i;
+    }
+    *errors = sqrt(most);
+    return worst;
+}
+
+/* Fit the scene that is named to another column.  It must explain that, too, with the same parameters except
+ * the size, which is in the units of the column; else r->why says so. */
+static ss_status
+fit_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
+{
+    const size_t column = (size_t)w->opts->also[quantity];
+    const char *first = w->signal->head->column[w->column].name;
+    const char *other = w->signal->head->column[column].name;
+    const char *model = ss_model_name(named->scene.scene.model);
+    rank_record record = w->record;
+    forced scene = named->scene;
+    forced_fit m;
+    double errors;
+    scene.pick = quantity;
+    scene.progress.progress.function = NULL;
+    record.x = w->signal->values + column * w->signal->n;
+    ss_status st = ss_record_noise(&record, w->goal.period * record.rate);
+    if (st == SS_OK)
+        st = ss_forced_refit(&m, &scene, &named->fit, &record);
+    if (st != SS_OK || m.of_samples.power == 0)         /* a constant contradicts nothing */
+        return st;
+    size_t key = contradicted_key(&named->fit, &m, scene.n, &errors);
+    if (!ss_residue_explains(&m.of_samples, record.noise))
+        snprintf(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
+                 "leaves %.3g %% of that, %.3g times the noise", model, first, other,
+                 100 * m.of_samples.left / m.of_samples.power, ss_residue_excess(&m.of_samples, record.noise));
+    else if (key < scene.n && record.noise > record.steps)      /* errors are those of white noise */
+        snprintf(r->why, sizeof r->why, "%s friction explains column %s and column %s, but with %s "
+                 "%.2g %% apart, %.2g standard errors", model, first, other,
+                 ss_forced_key_name(&scene, key), 100 * fabs(expm1(m.u[key] - named->fit.u[key])), errors);
+    return SS_OK;
+}
+
+/* Find the noise, the distances, the order of the rows and the verdict. */
+static ss_status
+conclude(ss_ranking *r, comparison *w, const found *f)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < r->n; i++) {
+        const residue *of = &f[i].fit.of_samples;
+        least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
+        w->record.noise = fmin(w->record.noise, of->compared > 0 ? of->white : INFINITY);
+    }
+    r->noise = w->record.noise / f[0].fit.of_samples.power;
+    for (size_t i = 0; i < r->n; i++) {
+        r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
+        r->row[i].excess = ss_residue_excess(&f[i].fit.of_samples, w->record.noise);
+    }
+    ss_ranking_sort(r);
+    memcpy(r->value, w->observation.value, sizeof r->value);
+    ss_status st = judge(r, w, f);
+    for (int q = 0; st == SS_OK && r->verdict == SS_NAMED && q < SS_QUANTITIES; q++) {
+        if (w->opts->also[q] >= 0 && (size_t)w->opts->also[q] != w->column)
+            st = fit_column(r, w, &f[r->row[0].scene], q);
+        if (r->why[0] != '\0')
+            r->verdict = SS_UNDECIDED;
+    }
+    return st;
+}
+
+/* --- all ----------------------------------------------------------------------------------- */
+
+/* The rows of the signal from first to before end, of all columns. */
+static ss_status
+rows_of(ss_signal **out, const ss_signal *signal, size_t first, size_t end)
+{
+    size_t n = signal->head->n_columns, *column = malloc(n * sizeof *column);
+    if (column == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        column[i] = i;
+    ss_status st = ss_signal_select(out, signal, column, n, first, end, NULL);
+    free(column);
+    return st;
+}
+
+/* Compare the scenes with the middle of the signal. */
+static ss_status
+rank_window(ss_ranking *r, comparison *w, const ss_signal *signal, const char *missing, const ss_scene *scene,
+            ss_error *err)
+{
+    const ss_stretch whole = { w->opts->progress, 0, 1 };
+    const double rate = signal->head->rate, most = WINDOW * w->goal.period * rate, scenes = (double)r->n + 1;
+    const size_t n = most < (double)signal->n ? (size_t)most : signal->n, first = (signal->n - n) / 2;
+    ss_signal *window = NULL;
+    found *f = calloc(r->n, sizeof *f);
+    ss_status st = f != NULL ? rows_of(&window, signal, first, first + n) : SS_ENOMEM;
+    w->signal = window;
+    if (st == SS_OK)
+        st = ss_gaps_of(&w->gap, &w->n_gaps, window->head, n);
+    if (st == SS_OK) {
+        w->record = (rank_record){ .x = window->values + w->column * n, .n = n, .rate = rate,
+                                   .missing = missing != NULL ? missing + first : NULL,
+                                   .from = (double)first / rate };
+        for (size_t c = 0; c < window->head->n_columns; c++)
+            ss_gaps_bridge(window->values + c * n, n, rate, w->gap, w->n_gaps);
+        st = ss_record_noise(&w->record, w->goal.period * rate);
+    }
+    if (st != SS_OK)
+        ss_fail(err, st, "%s", ss_strerror(st));
+    else
+        st = ss_observation_of(&w->observation, window, w->column, w->goal.period, err);
+    for (size_t i = 0; st == SS_OK && i < r->n; i++) {
+        ss_stretch part = ss_stretch_part(&whole, (double)(i + 1) / scenes, (double)(i + 2) / scenes);
+        st = rank_scene(&r->row[i], &f[i], w, &scene[i], &part, err);
+    }
+    if (st == SS_OK)
+        st = conclude(r, w, f);
+    ss_observation_free(&w->observation);
+    free(w->gap);
+    free(f);
+    ss_signal_free(window);
+    return st;
+}
+
+ss_status
+ss_forced_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
+                  const ss_rank_opts *opts, ss_error *err)
+{
+    const ss_stretch reading = { opts->progress, 0, 1 / ((double)r->n + 1) };
+    char *missing = NULL;
+    comparison *w = calloc(1, sizeof *w);
+    if (w == NULL)
+        return ss_fail_memory(err, NULL);
+    *w = (comparison){ .column = column, .opts = opts };
+    ss_status st = ss_gaps_missing(&missing, signal);
+    if (st == SS_OK)
+        st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
+                           missing, signal->n, signal->head->rate, opts->forcing_frequency,
+                           &reading);
+    if (st == SS_OK && w->goal.period > 0) {
+        r->forcing_frequency = 1 / w->goal.period;
+        st = rank_window(r, w, signal, missing, scene, err);
+    }
+    free(missing);
+    free(w);
+    return st;
+}
