@@ -213,14 +213,18 @@ compare_clocks(const ss_signal *signal, const char *path, const ss_coefficients 
 static ss_signal *
 find_signal(drawing *d)
 {
+    ss_error err = { 0 };
     ss_signal *signal = NULL;
     const ss_header *head = d->coefficients->head;
     const char *path = d->signal_path, *column = d->column;
     d->reading.opts.progress = (ss_progress){ NULL, NULL };
     if (path != NULL)
         compare_clocks(signal = tool_read_signal(path, &d->reading.opts), path, d->coefficients);
-    else if (tool_is_hdf5(d->path) && ss_store_has_signal(d->path))
-        signal = tool_read_signal(path = d->path, NULL);
+    else if (tool_is_hdf5(d->path)) {
+        ss_status st = ss_signal_load(&signal, path = d->path, NULL, &err);
+        if (st != SS_EKIND)                     /* the file has one */
+            tool_check(st, &err);
+    }
     if (signal == NULL)
         return NULL;
     if (column == NULL && head->n_columns > 0

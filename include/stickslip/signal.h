@@ -136,7 +136,7 @@ ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_re
  * one of two dimensions the columns are the shorter one.
  *
  * A dataset takes its clock from opts->rate or opts->time.  SS_EDATA: /signal has a clock, and opts ask for
- * another.  HDF5 is read chunk by chunk, in constant memory. */
+ * another; SS_EKIND: there is no /signal.  HDF5 is read chunk by chunk, in constant memory. */
 ss_status ss_reader_load(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err);
 const ss_header *ss_reader_header(const ss_reader *reader);     /* owned by the reader */
 

@@ -64,9 +64,6 @@ void ss_store_writer_free(ss_store_writer *writer);
  * read. */
 int ss_store_is_hdf5(const char *path);
 
-/* 1 if the file is HDF5 and has a /signal, damaged or not. */
-int ss_store_has_signal(const char *path);
-
 /* Read all of /wavelet.  The caller frees *out with ss_coefficients_free. */
 ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err);
 

@@ -42,14 +42,7 @@ FORMAT(hdf5) = {
     .name = "h5", .magic = "\211HDF", .is_file = ss_store_is_hdf5, .open_file = open_signal
 };
 
-/* --- what else is in a file ---------------------------------------------------------------- */
-
-int
-ss_store_has_signal(const char *path)
-{
-    const struct ss_store_calls *hdf5 = path != NULL ? ss_store_calls(NULL) : NULL;
-    return hdf5 != NULL && hdf5->has_signal(path);
-}
+/* --- coefficients -------------------------------------------------------------------------- */
 
 ss_status
 ss_store_open_coefficients(ss_coefficients **out, const char *path, ss_error *err)

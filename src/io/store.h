@@ -9,7 +9,6 @@ struct ss_store_calls {
     /* As open_file of a format. */
     ss_status (*open_signal)(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts,
                              ss_error *err);
-    int (*has_signal)(const char *path);
     ss_status (*open_coefficients)(ss_coefficients **out, const char *path, ss_error *err);
     ss_status (*write)(const char *path, const ss_record *record, ss_error *err);
     ss_status (*writer_new)(ss_store_writer **out, const char *path, const ss_header *signal,

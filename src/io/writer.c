@@ -20,19 +20,18 @@ ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_head
     ss_writer *writer = malloc(sizeof *writer);
     *out_writer = NULL;
     if (writer == NULL)
-        return SS_ENOMEM;
+        return ss_fail_memory(err, NULL);
     writer->out.file = out;
     writer->format = ss_format_table(format);
     writer->row = writer->out.used = 0;
-    ss_header_copy(&writer->head, head, NULL);
-    ss_status st = writer->head == NULL ? SS_ENOMEM
-        : writer->format->begin(out, head, ss_kind_magic(SS_KIND_SIGNAL), err);
-    if (st != SS_OK) {
+    ss_status st = ss_header_copy(&writer->head, head, err);
+    if (st == SS_OK)
+        st = writer->format->begin(out, head, ss_kind_magic(SS_KIND_SIGNAL), err);
+    if (st == SS_OK)
+        *out_writer = writer;
+    else
         ss_writer_free(writer);
-        return st;
-    }
-    *out_writer = writer;
-    return SS_OK;
+    return st == SS_ENOMEM || st == SS_EIO ? ss_fail(err, st, "%s", ss_strerror(st)) : st;
 }
 
 static void

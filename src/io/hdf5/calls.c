@@ -7,7 +7,6 @@ ss_store_calls(ss_error *err)
 {
     static const struct ss_store_calls calls = {
         .open_signal = ss_h5_open_signal,
-        .has_signal = ss_h5_has_signal,
         .open_coefficients = ss_h5_open_coefficients,
         .write = ss_h5_write,
         .writer_new = ss_h5_writer_new,

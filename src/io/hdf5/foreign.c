@@ -122,8 +122,8 @@ ss_h5_fail_listing(h5_file *file)
     struct list list = { .file = file };
     H5Ovisit(file->id, H5_INDEX_NAME, H5_ITER_INC, list_dataset, &list);
     if (list.text[0] == '\0')
-        return ss_h5_fail(file, SS_EDATA, 0, "", "no /signal in it, nor any array of real numbers");
-    return ss_fail(file->err, SS_EDATA, "%s: no /signal in it; choose one as %s:/PATH from%s",
+        return ss_h5_fail(file, SS_EKIND, 0, "", "no /signal in it, nor any array of real numbers");
+    return ss_fail(file->err, SS_EKIND, "%s: no /signal in it; choose one as %s:/PATH from%s",
                    file->path, file->path, list.text);
 }
 

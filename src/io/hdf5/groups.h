@@ -96,7 +96,6 @@ ss_status ss_wavelet_reader_scale(wavelet_reader *r, const ss_coefficients *map,
 void ss_wavelet_reader_close(wavelet_reader *r);        /* the file stays open */
 
 /* The functions of stickslip/store.h, whose arguments have been checked (read.c, write.c). */
-int ss_h5_has_signal(const char *path);
 ss_status ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err);
 ss_status ss_h5_write(const char *path, const ss_record *record, ss_error *err);
 ss_status ss_h5_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,

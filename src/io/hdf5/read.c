@@ -1,4 +1,4 @@
-/* read.c -- what is in a file, and its coefficients. */
+/* read.c -- the coefficients in a file, as a map. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,21 +17,6 @@ typedef struct file_source {
     double *w;                          /* those of scale `held`; NULL: of none yet */
     size_t held;
 } file_source;
-
-int
-ss_h5_has_signal(const char *path)
-{
-    h5_file file = { .id = -1, .path = path };
-    int has = 0;
-    QUIETLY(
-        if (ss_h5_open(&file) == SS_OK)
-            has = H5Lexists(file.id, "signal", H5P_DEFAULT) > 0;
-        ss_h5_close(&file);
-    );
-    return has;
-}
-
-/* --- coefficients --------------------------------------------------------------------------- */
 
 static void
 close_file(ss_map_source *source)
