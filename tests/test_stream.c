@@ -646,10 +646,10 @@ reads_back_the_events_that_it_writes(void **state)
     ss_event_writer *writer = NULL;
     (void)state;
     assert_int_equal(ss_header_note(head, "scene", "mine", NULL), SS_OK);
-    assert_int_equal(ss_event_writer_new(&writer, text, SS_TSV, head), SS_OK);
+    assert_int_equal(ss_event_writer_new(&writer, text, SS_TSV, head, NULL), SS_OK);
     for (size_t i = 0; i < 2; i++)
-        assert_int_equal(ss_event_writer_row(writer, &event[i]), SS_OK);
-    assert_int_equal(ss_event_writer_flush(writer), SS_OK);
+        assert_int_equal(ss_event_writer_row(writer, &event[i], NULL), SS_OK);
+    assert_int_equal(ss_event_writer_flush(writer, NULL), SS_OK);
     ss_event_writer_free(writer);
     ss_table *t = read_table(text, SS_KIND_EVENTS);
     assert_int_equal(t->n, 2);

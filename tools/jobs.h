@@ -8,7 +8,8 @@
 /* A job has two files open, and so has one that is done and waits for one before it. */
 enum { TOOL_JOBS_MAX = 100 };
 
-/* Call work for each of n inputs with these names, at most at_once at a time, and then done, in order, whichever ends first.
+/* Call work for each of n inputs with these names, at most at_once at a time, and then done, in order,
+ * whichever ends first.
  * work writes its result to a file without a name and may die with a message.  done reads the result from
  * its start; if there is none, result is NULL and why is the last message, or what ended the process. */
 typedef void tool_work(size_t i, FILE *result, void *user);

@@ -82,9 +82,10 @@ stream_samples(const ss_sample *s, size_t n, void *user)
 static void
 begin_events(output *o)
 {
+    ss_error err = { 0 };
     if (o->event_writer == NULL)
         tool_check(ss_event_writer_new(&o->event_writer, tool_output(o->req->path),
-                                       tool_stream(o->req->kind), o->head), NULL);
+                                       tool_stream(o->req->kind), o->head, &err), &err);
 }
 
 static int
@@ -105,7 +106,7 @@ stream_event(const ss_event *e, void *user)
 {
     output *o = user;
     begin_events(o);
-    return ss_event_writer_row(o->event_writer, e) != SS_OK;
+    return ss_event_writer_row(o->event_writer, e, NULL) != SS_OK;
 }
 
 static int
@@ -291,7 +292,7 @@ finish(output *o, int has_events)
         tool_check(ss_store_write(tool_output_path(o->req->path), &record, &err), &err);
     } else if (o->req->events) {
         begin_events(o);
-        tool_check(ss_event_writer_flush(o->event_writer), NULL);
+        tool_check(ss_event_writer_flush(o->event_writer, &err), &err);
     } else {
         begin_samples(o);
         tool_check(ss_writer_flush(o->writer, &err), &err);

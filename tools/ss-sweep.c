@@ -42,7 +42,7 @@ typedef struct request {
     size_t n_picks;
     ss_sweep_text text;
     FILE *out;
-    char *due;                          /* the row that must come next, as it is in the file to be resumed; or NULL */
+    char *due;                          /* the row that must come next, as the file to be resumed has it; or NULL */
     size_t rows, failed;
 } request;
 

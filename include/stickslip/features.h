@@ -85,27 +85,27 @@ typedef struct ss_loading {
  * about: the note about_ABOUT says why numbers of this kind are not known, or how they were found.
  * needs: the recordings and options for which it is written; by: the function that finds it (both internal). */
 #define SS_FEATURE_NUMBER_LIST(number) \
-    number(SS_TRANSITIONS,              "transitions",              "",      "slips",      0,                  by_search) \
-    number(SS_SLIPS,                    "slips",                    "",      "slips",      0,                  by_search) \
-    number(SS_SLIP_RATE,                "slip_rate",                "1/s",   "slips",      0,                  by_search) \
-    number(SS_LOADING_SLOPE,            "loading_slope",            NULL,    "slips",      OF_FALLS,           by_search) \
-    number(SS_LOADING_STIFFNESS,        "loading_stiffness",        NULL,    "slips",      OF_EVENTS | WITH_X, by_search) \
-    number(SS_DROP,                     "drop",                     NULL,    "slips",      OF_FALLS,           by_search) \
-    number(SS_DROP_DURATION,            "drop_duration",            "s",     "slips",      OF_FALLS,           by_search) \
-    number(SS_RECURRENCE_TIME,          "recurrence_time",          "s",     "slips",      OF_FALLS,           by_search) \
-    number(SS_STICK_TIME,               "stick_time",               "s",     "slips",      OF_FALLS,           by_search) \
-    number(SS_STATIC_FRICTION,          "static_friction",          NULL,    "slips",      OF_FALLS,           by_search) \
-    number(SS_FRICTION,                 "friction",                 NULL,    "slips",      OF_EVENTS,          by_search) \
-    number(SS_K_OVER_M,                 "k_over_m",                 "1/s^2", "slips",      OF_FALLS,           by_search) \
-    number(SS_REPETITION_FREQUENCY,     "repetition_frequency",     "Hz",    "repetition", 0,                  by_search) \
-    number(SS_TRANSITION_FREQUENCY_RAW, "transition_frequency_raw", "Hz",    "ringing",    0,                  by_search) \
-    number(SS_TRANSITION_FREQUENCY,     "transition_frequency",     "Hz",    "ringing",    0,                  by_search) \
-    number(SS_DAMPING_RATIO,            "damping_ratio",            "",      "ringing",    0,                  by_search) \
-    number(SS_TOTAL_STIFFNESS_RAW,      "total_stiffness_raw",      "N/m",   "ringing",    WITH_MASS,          ss_find_stiffness_raw) \
-    number(SS_TOTAL_STIFFNESS,          "total_stiffness",          "N/m",   "ringing",    WITH_MASS,          ss_find_stiffness) \
-    number(SS_CONTACT_STIFFNESS,        "contact_stiffness",        "N/m",   "ringing",    WITH_MASS,          ss_find_contact_stiffness) \
-    number(SS_CONTACT_DAMPING,          "contact_damping",          "N s/m", "ringing",    WITH_MASS,          ss_find_contact_damping) \
-    number(SS_CONTACT_STIFFNESS_SLOPE,  "contact_stiffness_slope",  "N/m",   "ringing",    WITH_X | WITH_F,    ss_find_contact_slope)
+    number(SS_TRANSITIONS, "transitions", "", "slips", 0, by_search) \
+    number(SS_SLIPS, "slips", "", "slips", 0, by_search) \
+    number(SS_SLIP_RATE, "slip_rate", "1/s", "slips", 0, by_search) \
+    number(SS_LOADING_SLOPE, "loading_slope", NULL, "slips", OF_FALLS, by_search) \
+    number(SS_LOADING_STIFFNESS, "loading_stiffness", NULL, "slips", OF_EVENTS | WITH_X, by_search) \
+    number(SS_DROP, "drop", NULL, "slips", OF_FALLS, by_search) \
+    number(SS_DROP_DURATION, "drop_duration", "s", "slips", OF_FALLS, by_search) \
+    number(SS_RECURRENCE_TIME, "recurrence_time", "s", "slips", OF_FALLS, by_search) \
+    number(SS_STICK_TIME, "stick_time", "s", "slips", OF_FALLS, by_search) \
+    number(SS_STATIC_FRICTION, "static_friction", NULL, "slips", OF_FALLS, by_search) \
+    number(SS_FRICTION, "friction", NULL, "slips", OF_EVENTS, by_search) \
+    number(SS_K_OVER_M, "k_over_m", "1/s^2", "slips", OF_FALLS, by_search) \
+    number(SS_REPETITION_FREQUENCY, "repetition_frequency", "Hz", "repetition", 0, by_search) \
+    number(SS_TRANSITION_FREQUENCY_RAW, "transition_frequency_raw", "Hz", "ringing", 0, by_search) \
+    number(SS_TRANSITION_FREQUENCY, "transition_frequency", "Hz", "ringing", 0, by_search) \
+    number(SS_DAMPING_RATIO, "damping_ratio", "", "ringing", 0, by_search) \
+    number(SS_TOTAL_STIFFNESS_RAW, "total_stiffness_raw", "N/m", "ringing", WITH_MASS, ss_find_stiffness_raw) \
+    number(SS_TOTAL_STIFFNESS, "total_stiffness", "N/m", "ringing", WITH_MASS, ss_find_stiffness) \
+    number(SS_CONTACT_STIFFNESS, "contact_stiffness", "N/m", "ringing", WITH_MASS, ss_find_contact_stiffness) \
+    number(SS_CONTACT_DAMPING, "contact_damping", "N s/m", "ringing", WITH_MASS, ss_find_contact_damping) \
+    number(SS_CONTACT_STIFFNESS_SLOPE, "contact_stiffness_slope", "N/m", "ringing", WITH_X_F, ss_find_contact_slope)
 
 #define SS_FEATURE_ENUMERATOR(NAME, name, unit, about, needs, by) NAME,
 typedef enum ss_feature { SS_FEATURE_NUMBER_LIST(SS_FEATURE_ENUMERATOR) SS_FEATURE_NUMBERS } ss_feature;

@@ -80,10 +80,10 @@ const char *ss_sim_method_for(const ss_scene *scene, const char **why);
  */
 typedef struct ss_event_writer ss_event_writer;
 ss_status ss_event_writer_new(ss_event_writer **writer, FILE *out, ss_format format,
-                              const ss_header *head);
-ss_status ss_event_writer_row(ss_event_writer *writer, const ss_event *event);
+                              const ss_header *head, ss_error *err);
+ss_status ss_event_writer_row(ss_event_writer *writer, const ss_event *event, ss_error *err);
 /* Flush out.  SS_EIO: this or an earlier write failed. */
-ss_status ss_event_writer_flush(ss_event_writer *writer);
+ss_status ss_event_writer_flush(ss_event_writer *writer, ss_error *err);
 void ss_event_writer_free(ss_event_writer *writer);     /* NULL is allowed; does not flush */
 
 SS_END_DECLARATIONS

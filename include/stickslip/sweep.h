@@ -194,7 +194,8 @@ ss_status ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row
  * the number of whole rows of the shard (use it as opts->first), and *end the byte behind them,
  * where the next row belongs; if *end is 0, the header belongs there first.  The last row is not
  * counted, but to be computed again, if the format has no notes to say of what scene it is; nor are
- * those of a last point with several.  file is read from its present place, which must be its start.  SS_EDATA: these are not rows of this sweep; SS_EIO. */
+ * those of a last point with several.  file is read from its present place, which must be its
+ * start.  SS_EDATA: these are not rows of this sweep; SS_EIO. */
 ss_status ss_sweep_resume(const ss_sweep_text *sweep, FILE *file, const char *name, size_t *rows,
                           long *end, ss_error *err);
 

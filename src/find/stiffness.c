@@ -68,8 +68,8 @@ ss_find_contact_slope(search *s)
     ss_value slope = unknown;
     if (s->opts->displacement < 0 || s->opts->force < 0)
         return SS_OK;
-    if (out->reverses && isfinite(out->number[SS_FRICTION].value))      /* the stiffness is found from its loading */
-        return SS_OK;
+    if (out->reverses && isfinite(out->number[SS_FRICTION].value))
+        return SS_OK;                   /* its loading gives the stiffness */
     ss_window *span = malloc((out->n + 1) * sizeof *span);
     if (span == NULL)
         return SS_ENOMEM;

@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 #include "base/error.h"
-#include "io/output.h"
 #include "io/record.h"
 
 struct ss_event_writer {
@@ -22,38 +21,41 @@ write_row(struct rows *rows, const ss_event *event)
 }
 
 ss_status
-ss_event_writer_new(ss_event_writer **out_writer, FILE *out, ss_format format, const ss_header *head)
+ss_event_writer_new(ss_event_writer **out_writer, FILE *out, ss_format format, const ss_header *head,
+                    ss_error *err)
 {
     if (out_writer == NULL || out == NULL || head == NULL)
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     ss_event_writer *writer = malloc(sizeof *writer);
     *out_writer = NULL;
     if (writer == NULL)
-        return SS_ENOMEM;
-    ss_status st = ss_rows_begin(&writer->rows, out, format, SS_KIND_EVENTS, NULL);
+        return ss_fail_memory(err, NULL);
+    ss_status st = ss_rows_begin(&writer->rows, out, format, SS_KIND_EVENTS, err);
     if (st != SS_OK) {
         free(writer);
         return st;
     }
-    ss_rows_notes(&writer->rows, head, (const char *const []){ NULL });    /* it has none */
+    ss_rows_notes(&writer->rows, head, (const char *const []){ NULL });    /* it has none of its own */
     write_row(&writer->rows, &(ss_event){ .t = 0 });    /* the names */
     *out_writer = writer;
     return SS_OK;
 }
 
 ss_status
-ss_event_writer_row(ss_event_writer *writer, const ss_event *event)
+ss_event_writer_row(ss_event_writer *writer, const ss_event *event, ss_error *err)
 {
-    if (writer == NULL || event == NULL || (unsigned)event->kind > SS_REVERSE)
-        return SS_EINVAL;
+    if (writer == NULL || event == NULL)
+        return SS_FAIL_NULL(err);
+    if ((unsigned)event->kind > SS_REVERSE)
+        return ss_fail(err, SS_EINVAL, "an event of no known kind");
     write_row(&writer->rows, event);
-    return ferror(writer->rows.out) ? SS_EIO : SS_OK;
+    return ferror(writer->rows.out) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
 }
 
 ss_status
-ss_event_writer_flush(ss_event_writer *writer)
+ss_event_writer_flush(ss_event_writer *writer, ss_error *err)
 {
-    return writer != NULL ? ss_output_flush(writer->rows.out) : SS_EINVAL;
+    return writer != NULL ? ss_rows_finish(&writer->rows, err) : SS_FAIL_NULL(err);
 }
 
 void

@@ -8,8 +8,8 @@
 
 /* Write the densities at one frequency. */
 static void
-write_row(struct rows *rows, ss_spectrum *const spectrum[], size_t k, const ss_column column[], const size_t index[],
-          size_t n, int decibels)
+write_row(struct rows *rows, ss_spectrum *const spectrum[], size_t k, const ss_column column[],
+          const size_t index[], size_t n, int decibels)
 {
     char unit[DENSITY_UNIT];
     ss_rows_number(rows, "frequency", "Hz", (double)k * spectrum[0]->step);

@@ -5,7 +5,8 @@
 #include <stickslip/sweep.h>
 
 /* own and steady, to which it points then, become the caller's options. */
-ss_status ss_sweep_opts_take(ss_sweep_opts *own, ss_steady_opts *steady, const ss_sweep_opts *given, ss_error *err);
+ss_status ss_sweep_opts_take(ss_sweep_opts *own, ss_steady_opts *steady, const ss_sweep_opts *given,
+                             ss_error *err);
 /* The number of points in the grid; SS_EINVAL if there are none or too many. */
 ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
 double ss_axis_value(const ss_axis *axis, size_t i);    /* the i-th value, from 0 */

@@ -246,7 +246,7 @@ wrong_cell(const ss_sweep_text *sweep, char *line, size_t index, const char **na
         *name = sweep->opts->axis[i].key;
         if ((cell = next_cell(&line, format->separator)) == NULL)
             return "is missing";
-        if (!is_number(cell, &x) || !(fabs(x - wanted) <= 1e-14 * fabs(wanted)))    /* pow differs between machines */
+        if (!is_number(cell, &x) || !(fabs(x - wanted) <= 1e-14 * fabs(wanted)))    /* pow differs */
             return "is not the grid's";
     }
     for (size_t i = 0; i < sweep->n_measures; i++) {
@@ -293,10 +293,10 @@ count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t header
         int again = opts->steady->strobe > 0 && points > 0 && index == due - opts->shards;
         if ((size_t)n != strlen(line) + 1)
             return ss_fail(err, SS_EDATA, "%s:%zu: a NUL byte, or longer than a row", name, number);
-        if (line[0] < '0' || line[0] > '9' || (*behind != format->separator && *behind != '\0') || (index != due && !again)
-            || index >= all)
-            return ss_fail(err, SS_EDATA, "%s:%zu: the row of '%.*s', but point %zu is due: another sweep or shard",
-                           name, number, (int)strcspn(line, (char[]){ format->separator, '\0' }), line, due);
+        if (line[0] < '0' || line[0] > '9' || (*behind != format->separator && *behind != '\0')
+            || (index != due && !again) || index >= all)
+            return ss_fail(err, SS_EDATA, "%s:%zu: the row of '%.*s', but point %zu is due: another sweep "
+                           "or shard", name, number, (int)strcspn(line, (char[]){ format->separator, '\0' }), line, due);
         if ((wrong = wrong_cell(sweep, behind + (*behind != '\0'), index, &column)) != NULL)
             return ss_fail(err, SS_EDATA, "%s:%zu: not a row of this sweep: %s %s", name, number, column, wrong);
         if (again)

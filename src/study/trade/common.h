@@ -22,7 +22,8 @@ double ss_trade_cpu_time(void);
 typedef ss_status ss_trade_runner(size_t i, int again, double done, double *seconds, void *user);
 /* Run n rows one after the other, then short ones again, in turns, so that a disturbance of the machine affects
  * all of them alike.  *seconds becomes an array of the times, medians of those of short rows. */
-ss_status ss_trade_race(double **seconds, size_t n, ss_trade_runner *runner, const ss_progress *progress, void *user);
+ss_status ss_trade_race(double **seconds, size_t n, ss_trade_runner *runner, const ss_progress *progress,
+                        void *user);
 /* Give the rows that were measured these times, and mark those that no other row beats. */
 void ss_trade_finish(ss_trade *trade, const double *seconds);
 
