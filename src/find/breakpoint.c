@@ -7,9 +7,9 @@
  * samples, so the middle is chosen. */
 #include "find/breakpoint.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
-enum { JUMP, KINK };
 enum { DEGREE = 3, SAMPLES = 128 };
 
 #define ROUNDING 1e-6           /* of the range of the samples: no fit needs to be better */
@@ -96,92 +96,40 @@ residual(piece *p, double at, int is_kink)
     return sum + d * d / (u + v);
 }
 
-/* The place in [lo, hi] where the residual of a kink is least.  It is scanned in steps of a quarter of a
- * sample; golden section follows, then the parabola through the last three. */
+/* The place in [lo, hi] where the residual is least: of a kink by scans of finer and finer steps, from a quarter
+ * of a sample on; of a jump, whose place is half way between two samples, by one scan. */
 static double
-least_kink(piece *p, double lo, double hi, double *sum)
+least(piece *p, int is_kink, double lo, double hi, double *sum)
 {
-    const double step = 0.25, golden = (sqrt(5) - 1) / 2;
-    double best = lo;
+    double best = is_kink ? lo : floor(lo) + 0.5, from = best, to = hi;
     *sum = INFINITY;
-    for (double t = lo; t <= hi; t += step) {
-        double s = residual(p, t, KINK);
-        if (s < *sum) {
-            *sum = s;
-            best = t;
+    for (double step = is_kink ? 0.25 : 1; step > 1e-6; step = is_kink ? step / 4 : 0) {
+        for (double t = from; t <= to; t += step) {
+            double s = residual(p, t, is_kink);
+            if (s < *sum) {
+                *sum = s;
+                best = t;
+            }
         }
-    }
-    lo = fmax(lo, best - step), hi = fmin(hi, best + step);
-    double t0 = hi - golden * (hi - lo), t1 = lo + golden * (hi - lo);
-    double s0 = residual(p, t0, KINK), s1 = residual(p, t1, KINK), s_lo = INFINITY, s_hi = INFINITY;
-    while (hi - lo > 0.01)
-        if (s0 < s1) {
-            hi = t1, s_hi = s1, t1 = t0, s1 = s0;
-            s0 = residual(p, t0 = hi - golden * (hi - lo), KINK);
-        } else {
-            lo = t0, s_lo = s0, t0 = t1, s0 = s1;
-            s1 = residual(p, t1 = lo + golden * (hi - lo), KINK);
-        }
-    best = s0 < s1 ? t0 : t1;
-    *sum = fmin(s0, s1);
-    double other = s0 < s1 ? t1 : t0, s_other = fmax(s0, s1), end = s0 < s1 ? lo : hi;
-    double s_end = s0 < s1 ? s_lo : s_hi;
-    double u = (best - other) * (*sum - s_end), v = (best - end) * (*sum - s_other);
-    double t = best - 0.5 * ((best - other) * u - (best - end) * v) / (u - v);
-    if (t > lo && t < hi) {
-        double s = residual(p, t, KINK);
-        if (s < *sum) {
-            *sum = s;
-            best = t;
-        }
+        from = fmax(lo, best - step), to = fmin(hi, best + step);
     }
     return best;
-}
-
-/* The same for a jump, whose place is half way between two samples. */
-static double
-least_jump(piece *p, double lo, double hi, double *sum)
-{
-    double best = lo;
-    *sum = INFINITY;
-    for (double t = floor(lo) + 0.5; t <= hi; t++) {
-        double s = residual(p, t, JUMP);
-        if (s < *sum) {
-            *sum = s;
-            best = t;
-        }
-    }
-    return best;
-}
-
-/* Fill p->x; 0 if all samples are the same. */
-static int
-fill(piece *p, const double *x)
-{
-    double lo = x[0], hi = x[0];
-    for (size_t i = 0; i < p->n; i++) {
-        lo = fmin(lo, x[i]);
-        hi = fmax(hi, x[i]);
-    }
-    for (size_t i = 0; i < p->n && hi > lo; i++)
-        p->x[i] = (x[i] - lo) / (hi - lo);
-    return hi > lo;
 }
 
 double
 ss_breakpoint(const double *x, size_t first, size_t last, double at, double reach)
 {
-    double lo = fmax(at - reach, (double)first + BREAKPOINT_SIDE - 0.5), kink, jump;
+    double lo = fmax(at - reach, (double)first + BREAKPOINT_SIDE - 0.5), kink, jump, low, high;
     double hi = fmin(at + reach, (double)last - BREAKPOINT_SIDE + 0.5);
-    if (last - first + 1 > SAMPLES || !(lo <= hi))
-        return at;
     piece p = { .n = last - first + 1, .first = (double)first };
-    if (!fill(&p, x + first))
+    if (p.n > SAMPLES || !(lo <= hi))
         return at;
-    double at_kink = least_kink(&p, lo, hi, &kink);
-    double at_jump = least_jump(&p, lo, hi, &jump);
+    gsl_stats_minmax(&low, &high, x + first, 1, p.n);
+    if (!(high > low))
+        return at;
+    for (size_t i = 0; i < p.n; i++)
+        p.x[i] = (x[first + i] - low) / (high - low);
+    double at_kink = least(&p, 1, lo, hi, &kink), at_jump = least(&p, 0, lo, hi, &jump);
     double rounding = (double)p.n * ROUNDING * ROUNDING;
-    kink += rounding;
-    jump += rounding;
-    return (double)p.n * log(kink / jump) > log((double)p.n) ? at_jump : at_kink;
+    return (double)p.n * log((kink + rounding) / (jump + rounding)) > log((double)p.n) ? at_jump : at_kink;
 }

@@ -34,10 +34,9 @@
 #define GLITCH 0.05             /* part of the median drop, by both of which a wrong sample differs from its
                                    neighbours */
 
-typedef struct drop_list {
-    size_t n, room;
-    ss_drop *drop;
-} drop_list;
+typedef struct fall {
+    size_t high, low;           /* the turning points, in samples */
+} fall;
 
 /* The standard deviation of white noise whose second differences are those of x, by their median;
  * scratch holds n. */
@@ -73,26 +72,14 @@ running_median(double *y, const double *x, size_t n, size_t half, double *window
     }
 }
 
-static ss_status
-append(drop_list *list, const double *y, size_t high, size_t low, double rate)
+/* Find the falls of y by more than height from one turning point to the next, which y leaves by reload; at the
+ * end, if to_end, what has not been left yet counts.  fall has room for n / 2 + 1; returns their number. */
+static size_t
+find_falls(fall *out, const double *y, size_t n, double height, double reload, int to_end)
 {
-    ss_drop *drop = ss_list_room(list->drop, &list->room, list->n, sizeof *drop);
-    if (drop == NULL)
-        return SS_ENOMEM;
-    list->drop = drop;
-    list->drop[list->n++] = (ss_drop){ (double)high / rate, (double)low / rate, y[high] - y[low] };
-    return SS_OK;
-}
-
-static ss_status
-read_turning_points(drop_list *list, const double *y, size_t n, double rate, double height,
-                    double reload)
-{
-    size_t high = 0, low = 0;
+    size_t high = 0, low = 0, count = 0;
     int falls = 0;
-    ss_status st = SS_OK;
-    list->n = 0;
-    for (size_t i = 0; i < n && st == SS_OK; i++) {
+    for (size_t i = 0; i < n; i++) {
         if (!falls && y[i] >= y[high])
             high = i;
         if (falls && y[i] < y[low])
@@ -102,93 +89,24 @@ read_turning_points(drop_list *list, const double *y, size_t n, double rate, dou
             low = i;
         } else if (falls && y[i] - y[low] > reload) {
             if (y[high] - y[low] > height)
-                st = append(list, y, high, low, rate);
+                out[count++] = (fall){ high, low };
             falls = 0;
             high = i;
         }
     }
-    if (st == SS_OK && falls && y[high] - y[low] > height)
-        st = append(list, y, high, low, rate);
-    return st;
+    if (to_end && falls && y[high] - y[low] > height)
+        out[count++] = (fall){ high, low };
+    return count;
 }
 
-/* Samples from turning point to turning point, the median over all drops; scratch holds n. */
-static double
-fall_length(const drop_list *list, double rate, double *scratch)
-{
-    for (size_t i = 0; i < list->n; i++)
-        scratch[i] = (list->drop[i].end - list->drop[i].t) * rate;
-    return gsl_stats_select(scratch, 1, list->n, list->n / 2);
-}
-
-static ss_status
-find(drop_list *list, const double *x, size_t n, double rate, double height, double reload,
-     double *scratch)
-{
-    double *y = scratch, *window = scratch + n;
-    size_t half = NARROWEST / 2;
-    running_median(y, x, n, half, window);
-    ss_status st = read_turning_points(list, y, n, rate, height, reload);
-    if (st != SS_OK || list->n == 0)
-        return st;
-    /* the median of m Gaussians has pi/2 the variance of their mean */
-    double left = ERROR * height / 6, noise = noise_rms(x, n, window);
-    double wide = M_PI / 2 * noise * noise / (left * left);
-    wide = fmin(wide, fall_length(list, rate, window) / 2);
-    if (wide <= NARROWEST)
-        return SS_OK;
-    half = (size_t)(wide / 2);
-    running_median(y, x, n, half, window);
-    return read_turning_points(list, y, n, rate, height, reload);
-}
-
-/* Leave out falls over a gap, as a part of them is not known. */
-static void
-leave_out(drop_list *list, const ss_span *gap, size_t n_gaps)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < list->n; i++) {
-        ss_drop d = list->drop[i];
-        if (!ss_gaps_near(gap, n_gaps, 0.5 * (d.t + d.end), 0.5 * (d.end - d.t)))
-            list->drop[kept++] = d;
-    }
-    list->n = kept;
-}
-
-/* --- the height that falls have ------------------------------------------------------------- */
-
-/* Find the turning points of y, in place; returns their number. */
+/* The number of falls by more than h, and their median; scratch has room for n / 2 + 1, as fall has. */
 static size_t
-keep_turning_points(double *y, size_t n)
+count_falls(const double *y, size_t n, double h, fall *of, double *scratch, double *median)
 {
-    size_t kept = 1;
-    for (size_t i = 1; i < n; i++)
-        if (i + 1 == n || (y[i] - y[kept - 1]) * (y[i + 1] - y[i]) < 0)
-            y[kept++] = y[i];
-    return kept;
-}
-
-/* The number of falls that leave a turning point by more than h, and their median; fall has room for as
- * many. */
-static size_t
-count_falls(const double *y, size_t n, double h, double *fall, double *median)
-{
-    size_t count = 0;
-    double high = y[0], low = y[0];
-    int falls = 0;
-    for (size_t i = 0; i < n; i++) {
-        high = falls ? high : fmax(high, y[i]);
-        low = falls ? fmin(low, y[i]) : y[i];
-        if (!falls && high - y[i] > h) {
-            falls = 1;
-            low = y[i];
-        } else if (falls && y[i] - low > h) {
-            fall[count++] = high - low;
-            falls = 0;
-            high = y[i];
-        }
-    }
-    *median = count > 0 ? gsl_stats_select(fall, 1, count, count / 2) : 0;
+    size_t count = find_falls(of, y, n, h, h, 0);
+    for (size_t i = 0; i < count; i++)
+        scratch[i] = y[of[i].high] - y[of[i].low];
+    *median = count > 0 ? gsl_stats_select(scratch, 1, count, count / 2) : 0;
     return count;
 }
 
@@ -199,28 +117,27 @@ ss_drops_typical(const double *x, size_t n, ss_typical *out)
     *out = (ss_typical){ .height = 0 };
     if (n < NARROWEST)
         return SS_OK;
-    double *y = malloc((2 * n + NARROWEST) * sizeof *y), low, high, median;
-    if (y == NULL)
-        return SS_ENOMEM;
-    double *fall = y + n;
-    double noise = noise_rms(x, n, fall);
-    running_median(y, x, n, NARROWEST / 2, fall);
-    low = high = y[0];
-    for (size_t i = 0; i < n; i++)
-        low = fmin(low, y[i]), high = fmax(high, y[i]);
-    size_t turns = keep_turning_points(y, n);
-    double least = 6 * noise * sqrt(M_PI / 2 / NARROWEST), step = exp2(-1. / STEPS);
-    double h = 0.5 * (high - low);
-    for (int i = 0; i < STEPS * OCTAVES && h > least && out->height == 0; i++, h *= step) {
-        size_t count = count_falls(y, turns, h, fall, &median);
-        if (count >= FEW && median >= TYPICAL * h) {
+    double *y = malloc((2 * n + NARROWEST) * sizeof *y), *scratch = y + n, low, high, median;
+    fall *of = malloc((n / 2 + 1) * sizeof *of);
+    ss_status st = y != NULL && of != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK) {
+        double noise = noise_rms(x, n, scratch);
+        double least = 6 * noise * sqrt(M_PI / 2 / NARROWEST), step = exp2(-1. / STEPS);
+        running_median(y, x, n, NARROWEST / 2, scratch);
+        gsl_stats_minmax(&low, &high, y, 1, n);
+        double h = 0.5 * (high - low);
+        for (int i = 0; i < STEPS * OCTAVES && h > least && out->height == 0; i++, h *= step) {
+            size_t count = count_falls(y, n, h, of, scratch, &median);
+            if (count < FEW || median < TYPICAL * h)
+                continue;
             out->height = h;
-            out->more = count_falls(y, turns, fmax(h / 2, least), fall, &median);
-            out->less = count_falls(y, turns, 2 * h, fall, &median);
+            out->more = count_falls(y, n, fmax(h / 2, least), of, scratch, &median);
+            out->less = count_falls(y, n, 2 * h, of, scratch, &median);
         }
     }
+    free(of);
     free(y);
-    return SS_OK;
+    return st;
 }
 
 ss_status
@@ -240,41 +157,64 @@ ss_drops_without_glitches(double *y, const double *x, size_t n, const ss_drop *d
     return SS_OK;
 }
 
+/* Find the falls of x into *of, by a running median that is as wide as the noise asks for; y, window and *of
+ * have room for n, n + NARROWEST and n / 2 + 1. */
+static size_t
+find_smoothed(fall *of, const double *x, size_t n, const ss_drop_opts *opts, double *y, double *window)
+{
+    double reload = opts->reload > 0 ? opts->reload : DROPS_RELOAD * opts->height;
+    running_median(y, x, n, NARROWEST / 2, window);
+    size_t count = find_falls(of, y, n, opts->height, reload, 1);
+    if (count == 0)
+        return 0;
+    for (size_t i = 0; i < count; i++)
+        window[i] = (double)(of[i].low - of[i].high);
+    double length = gsl_stats_select(window, 1, count, count / 2);
+    /* the median of m Gaussians has pi/2 the variance of their mean */
+    double left = ERROR * opts->height / 6, noise = noise_rms(x, n, window);
+    double wide = fmin(M_PI / 2 * noise * noise / (left * left), length / 2);
+    if (wide <= NARROWEST)
+        return count;
+    running_median(y, x, n, (size_t)(wide / 2), window);
+    return find_falls(of, y, n, opts->height, reload, 1);
+}
+
 ss_status
 ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
               const ss_drop_opts *opts, ss_error *err)
 {
     if (out == NULL || n_drops == NULL || x == NULL || opts == NULL)
         return SS_FAIL_NULL(err);
-    drop_list list = { 0, 0, NULL };
-    double height = opts->height, reload = opts->reload > 0 ? opts->reload : DROPS_RELOAD * height;
     if (n == 0 || n > SIZE_MAX / 64)
         return ss_fail(err, SS_EINVAL, "a record of %zu samples is out of range 1 ... %zu", n, SIZE_MAX / 64);
     if (!(rate >= 1e-100 && rate <= 1e100))
         return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
-    if (!(height > 0 && isfinite(height)))
+    if (!(opts->height > 0 && isfinite(opts->height)))
         return ss_fail(err, SS_EINVAL, "the height of a drop must be more than 0");
     for (size_t i = 0; i < n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
-    double *scratch = malloc((3 * n + NARROWEST + 1) * sizeof *scratch);
-    list.drop = malloc(sizeof *list.drop);
-    list.room = 1;
-    ss_status st = scratch != NULL && list.drop != NULL ? SS_OK : SS_ENOMEM;
-    if (st == SS_OK) {
-        double *bridged = scratch + 2 * n + NARROWEST + 1;
+    double *bridged = malloc((3 * n + NARROWEST) * sizeof *bridged), *y = bridged + n;
+    fall *of = malloc((n / 2 + 1) * sizeof *of);
+    ss_drop *drop = NULL;
+    size_t kept = 0;
+    if (bridged != NULL && of != NULL) {
         memcpy(bridged, x, n * sizeof *x);
         ss_gaps_bridge(bridged, n, rate, opts->gap, opts->n_gaps);
-        st = find(&list, bridged, n, rate, height, reload, scratch);
+        size_t count = find_smoothed(of, bridged, n, opts, y, y + n);
+        drop = malloc((count + 1) * sizeof *drop);
+        for (size_t i = 0; drop != NULL && i < count; i++) {
+            ss_drop d = { (double)of[i].high / rate, (double)of[i].low / rate, y[of[i].high] - y[of[i].low] };
+            /* a part of a fall over a gap is not known */
+            if (!ss_gaps_near(opts->gap, opts->n_gaps, 0.5 * (d.t + d.end), 0.5 * (d.end - d.t)))
+                drop[kept++] = d;
+        }
     }
-    free(scratch);
-    if (st == SS_OK)
-        leave_out(&list, opts->gap, opts->n_gaps);
-    if (st != SS_OK) {
-        free(list.drop);
-        return st;
-    }
-    *out = list.drop;
-    *n_drops = list.n;
+    free(of);
+    free(bridged);
+    if (drop == NULL)
+        return ss_fail_memory(err, NULL);
+    *out = drop;
+    *n_drops = kept;
     return SS_OK;
 }

@@ -23,36 +23,6 @@
 #define SLOWER 1.05             /* factor: less may be made by the sampling of turning points */
 #define QUICK 2.0               /* factor by which all rises are slower than falls if there are few */
 enum { FEW_RISES = 9 };
-#define LEVEL 0.5               /* part of the level that a half-cycle passes */
-#define RETREAT 0.05            /* part of the level by which a force that has broken away falls */
-
-/* A quantile of n samples, which are copied. */
-static double
-quantile(const double *x, size_t n, double part, double *copy)
-{
-    memcpy(copy, x, n * sizeof *x);
-    return gsl_stats_select(copy, 1, n, (size_t)(part * (double)(n - 1)));
-}
-
-/* The sign of nearly all samples, 1 or -1; 0: both signs are there. */
-static int
-one_sign(const double *x, size_t n, double *copy)
-{
-    return quantile(x, n, OUTLIERS, copy) > 0 ? 1 : quantile(x, n, 1 - OUTLIERS, copy) < 0 ? -1 : 0;
-}
-
-/* --- falls ----------------------------------------------------------------------------------- */
-
-static ss_status
-set_falls(search *s, const ss_drop *drop, size_t n)
-{
-    ss_status st = ss_transitions_new(s->out, n);
-    for (size_t i = 0; st == SS_OK && i < n; i++) {
-        s->out->transition[i].onset = drop[i].t;
-        s->out->transition[i].end = drop[i].end;
-    }
-    return st;
-}
 
 /* The time, in samples, that x spends between a quarter and three quarters of the way from one turning point
  * to the next, along lines from sample to sample.  It is the same for a signal that is reversed in time, or
@@ -95,10 +65,9 @@ compare_falls(const double *x, double rate, const ss_drop *drop, size_t n)
 static int
 is_clipped(const double *x, size_t n)
 {
-    double top = x[0], bottom = x[0];
+    double top, bottom;
     size_t high = 0, low = 0, highs = 0, lows = 0;
-    for (size_t i = 1; i < n; i++)
-        top = fmax(top, x[i]), bottom = fmin(bottom, x[i]);
+    gsl_stats_minmax(&bottom, &top, x, 1, n);
     for (size_t i = 0; i < n; i++) {
         high = x[i] >= top ? high + 1 : 0;
         low = x[i] <= bottom ? low + 1 : 0;
@@ -108,159 +77,103 @@ is_clipped(const double *x, size_t n)
     return highs >= FEW || lows >= FEW;
 }
 
-/* Find the falls of x that are higher than the height.  A force that falls slower than it rises is upside
- * down: its sign is that of an offset. */
+/* The transitions are the falls, with a loading for each. */
 static ss_status
-find_falls(search *s, const double *x, double height, double reload, int named, int *decided)
+set_falls(search *s, const double *x, const ss_drop *drop, size_t n)
 {
-    ss_drop *drop = NULL;
-    size_t n = 0;
+    ss_status st = ss_transitions_new(s->out, n);
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        s->out->transition[i].onset = drop[i].t;
+        s->out->transition[i].end = drop[i].end;
+    }
+    return st == SS_OK ? ss_loading_find(s, x, drop, n) : st;
+}
+
+/* Find the falls of x, which is the signal or its negative: those by the height that is asked for, or else by the
+ * height that falls have.  Where they are slower than the rises, x is upside down, as its sign is that of an
+ * offset: then it is turned, once.  A column of unknown quantity is a force only if its falls are quicker. */
+static ss_status
+find_falls(search *s, double *x, int *decided)
+{
+    const double asked = s->opts->drop / s->largest;
+    const int named = asked > 0 || s->quantity == QUANTITY_FORCE;
     double *y = malloc((s->n + 1) * sizeof *y);
-    ss_status st = y == NULL ? SS_ENOMEM : ss_drops_find(&drop, &n, x, s->n, s->rate,
-                                 &(ss_drop_opts){ height, reload, s->gap, s->n_gaps }, NULL);
-    if (st == SS_OK)
-        st = ss_drops_without_glitches(y, x, s->n, drop, n);
-    int quicker = st != SS_OK ? 0 : s->opts->drop > 0 ? 1 : compare_falls(y, s->rate, drop, n);
-    *decided = st == SS_OK && (named || quicker > 0);
-    if (*decided && quicker < 0 && !s->has_offset)
+    ss_drop *drop = NULL;
+    ss_typical typical = { asked, 0, 0 };
+    size_t n = 0;
+    int quicker = 1;
+    ss_status st = y != NULL ? SS_OK : SS_ENOMEM;
+    for (;;) {
+        if (st == SS_OK && asked == 0)
+            st = ss_drops_typical(x, s->n, &typical);
+        if (st != SS_OK || typical.height == 0)
+            break;
+        double reload = asked > 0 ? DROPS_RELOAD * asked : typical.height;
+        free(drop);
+        drop = NULL;
+        st = ss_drops_find(&drop, &n, x, s->n, s->rate,
+                           &(ss_drop_opts){ typical.height, reload, s->gap, s->n_gaps }, NULL);
+        if (st == SS_OK)
+            st = ss_drops_without_glitches(y, x, s->n, drop, n);
+        if (st == SS_OK && asked == 0)
+            quicker = compare_falls(y, s->rate, drop, n);
+        if (st != SS_OK || quicker >= 0 || !named || s->has_offset)
+            break;
         s->has_offset = 1;
-    else if (*decided && s->opts->drop == 0 && is_clipped(x, s->n))
-        say(s->out, SS_SLIPS, "the force is clipped: it stands still at its largest or least value");
-    else if (*decided && quicker <= 0)
-        say(s->out, SS_SLIPS, "the force falls no quicker than it rises");
-    else if (*decided && (st = set_falls(s, drop, n)) == SS_OK)
-        st = ss_loading_find(s, x, drop, n);
+        for (size_t i = 0; i < s->n; i++)
+            x[i] = -x[i];
+    }
+    *decided = st == SS_OK && (named || (typical.height > 0 && quicker > 0));
+    if (*decided && typical.height == 0)
+        say(s->out, SS_SLIPS, "the falls of the force have no typical height above its noise");
+    else if (*decided) {
+        if (asked == 0 && is_clipped(x, s->n))
+            say(s->out, SS_SLIPS, "the force is clipped: it stands still at its largest or least value");
+        else if (quicker <= 0)
+            say(s->out, SS_SLIPS, "the force falls no quicker than it rises");
+        else
+            st = set_falls(s, x, drop, n);
+        if (asked == 0)
+            s->out->number[SS_SLIPS].error = 0.5 * fabs((double)typical.more - (double)typical.less);
+    }
     free(y);
     free(drop);
     return st;
 }
 
-/* Find the falls of x, which is the signal or its negative, with the height that they have; or the falls of
- * -x, if x is upside down. */
-static ss_status
-find_typical_falls(search *s, double *x, int *decided)
-{
-    ss_typical typical;
-    int named = s->quantity == QUANTITY_FORCE;
-    ss_status st = ss_drops_typical(x, s->n, &typical);
-    if (st != SS_OK || typical.height == 0) {
-        *decided = st == SS_OK && named;
-        if (*decided)
-            say(s->out, SS_SLIPS, "the falls of the force have no typical height above its noise");
-        return st;
-    }
-    int had_offset = s->has_offset;
-    st = find_falls(s, x, typical.height, typical.height, named, decided);
-    if (s->has_offset && !had_offset) {
-        for (size_t i = 0; i < s->n; i++)
-            x[i] = -x[i];
-        return find_typical_falls(s, x, decided);
-    }
-    if (st == SS_OK && *decided)
-        s->out->number[SS_SLIPS].error = 0.5 * fabs((double)typical.more - (double)typical.less);
-    return st;
-}
-
-/* --- reversals ------------------------------------------------------------------------------- */
-
-/* The level at which the force stays: the median of the samples above half of the largest. */
+/* A quantile of n samples, which are copied. */
 static double
-level_of(const double *x, size_t n, double *copy)
+quantile(const double *x, size_t n, double part, double *copy)
 {
-    size_t high = 0;
-    for (size_t i = 0; i < n; i++)
-        copy[i] = fabs(x[i]);
-    double half = 0.5 * gsl_stats_select(copy, 1, n, (size_t)((1 - OUTLIERS) * (double)(n - 1)));
-    for (size_t i = 0; i < n; i++)
-        if (fabs(x[i]) > half)
-            copy[high++] = fabs(x[i]);
-    return high > 0 ? gsl_stats_select(copy, 1, high, high / 2) : 0;
-}
-
-/* From sample i on, the first maximum of x, or minimum where sign is -1, that x leaves by retreat,
- * before end. */
-static size_t
-break_away(const double *x, int sign, size_t i, size_t end, double retreat)
-{
-    size_t top = i;
-    for (; i < end && sign * x[i] > sign * x[top] - retreat; i++)
-        top = sign * x[i] > sign * x[top] ? i : top;
-    return top;
-}
-
-/* A half-cycle that the record begins in has broken away before.  A half-cycle reaches from where x
- * passes half of the level, to either side of the middle, to where it does so for the last time
- * before the other side: ringing may go farther. */
-static ss_status
-find_reversals(search *s, const double *x, double level)
-{
-    ss_features *out = s->out;
-    ss_status st = ss_transitions_new(out, s->n / 2 + 1);
-    int sign = 0, open = 0;
-    size_t last = 0;
-    out->n = 0;
-    for (size_t i = 0; st == SS_OK && i < s->n; i++) {
-        int side = x[i] > LEVEL * level ? 1 : x[i] < -LEVEL * level ? -1 : 0;
-        if (side != 0 && side == sign)
-            last = i;
-        if (side == 0 || side == sign)
-            continue;
-        if (open)
-            out->transition[out->n++].end = (double)last / s->rate;
-        size_t at = break_away(x, side, i, s->n, RETREAT * level);
-        open = i > 0 && !ss_gaps_near(s->gap, s->n_gaps, (double)at / s->rate, 1 / s->rate);
-        out->transition[out->n].onset = (double)at / s->rate;
-        sign = side;
-        last = i;
-    }
-    if (open)
-        out->transition[out->n++].end = (double)last / s->rate;
-    return st;
-}
-
-/* --- all of it ------------------------------------------------------------------------------- */
-
-static ss_status
-find_by_itself(search *s, double *x, int *decided)
-{
-    int sign = one_sign(s->x, s->n, x);
-    for (size_t i = 0; i < s->n; i++)
-        x[i] = sign * s->x[i];
-    if (sign != 0)
-        return find_typical_falls(s, x, decided);
-    if (s->quantity != QUANTITY_FORCE)
-        return SS_OK;
-    *decided = 1;
-    if (isnan(s->cycles.period.value)
-        || s->cycles.likeness < CYCLES_LIKE || s->cycles.symmetry > -CYCLES_ALIKE) {
-        say(s->out, SS_SLIPS, "the force changes its sign, but not in mirrored half-cycles that repeat");
-        return SS_OK;
-    }
-    double middle = 0.5 * (quantile(s->x, s->n, OUTLIERS, x) + quantile(s->x, s->n, 1 - OUTLIERS, x));
-    double *y = malloc(s->n * sizeof *y);
-    if (y == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < s->n; i++)
-        y[i] = s->x[i] - middle;
-    ss_status st = find_reversals(s, y, level_of(y, s->n, x));
-    if (st == SS_OK)
-        st = ss_reversals_measure(s, y);
-    free(y);
-    return st;
+    memcpy(copy, x, n * sizeof *x);
+    return gsl_stats_select(copy, 1, n, (size_t)(part * (double)(n - 1)));
 }
 
 ss_status
 ss_force_find(search *s, int *decided)
 {
     *decided = 0;
-    if (s->opts->drop > 0) {
-        double height = s->opts->drop / s->largest;
-        return find_falls(s, s->x, height, DROPS_RELOAD * height, 1, decided);
-    }
-    if (s->quantity == QUANTITY_MOTION || s->n < 8)
+    if (s->opts->drop == 0 && (s->quantity == QUANTITY_MOTION || s->n < 8))
         return SS_OK;
     double *x = malloc(s->n * sizeof *x);
-    ss_status st = x != NULL ? find_by_itself(s, x, decided) : SS_ENOMEM;
+    if (x == NULL)
+        return SS_ENOMEM;
+    /* the sign of nearly all samples; 0: both signs are there */
+    double low = quantile(s->x, s->n, OUTLIERS, x), high = quantile(s->x, s->n, 1 - OUTLIERS, x);
+    double sign = s->opts->drop > 0 || low > 0 ? 1 : high < 0 ? -1 : 0;
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < s->n; i++)
+        x[i] = sign != 0 ? sign * s->x[i] : s->x[i] - 0.5 * (low + high);
+    if (sign != 0)
+        st = find_falls(s, x, decided);
+    else if (s->quantity == QUANTITY_FORCE) {
+        *decided = 1;
+        if (isnan(s->cycles.period.value)
+            || s->cycles.likeness < CYCLES_LIKE || s->cycles.symmetry > -CYCLES_ALIKE)
+            say(s->out, SS_SLIPS, "the force changes its sign, but not in mirrored half-cycles that repeat");
+        else
+            st = ss_reversals_find(s, x);
+    }
     free(x);
     return st;
 }

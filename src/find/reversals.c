@@ -17,10 +17,72 @@
 #include "find/medians.h"
 #include "signal/gaps.h"
 
-#define NEAR 0.05               /* part of the step, or of a level, within which a sample is near it */
-#define STAYS 0.5               /* the least part of the time from one break-away to the next at or above the
-                                   level */
+#define OUTLIERS 0.02           /* part of the samples at the end of the range that may be wrong */
+#define HALF 0.5                /* part of the level that a half-cycle passes; the least part of the time from one
+                                   break-away to the next at or above the level */
+#define NEAR 0.05               /* part of the step, or of a level, within which a sample is near it; a force
+                                   that has broken away falls by as much */
 #define SAMPLES 3               /* the fewest samples on the way */
+
+/* --- reversals ------------------------------------------------------------------------------- */
+
+/* The level at which the force stays: the median of the samples above half of the largest. */
+static double
+level_of(const double *x, size_t n, double *copy)
+{
+    size_t high = 0;
+    for (size_t i = 0; i < n; i++)
+        copy[i] = fabs(x[i]);
+    double half = 0.5 * gsl_stats_select(copy, 1, n, (size_t)((1 - OUTLIERS) * (double)(n - 1)));
+    for (size_t i = 0; i < n; i++)
+        if (fabs(x[i]) > half)
+            copy[high++] = fabs(x[i]);
+    return high > 0 ? gsl_stats_select(copy, 1, high, high / 2) : 0;
+}
+
+/* From sample i on, the first maximum of x, or minimum where sign is -1, that x leaves by retreat,
+ * before end. */
+static size_t
+break_away(const double *x, int sign, size_t i, size_t end, double retreat)
+{
+    size_t top = i;
+    for (; i < end && sign * x[i] > sign * x[top] - retreat; i++)
+        top = sign * x[i] > sign * x[top] ? i : top;
+    return top;
+}
+
+/* A half-cycle that the record begins in has broken away before.  A half-cycle reaches from where x
+ * passes half of the level, to either side of the middle, to where it does so for the last time
+ * before the other side: ringing may go farther. */
+static ss_status
+find_reversals(search *s, const double *x, double level)
+{
+    ss_features *out = s->out;
+    ss_status st = ss_transitions_new(out, s->n / 2 + 1);
+    int sign = 0, open = 0;
+    size_t last = 0;
+    out->n = 0;
+    out->reverses = 1;
+    for (size_t i = 0; st == SS_OK && i < s->n; i++) {
+        int side = x[i] > HALF * level ? 1 : x[i] < -HALF * level ? -1 : 0;
+        if (side != 0 && side == sign)
+            last = i;
+        if (side == 0 || side == sign)
+            continue;
+        if (open)
+            out->transition[out->n++].end = (double)last / s->rate;
+        size_t at = break_away(x, side, i, s->n, NEAR * level);
+        open = i > 0 && !ss_gaps_near(s->gap, s->n_gaps, (double)at / s->rate, 1 / s->rate);
+        out->transition[out->n].onset = (double)at / s->rate;
+        sign = side;
+        last = i;
+    }
+    if (open)
+        out->transition[out->n++].end = (double)last / s->rate;
+    return st;
+}
+
+/* --- friction and stiffness ----------------------------------------------------------------- */
 
 typedef struct plateau {
     ss_window slip;
@@ -53,7 +115,7 @@ find_plateau(const search *s, const ss_transition *t, int is_last, const double 
         p.slip.end--;
     for (size_t i = p.slip.first; i < p.slip.end; i++)
         there += sign * x[i] >= least;
-    p.stays = there > STAYS * time * s->rate;
+    p.stays = there > HALF * time * s->rate;
     p.level = select(x, p.slip, 0.5, copy);
     p.quartile = select(x, p.slip, sign > 0 ? 0.25 : 0.75, copy);
     return p;
@@ -87,26 +149,26 @@ find_stiffness(const double *x, const double *z, const plateau *a, const plateau
         ? (ss_value){ stiffness, stiffness * error } : unknown;
 }
 
+/* Friction and stiffness by the step from one plateau to the next; they stay as they are if there is none. */
 static void
-measure(const search *s, const double *x, const plateau *p, ss_value *friction, ss_value *stiffness)
+measure(const search *s, const double *x, size_t i, const plateau *p, ss_value *friction, ss_value *stiffness)
 {
-    for (size_t i = 1; i < s->out->n; i++) {
-        const plateau *a = &p[i - 1], *b = &p[i];
-        double from = s->out->transition[i - 1].onset, to = s->out->transition[i].onset;
-        double size = fabs(b->level - a->level) / 2;
-        double off = (fabs(a->level - a->quartile) + fabs(b->level - b->quartile)) / 2;
-        if (a->level * b->level >= 0 || !a->stays || !b->stays
-            || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from)))
-            continue;
-        friction[i] = (ss_value){ s->largest * size, s->largest * off };
-        if (s->opts->displacement < 0)
-            continue;
-        stiffness[i] = find_stiffness(x, s->signal->values + (size_t)s->opts->displacement * s->n, a, b);
-        stiffness[i].value *= s->largest;
-        stiffness[i].error *= s->largest;
-    }
+    const plateau *a = &p[i - 1], *b = &p[i];
+    double from = s->out->transition[i - 1].onset, to = s->out->transition[i].onset;
+    double size = fabs(b->level - a->level) / 2;
+    double off = (fabs(a->level - a->quartile) + fabs(b->level - b->quartile)) / 2;
+    if (a->level * b->level >= 0 || !a->stays || !b->stays
+        || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from)))
+        return;
+    *friction = (ss_value){ s->largest * size, s->largest * off };
+    if (s->opts->displacement < 0)
+        return;
+    *stiffness = find_stiffness(x, s->signal->values + (size_t)s->opts->displacement * s->n, a, b);
+    stiffness->value *= s->largest;
+    stiffness->error *= s->largest;
 }
 
+/* The median, if it is known within a third. */
 static ss_number
 known_median(const ss_value *v, size_t n, double *scratch)
 {
@@ -115,29 +177,31 @@ known_median(const ss_value *v, size_t n, double *scratch)
 }
 
 ss_status
-ss_reversals_measure(search *s, const double *x)
+ss_reversals_find(search *s, const double *x)
 {
     ss_features *out = s->out;
-    size_t stay = 0;
-    plateau *p = malloc((out->n + 1) * sizeof *p);
-    ss_value *v = malloc((2 * out->n + 1) * sizeof *v);
     double *copy = malloc((s->n + 1) * sizeof *copy);
-    ss_status st = p != NULL && v != NULL && copy != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t i = 0; st == SS_OK && i < out->n; i++) {
-        p[i] = find_plateau(s, &out->transition[i], i + 1 == out->n, x, copy);
+    ss_status st = copy != NULL ? find_reversals(s, x, level_of(x, s->n, copy)) : SS_ENOMEM;
+    size_t stay = 0, n = out->n;
+    plateau *p = malloc((n + 1) * sizeof *p);
+    ss_value *friction = malloc(2 * (n + 1) * sizeof *friction), *stiffness = friction + n + 1;
+    if (p == NULL || friction == NULL)
+        st = SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        p[i] = find_plateau(s, &out->transition[i], i + 1 == n, x, copy);
         stay += (size_t)p[i].stays;
-        v[i] = v[out->n + i] = unknown;
+        friction[i] = stiffness[i] = unknown;
+        if (i > 0)
+            measure(s, x, i, p, &friction[i], &stiffness[i]);
     }
-    out->reverses = st == SS_OK;
-    if (st == SS_OK && 2 * stay > out->n) {
-        measure(s, x, p, v, v + out->n);
-        out->number[SS_FRICTION] = known_median(v, out->n, copy);
-        out->number[SS_LOADING_STIFFNESS] = known_median(v + out->n, out->n, copy);
+    if (st == SS_OK && 2 * stay > n) {
+        out->number[SS_FRICTION] = known_median(friction, n, copy);
+        out->number[SS_LOADING_STIFFNESS] = known_median(stiffness, n, copy);
     }
     if (st == SS_OK && isnan(out->number[SS_FRICTION].value))
         say(out, SS_SLIPS, "between its reversals the force does not stay at a level, as friction does");
     free(p);
-    free(v);
+    free(friction);
     free(copy);
     return st;
 }
