@@ -119,20 +119,6 @@ follow(const double *y, const line *l, size_t i, size_t end)
     return last;
 }
 
-/* The time of the stick before fall f.  Its ends are those of the slips beside it, or where its line puts them:
- * by creep or by noise that wanders these may differ, and their difference is an error. */
-static ss_value
-length_of(const fall *f, const fall *before)
-{
-    ss_value begin = before->slip.end, end = f->slip.onset;
-    double first = (double)f->stick.first, last = (double)f->stick.end;
-    if (f->stick.first > f->rise.first + AWAY)
-        begin = (ss_value){ first, hypot(begin.error, first - begin.value) };
-    if (f->stick.end + AWAY < f->rise.end)
-        end = (ss_value){ last, hypot(end.error, last - end.value) };
-    return difference(end, begin);
-}
-
 /* How the rises differ from lines.  octave is the variance of noise in the octave of a stick's length: by how
  * much the residual of lines through whole sticks is larger than that of lines through their halves.
  * bend is the difference between the slopes of the halves, relative to the slope, where it is more than
@@ -272,7 +258,7 @@ read_loading(const search *s, const double *y, const ss_drop *drop, const fall *
             l.stiffness = times(slope_of(y, s->signal->values + (size_t)s->opts->displacement * s->n, f, rises),
                                 s->largest);
         if (l.slope.value > 0 && is_between)
-            l.stick = times(length_of(f, &f[-1]), 1 / s->rate);
+            l.stick = times(difference(slip->onset, f[-1].slip.end), 1 / s->rate);
     }
     if (is_between)
         l.recurrence = times(difference(slip->onset, f[-1].slip.onset), 1 / s->rate);
@@ -311,12 +297,6 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
             out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0, rises);
         }
         ss_loading_medians(out, drop, common / (1 + common), v, scratch);
-        /* sticks that end before the slip do so in all cycles: this error is common to all */
-        for (size_t i = 0; i < n; i++)
-            v[i] = isfinite(out->loading[i].stick.value)
-                ? times(difference(f[i].slip.onset, f[i - 1].slip.end), 1 / s->rate) : unknown;
-        ss_number *stick = &out->number[SS_STICK_TIME];
-        stick->error = hypot(stick->error, ss_median_of(v, n, scratch).value - stick->value);
     }
     free(f);
     free(v);

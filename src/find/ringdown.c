@@ -24,8 +24,6 @@
 #define GROWTH 1.25             /* factor by which the longest window grows from one fit to the next */
 #define KEPT 0.6                /* the least part of the windows that is kept without micro-slips: a train
                                    keeps less */
-#define LASTING 3.0             /* times the decay time 1/s: a longer window shows no more, as 5 % are left
-                                   then */
 enum { ENOUGH = 256 };          /* the most windows of a fit while they still grow */
 #define START 0.03              /* s / w from which the fit starts */
 #define COARSE 1e-4             /* tolerance of fits while the windows still grow */
@@ -85,7 +83,7 @@ grow_windows(fitter *k, ss_window *core, int *ok)
 {
     const double start = k->fit.w;
     size_t every = 1 + k->n / ENOUGH, longest = periods(k, CORE);
-    int is_growing = 1, lasts = 0;
+    int is_growing = 1;
     for (size_t i = 0; i < k->n; i++)
         if (is_beside(i, every)) {
             core[i] = ss_sticks_place(k, k->of->anchor[i], CORE);
@@ -93,7 +91,7 @@ grow_windows(fitter *k, ss_window *core, int *ok)
         }
     ss_status st = fit_shared(k, COARSE, ok);
     for (double limit = CORE * GROWTH; is_growing && limit < MOST; limit *= GROWTH) {
-        *ok = *ok && fabs(log(k->fit.w / start)) < M_LN2 / 2;   /* else it is another oscillation */
+        *ok = *ok && fabs(log(k->fit.w / start)) < M_LN2 / 2;   /* else windows are longer than the table */
         if (st != SS_OK || !*ok)
             return st;
         longest = periods(k, limit);
@@ -103,9 +101,6 @@ grow_windows(fitter *k, ss_window *core, int *ok)
             is_growing |= ss_window_length(k->window[i]) == longest;
         st = fit_shared(k, COARSE, ok);
     }
-    for (size_t i = 0; i < k->n; i += every)
-        lasts |= ss_window_length(ss_sticks_trim(k, k->window[i])) > 0;
-    *ok = *ok && lasts;
     if (every == 1 || st != SS_OK || !*ok)
         return st;
     for (size_t i = 0; i < k->n; i++)
@@ -115,13 +110,13 @@ grow_windows(fitter *k, ss_window *core, int *ok)
     return fit_shared(k, COARSE, ok);
 }
 
-/* The number of samples in all windows; in each at most those for which an oscillation lasts. */
-static double
-samples_in(const fitter *k, double lasting)
+/* The number of samples in all windows. */
+static size_t
+samples_in(const fitter *k)
 {
-    double sum = 0;
+    size_t sum = 0;
     for (size_t i = 0; i < k->n; i++)
-        sum += fmin((double)ss_window_length(k->window[i]), lasting);
+        sum += ss_window_length(k->window[i]);
     return sum;
 }
 
@@ -130,7 +125,7 @@ samples_in(const fitter *k, double lasting)
 static ss_status
 leave_out_slips(fitter *k, int *ok)
 {
-    const double lasting = k->fit.s > 0 ? LASTING / k->fit.s : INFINITY, grown = samples_in(k, lasting);
+    const double grown = (double)samples_in(k);
     for (;;) {
         size_t at = 0;
         int from_end = 0;
@@ -141,22 +136,12 @@ leave_out_slips(fitter *k, int *ok)
             from_end = 1;
             st = ss_slips_find(k, 1, &at);
         }
-        *ok = *ok && samples_in(k, lasting) >= KEPT * grown;
+        *ok = *ok && (double)samples_in(k) >= KEPT * grown;
         if (st == SS_OK && *ok && at > 0 && !ss_sticks_split(k, at, from_end))
             st = ss_slips_drop_worst(k, at, from_end);
         if (st != SS_OK || !*ok || at == 0)
             return st;
     }
-}
-
-/* Does every window have enough samples for all columns?  A window with fewer is not tested. */
-static int
-are_long(const fitter *k)
-{
-    for (size_t i = 0; i < k->n; i++)
-        if (ss_window_length(k->window[i]) > 0 && ss_window_length(k->window[i]) <= VARPRO_COLUMNS)
-            return 0;
-    return 1;
 }
 
 /* Fit with a slow part that is a line, or a sinusoid of the forcing. */
@@ -184,7 +169,7 @@ fit_all(fitter *k, ringdown *r, double forcing)
     /* in the mean, the oscillation is larger than what noise alone would give */
     linear found = ss_varpro_project_all(&k->fit, k->window, k->n);
     int stands_out = found.ring > (double)found.windows * k->noise * ss_chisq2(FIT_CHANCE);
-    if (is_on || !are_long(k) || !stands_out) {
+    if (is_on || !stands_out) {
         for (size_t i = 0; i < k->n; i++)
             k->window[i].end = k->window[i].first;
         return SS_OK;
