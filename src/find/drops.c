@@ -24,6 +24,7 @@
 #include "base/error.h"
 #include "base/gauss.h"
 #include "base/list.h"
+#include "find/judgement.h"
 #include "signal/gaps.h"
 
 #define ERROR 0.03
@@ -113,7 +114,7 @@ count_falls(const double *y, size_t n, double h, fall *of, double *scratch, doub
 ss_status
 ss_drops_typical(const double *x, size_t n, ss_typical *out)
 {
-    enum { FEW = 3, STEPS = 4, OCTAVES = 16 };
+    enum { STEPS = 4, OCTAVES = 16 };
     *out = (ss_typical){ .height = 0 };
     if (n < NARROWEST)
         return SS_OK;
@@ -122,7 +123,7 @@ ss_drops_typical(const double *x, size_t n, ss_typical *out)
     ss_status st = y != NULL && of != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK) {
         double noise = noise_rms(x, n, scratch);
-        double least = 6 * noise * sqrt(M_PI / 2 / NARROWEST), step = exp2(-1. / STEPS);
+        double least = 2 * SIGMAS * noise * sqrt(M_PI / 2 / NARROWEST), step = exp2(-1. / STEPS);
         running_median(y, x, n, NARROWEST / 2, scratch);
         gsl_stats_minmax(&low, &high, y, 1, n);
         double h = 0.5 * (high - low);
@@ -171,7 +172,7 @@ find_smoothed(fall *of, const double *x, size_t n, const ss_drop_opts *opts, dou
         window[i] = (double)(of[i].low - of[i].high);
     double length = gsl_stats_select(window, 1, count, count / 2);
     /* the median of m Gaussians has pi/2 the variance of their mean */
-    double left = ERROR * opts->height / 6, noise = noise_rms(x, n, window);
+    double left = ERROR * opts->height / (2 * SIGMAS), noise = noise_rms(x, n, window);
     double wide = fmin(M_PI / 2 * noise * noise / (left * left), length / 2);
     if (wide <= NARROWEST)
         return count;

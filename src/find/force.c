@@ -19,7 +19,6 @@
 #include "find/reversals.h"
 #include "signal/gaps.h"
 
-#define OUTLIERS 0.02           /* part of the samples at either end of the range that may be wrong */
 #define SLOWER 1.05             /* factor: less may be made by the sampling of turning points */
 #define QUICK 2.0               /* factor by which all rises are slower than falls if there are few */
 enum { FEW_RISES = 9 };
@@ -57,7 +56,7 @@ compare_falls(const double *x, double rate, const ss_drop *drop, size_t n)
     }
     if (all <= FEW_RISES)
         return (clear == all) - (clear == -all);
-    return (signs > 3 * sqrt(all)) - (signs < -3 * sqrt(all));
+    return (signs > SIGMAS * sqrt(all)) - (signs < -SIGMAS * sqrt(all));
 }
 
 /* Does x stay at its largest or its least value, time and again?  Then falls from above the one or to below
@@ -71,8 +70,8 @@ is_clipped(const double *x, size_t n)
     for (size_t i = 0; i < n; i++) {
         high = x[i] >= top ? high + 1 : 0;
         low = x[i] <= bottom ? low + 1 : 0;
-        highs += high == CLIPPED;
-        lows += low == CLIPPED;
+        highs += high == FEWEST;
+        lows += low == FEWEST;
     }
     return highs >= FEW || lows >= FEW;
 }

@@ -2,7 +2,7 @@
  *
  * While the slider sticks, the drive loads the force along a line.  A first line is fitted to the
  * middle half of the rise from one fall to the next.  The median slope of these lines is used to fit
- * slips to the falls (slip.c).  The stick is the part of the rise that is in no slip and within NEAR
+ * slips to the falls (slip.c).  The stick is the part of the rise that is in no slip and within SIGMAS
  * standard deviations of the line.  The line is then fitted to the whole stick.  A fall that the fit
  * of a slip does not explain has no drop, duration and friction, and a stick beside it has no length.
  * Nor has any fall, unless the falls show the inertia of a mass (inertia.c).
@@ -24,9 +24,7 @@
 #include "find/slip.h"
 #include "signal/gaps.h"
 
-#define NEAR 3.0                /* standard deviations within which a sample is near the line */
-#define AWAY 4                  /* samples in a row that are farther away end the line */
-#define MOST_BENT (1 / 3.)      /* a rise that is bent more, as a recovery is, is no line */
+#define AWAY 4                  /* samples in a row that are farther away than SIGMAS standard deviations end the line */
 #define HIDDEN 2.0              /* see common_misfit */
 
 /* A fall, and the rise before it, in samples. */
@@ -59,7 +57,7 @@ static ss_status
 find_falls(fall *f, const search *s, const double *y, const ss_drop *drop, size_t n, ss_value *v,
            double *scratch)
 {
-    enum { FEWEST = 8, PASSES = 3, JUDGED = 64 };       /* JUDGED: the most falls, evenly over the record */
+    enum { PASSES = 3, JUDGED = 64 };   /* JUDGED: the most falls, evenly over the record */
     double loading = NAN;
     int signs = 0, sign;
     ss_status st = SS_OK;
@@ -112,7 +110,7 @@ follow(const double *y, const line *l, size_t i, size_t end)
     int step = end > i ? 1 : -1;
     while (i != end && away < AWAY) {
         i = step > 0 ? i + 1 : i - 1;
-        int near = fabs(ss_line_off(l, y, i)) <= NEAR * l->rms;
+        int near = fabs(ss_line_off(l, y, i)) <= SIGMAS * l->rms;
         last = near ? i : last;
         away = near ? 0 : away + 1;
     }
@@ -130,12 +128,11 @@ typedef struct shape {
 static shape
 shape_of(const double *y, const fall *f, size_t n)
 {
-    enum { FEWEST = 16 };
     double whole = 0, halves = 0, samples = 0, sticks = 0, bend = 0, squares = 0;
     for (size_t i = 0; i < n; i++) {
         ss_window stick = f[i].stick;
         size_t m = ss_window_length(stick), middle = stick.first + m / 2;
-        if (m < FEWEST)
+        if (m < 2 * FEWEST)
             continue;
         line all = ss_line_through(y, NULL, stick);
         line first = ss_line_through(y, NULL, (ss_window){ stick.first, middle });
@@ -252,7 +249,7 @@ read_loading(const search *s, const double *y, const ss_drop *drop, const fall *
     if (!is_first && ss_gaps_near(s->gap, s->n_gaps, 0.5 * (drop->t + drop[-1].t),
                                   0.5 * (drop->t - drop[-1].t)))
         return l;
-    if (ss_window_length(f->stick) > 0 && rises.bend <= MOST_BENT) {
+    if (ss_window_length(f->stick) > 0 && rises.bend <= 1 / SIGMAS) {
         l.slope = times(slope_of(y, NULL, f, rises), s->rate * s->largest);
         if (l.slope.value > 0 && s->opts->displacement >= 0)
             l.stiffness = times(slope_of(y, s->signal->values + (size_t)s->opts->displacement * s->n, f, rises),

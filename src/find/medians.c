@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <string.h>
 #include "base/gauss.h"
+#include "find/judgement.h"
 
 #define DEVIATION_SD 1.17       /* relative error of a median deviation, times the root of the number of
                                    values */
@@ -65,7 +66,7 @@ add_misfit(ss_number *k_over_m, double common, const ss_value *v, size_t n, doub
 {
     size_t known;
     double error = sqrt(1 - common) * median_error(&known, v, n, scratch), scatter = k_over_m->scatter;
-    if (known > 1 && scatter > error * (1 + 3 * DEVIATION_SD / sqrt((double)known)))
+    if (known > 1 && scatter > error * (1 + SIGMAS * DEVIATION_SD / sqrt((double)known)))
         k_over_m->error = hypot(k_over_m->error, sqrt(scatter * scatter - error * error));
 }
 

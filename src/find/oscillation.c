@@ -12,7 +12,6 @@
 #define NEAR 1.0                /* [octaves] the largest distance of a fit from the frequency that recurs */
 #define SHARPER 1.5             /* times the frequency of the oscillation: an event so sharp lies within it */
 #define PRECISE 10.0            /* standard errors that a frequency must be large */
-#define POSITIVE 3.0            /* standard errors that a damping ratio must be above 0 */
 
 /* Convert omega and s, per sample, to Hz and damping ratio. */
 static void
@@ -224,7 +223,7 @@ report(search *s, const ringdown *r)
     set_oscillation(r->all, s->rate, &frequency, &ratio);
     know(out, SS_TRANSITION_FREQUENCY, frequency);
     know(out, SS_DAMPING_RATIO, ratio);
-    if (!isnan(frequency.value) && !(ratio.value > POSITIVE * ratio.error)) {
+    if (!isnan(frequency.value) && !(ratio.value > SIGMAS * ratio.error)) {
         know(out, SS_DAMPING_RATIO, unknown);
         say(out, SS_TRANSITION_FREQUENCY, "the damping ratio is less than three of its standard errors");
     }

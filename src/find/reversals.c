@@ -17,12 +17,10 @@
 #include "find/medians.h"
 #include "signal/gaps.h"
 
-#define OUTLIERS 0.02           /* part of the samples at the end of the range that may be wrong */
 #define HALF 0.5                /* part of the level that a half-cycle passes; the least part of the time from one
                                    break-away to the next at or above the level */
 #define NEAR 0.05               /* part of the step, or of a level, within which a sample is near it; a force
                                    that has broken away falls by as much */
-#define SAMPLES 3               /* the fewest samples on the way */
 
 /* --- reversals ------------------------------------------------------------------------------- */
 
@@ -145,7 +143,7 @@ find_stiffness(const double *x, const double *z, const plateau *a, const plateau
     double way = at_goal(z, x, to, end) - at_goal(z, x, from, begin);
     double stiffness = fabs((1 - 2 * NEAR) * step / way);
     double error = hypot(z[to] - z[to - 1], z[from] - z[from - 1]) / fabs(way);
-    return to - from >= SAMPLES && error < 1.0 / SAMPLES
+    return to - from >= FEW && error < 1 / SIGMAS
         ? (ss_value){ stiffness, stiffness * error } : unknown;
 }
 
@@ -173,7 +171,7 @@ static ss_number
 known_median(const ss_value *v, size_t n, double *scratch)
 {
     ss_number m = ss_median_of(v, n, scratch);
-    return 3 * m.error < m.value ? m : no_number;
+    return SIGMAS * m.error < m.value ? m : no_number;
 }
 
 ss_status

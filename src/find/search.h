@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stickslip/features.h>
 #include "find/cycles.h"
+#include "find/judgement.h"
 #include "find/levels.h"
 #include "map/map.h"
 #include "find/quantity.h"
@@ -13,8 +14,6 @@
 
 #define CENTER 6.0              /* of the wavelet */
 #define STRONG 20.0             /* [dB] range of the spikes that begin or end a transition */
-enum { FEW = 3 };               /* fewest maxima of a kind that recur */
-enum { CLIPPED = 8 };           /* samples in a row at the largest or least value: the signal is clipped */
 
 static const ss_value unknown = { NAN, NAN };
 static const ss_number no_number = { NAN, NAN, NAN, NULL };

@@ -20,12 +20,12 @@
 #include <string.h>
 #include "base/least.h"
 #include "find/colour.h"
+#include "find/judgement.h"
 
 enum { ONSET, TOP, MIDDLE, SPEED, FITTED };     /* onset behind the first sample used; SPEED: of the phase, w */
-enum { FEWEST = 8, STEPS = 60 };                /* fewest samples in the fall; most iterations */
+enum { STEPS = 60 };                            /* most iterations */
 #define EXPLAINED 0.98          /* part of the sum of squares about the mean: a fit that explains less is
                                    another shape */
-#define VAGUE (1 / 3.)          /* largest relative error of the drop and of k/m */
 #define DEEP 0.8                /* part of D: 10 and 90 % of the fall lie at f_k +- so much */
 
 typedef struct fall {
@@ -186,7 +186,7 @@ ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t l
         fill(&s, &f, p, covariance);
         fill_residual(&s, left, f.n);
         if (s.onset.value >= 0 && s.end.value > s.onset.value && s.end.value <= (double)f.n
-            && s.drop.error <= VAGUE * s.drop.value && s.k_over_m.error <= VAGUE * s.k_over_m.value) {
+            && SIGMAS * s.drop.error <= s.drop.value && SIGMAS * s.k_over_m.error <= s.k_over_m.value) {
             s.onset.value += (double)used.first;
             s.end.value += (double)used.first;
             *out = s;

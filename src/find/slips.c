@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include "base/sort.h"
 
-#define BREAK 0.05              /* probability of cutting all windows although there is no micro-slip */
-#define BREAK_EARLY 1e-3        /* the same if neither part has the least length: then all windows are
-                                   refused */
+#define BREAK 0.05              /* probability of cutting all windows although there is no micro-slip; it is
+                                   FIT_CHANCE if neither part has the least length, as then all are refused */
 #define LATEST 32.0             /* periods behind a window, see ss_slips_ring_on */
 #define LOUDER 1.5              /* times the residual: an oscillation that is louder rings on */
 
@@ -133,7 +132,7 @@ ss_slips_find(fitter *k, int from_end, size_t *at)
     *at = 0;
     for (size_t l = 0; l < n_places; l++) {
         size_t here = (l + 1) * step, longer = here > longest - here ? here : longest - here;
-        double chance = longer < periods(k, FIT_LEAST) ? BREAK_EARLY : BREAK;
+        double chance = longer < periods(k, FIT_LEAST) ? FIT_CHANCE : BREAK;
         double over = statistic(&place[l]) / (k->noise * ss_chisq2(chance / (double)n_places));
         if (over > most) {
             most = over;

@@ -91,7 +91,7 @@ stands_between(const search *s, const ss_bursts *found, double value)
         size_t run = 0, i = (size_t)(found->burst[k - 1].t * s->rate);
         for (; i < (size_t)(found->burst[k].t * s->rate); i++) {
             run = s->x[i] == value ? run + 1 : 0;
-            if (run == CLIPPED)
+            if (run == FEWEST)
                 return 1;
         }
     }
