@@ -529,7 +529,8 @@ pulls(int variant)
 {
     ss_pull *made = NULL;
     ss_ranking *ranked = NULL;
-    ss_rank_opts opts = ss_rank_defaults;
+    ss_rank_opts opts;
+    ss_rank_opts_init(&opts, sizeof opts);
     opts.quantity = SS_SPRING;
     ss_status st = variant == 0 ? ss_pull_fit(&made, pulled, SS_SPRING, &pull, &opts, &err)
         : ss_ranking_new(&ranked, pulled, SS_SPRING, &pull, 1, &opts, &err);

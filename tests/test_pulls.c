@@ -566,7 +566,8 @@ count_fit(coverage *c, ss_number m, double truth)
 static ss_pull *
 fit(const ss_signal *signal, const ss_scene *scene)
 {
-    ss_rank_opts opts = ss_rank_defaults;
+    ss_rank_opts opts;
+    ss_rank_opts_init(&opts, sizeof opts);
     ss_scene start = *scene;
     ss_pull *p = NULL;
     ss_error err = { 0 };
@@ -639,7 +640,8 @@ draw_candidates(ss_scene candidate[CANDIDATES], const ss_scene *own, unsigned lo
 static ss_ranking *
 ranking_of(const ss_signal *signal, const ss_scene *scene, size_t n)
 {
-    ss_rank_opts opts = ss_rank_defaults;
+    ss_rank_opts opts;
+    ss_rank_opts_init(&opts, sizeof opts);
     ss_ranking *r = NULL;
     ss_error err = { 0 };
     opts.quantity = SS_SPRING;
@@ -856,7 +858,8 @@ slips(const ss_scene *s)
 static size_t
 check_keys(const ss_signal *signal, const ss_scene *truth, const ss_scene *start, const char *own)
 {
-    ss_rank_opts opts = ss_rank_defaults;
+    ss_rank_opts opts;
+    ss_rank_opts_init(&opts, sizeof opts);
     ss_scene of = *truth, from = *start;
     ss_pull *p = NULL;
     int is_there = 0;
@@ -914,7 +917,8 @@ scenes_that_do_not_pull_stand_aside(void **state)
     unsigned long long seed = 5001;
     ss_scene pull = pull_draw(draw, &seed), candidate[3] = { pull, pull, pull };
     ss_ranking *r = NULL;
-    ss_rank_opts opts = ss_rank_defaults;
+    ss_rank_opts opts;
+    ss_rank_opts_init(&opts, sizeof opts);
     (void)state;
     ss_scene_set_text(&candidate[0], "model", "state-variable", NULL);
     candidate[0].static_friction = 0;

@@ -7,6 +7,7 @@
 #include "shipped.h"
 #include "fit/cycle.h"
 #include "fit/forced.h"
+#include "fit/order.h"
 #include "fit/samples.h"
 #include "unit.h"
 
@@ -284,7 +285,8 @@ columns_that_contradict_each_other_are_not_named(void **state)
     scene[2].friction *= 0.7;
     for (int rig = 0; rig < 3; rig++) {
         ss_signal *all = NULL, *other = NULL, *both = NULL;
-        ss_rank_opts opts = ss_rank_defaults;
+        ss_rank_opts opts;
+        ss_rank_opts_init(&opts, sizeof opts);
         ss_ranking *r = NULL;
         assert_int_equal(ss_sim_signal(&all, &scene[0], NULL), SS_OK);
         assert_int_equal(ss_sim_signal(&other, &scene[rig], NULL), SS_OK);
@@ -328,7 +330,8 @@ refuses_what_is_out_of_range(void **state)
     ss_signal *signal = record_of(&scene, 300);
     ss_ranking *r = NULL;
     ss_fit fit;
-    ss_rank_opts opts = ss_rank_defaults;
+    ss_rank_opts opts;
+    ss_rank_opts_init(&opts, sizeof opts);
     (void)state;
     still.base_amplitude = 0;
     assert_int_equal(ss_ranking_new(&r, signal, 1, &scene, 1, NULL, NULL), SS_EINVAL);
@@ -339,7 +342,7 @@ refuses_what_is_out_of_range(void **state)
         opts.spread = spread[i];
         assert_int_equal(ss_ranking_new(&r, signal, 0, &scene, 1, &opts, NULL), SS_EINVAL);
     }
-    opts = ss_rank_defaults;
+    ss_rank_opts_init(&opts, sizeof opts);
     opts.forcing_frequency = NAN;
     assert_int_equal(ss_ranking_new(&r, signal, 0, &scene, 1, &opts, NULL), SS_EINVAL);
     signal->values[17] = NAN;
@@ -362,7 +365,7 @@ scores_are_distances_over_thresholds_up_to_three(void **state)
     assert_true(fabs(ss_rank_score(&row, SS_BY_RESIDUAL, 1) - 2) <= 1e-15);
     assert_true(fabs(ss_rank_score(&row, SS_BY_RESIDUAL, 0.8) - 2.5) <= 1e-15);
     row.distance[SS_BY_RESIDUAL] = 1000;
-    assert_true(ss_rank_score(&row, SS_BY_RESIDUAL, 1) == SS_SCORE_MOST);
+    assert_true(ss_rank_score(&row, SS_BY_RESIDUAL, 1) == SCORE_MOST);
     row.distance[SS_BY_RESIDUAL] = NAN;
     assert_true(ss_rank_score(&row, SS_BY_RESIDUAL, 1) == 1);
 }
@@ -562,7 +565,8 @@ progress_goes_on_to_the_end_or_stops(void **state)
     for (int fits = 0; fits < 2; fits++)
         for (int stops = 0; stops < 2; stops++) {
             watcher w = { .stop_at = stops ? 0.6 : 2 };
-            ss_rank_opts opts = ss_rank_defaults;
+            ss_rank_opts opts;
+            ss_rank_opts_init(&opts, sizeof opts);
             ss_ranking *r = NULL;
             ss_fit fit;
             opts.progress = (ss_progress){ watch, &w };
@@ -587,7 +591,8 @@ progress_of_a_fit_counts_down(void **state)
         scene.rate *= fine ? 4 : 1;
         ss_signal *signal = record_of(&scene, 40);
         watcher w = { .stop_at = 2 };
-        ss_rank_opts opts = ss_rank_defaults;
+        ss_rank_opts opts;
+        ss_rank_opts_init(&opts, sizeof opts);
         ss_fit fit;
         opts.progress = (ss_progress){ watch, &w };
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &scene, &opts, NULL), SS_OK);

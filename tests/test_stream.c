@@ -2,6 +2,7 @@
  * whole record, however its samples come. */
 #include <stdlib.h>
 #include <string.h>
+#include "fit/order.h"
 #include "morlet_oracle.h"
 #include "unit.h"
 
@@ -697,7 +698,7 @@ reads_back_the_ranking_that_it_writes(void **state)
         ss_ranking r = make_ranking(row, verdict);
         FILE *text = tmpfile();
         strcpy(r.why, verdict == SS_NAMED ? "" : "it is near");
-        assert_int_equal(ss_ranking_write(&r, &about, NULL, text, SS_TSV), SS_OK);
+        assert_int_equal(ss_ranking_write(&r, &about, NULL, text, SS_TSV, NULL), SS_OK);
         ss_table *t = read_table(text, SS_KIND_RANKING);
         assert_string_equal(ss_table_note(t, "signal_name"), "run.tsv");
         assert_string_equal(ss_table_note(t, "quantity"), "a (its unit)");

@@ -194,7 +194,7 @@ rank(const job *j, const ss_signal *signal, size_t column)
     const ss_ranking_text about = {
         .signal = j->signal_name, .column = signal->head->column[column].name,
         .known_by = j->known_by, .scene = (const char *const *)name, .brief = !j->all };
-    tool_check(ss_ranking_write(r, &about, &j->opts, tool_output(j->output), tool_stream(j->kind)), NULL);
+    tool_check(ss_ranking_write(r, &about, &j->opts, tool_output(j->output), tool_stream(j->kind), &err), &err);
     for (size_t i = 0; i < j->n_scenes; i++)
         free(name[i]);
     free(name);
@@ -388,9 +388,10 @@ parse(job *j, int argc, char *argv[])
 int
 main(int argc, char *argv[])
 {
-    job j = { .kind = TOOL_TSV, .opts = ss_rank_defaults, .as = -1 };
+    job j = { .kind = TOOL_TSV, .as = -1 };
 
     tool_begin(argv, "ss-rank", usage);
+    ss_rank_opts_init(&j.opts, sizeof j.opts);
     parse(&j, argc, argv);
     j.reading.opts.progress = (ss_progress){ tool_reading_progress, &j };
     ss_signal *signal = tool_read_signal(j.signal_path, &j.reading.opts);

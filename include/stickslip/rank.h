@@ -32,20 +32,11 @@ typedef enum ss_criterion {
     SS_CRITERIA
 } ss_criterion;
 
-/* A score is the distance over the threshold, at most SS_SCORE_MOST.  If only one of signal and
- * scene has the number, the score is 1; if neither has it, 0.  The total is the sum of weight
- * times score. */
-typedef struct ss_criterion_rule {
-    const char *name, *unit;    /* "residual", "dB" */
-    double threshold, weight;
-} ss_criterion_rule;
-extern const ss_criterion_rule ss_criterion_rules[SS_CRITERIA];
-#define SS_SCORE_MOST 3
-
 enum { SS_QUANTITIES = SS_SPRING + 1 };
 extern const char *const ss_quantity_names[SS_QUANTITIES + 1];     /* "x", "v", "a", "f", "s", NULL */
 
 typedef struct ss_rank_opts {
+    size_t size;                /* set by ss_rank_opts_init */
     ss_quantity quantity;       /* of the column */
     double spread;              /* 0 <= spread < 1: the parameters of the rig are those of the scene
                                    within a factor of 1 - spread to 1 + spread */
@@ -54,7 +45,7 @@ typedef struct ss_rank_opts {
                                    which the answer must explain too with the same parameters, or -1 */
     ss_progress progress;
 } ss_rank_opts;
-extern const ss_rank_opts ss_rank_defaults;     /* acceleration, 0.3, found, no others */
+void ss_rank_opts_init(ss_rank_opts *opts, size_t size);   /* acceleration, 0.3, found, no others */
 
 typedef struct ss_rank_row {
     size_t scene;               /* its index among the scenes given */
@@ -101,12 +92,6 @@ typedef struct ss_ranking {
 ss_status ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene,
                   size_t n, const ss_rank_opts *opts, ss_error *err);
 void ss_ranking_free(ss_ranking *ranking);      /* NULL is allowed */
-/* The score of a row by one criterion, if its threshold were multiplied by factor. */
-double ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor);
-/* Order the rows as if the threshold of one criterion were multiplied by factor: their indices go
- * to order[0 ... n-1].  Returns 1 if this order differs from the present one, else 0. */
-int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor,
-                     size_t *order);
 
 /* Facts for the text of a ranking that the ranking itself does not have. */
 typedef struct ss_ranking_text {
@@ -122,7 +107,7 @@ typedef struct ss_ranking_text {
  * No name may contain a tab or a newline.  ss_table_read reads it (SS_KIND_RANKING).  SS_EINVAL:
  * there is nothing to rank, or the format holds numbers only; SS_EIO; SS_ENOMEM. */
 ss_status ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about,
-                           const ss_rank_opts *opts, FILE *out, ss_format format);
+                           const ss_rank_opts *opts, FILE *out, ss_format format, ss_error *err);
 
 /* --- the scene that fits ------------------------------------------------------------------- */
 

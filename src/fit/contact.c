@@ -352,16 +352,18 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
 
 ss_status
 ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene *start,
-             const ss_rank_opts *opts, ss_error *err)
+             const ss_rank_opts *given, ss_error *err)
 {
+    ss_rank_opts own;
+    const ss_rank_opts *opts = &own;
     if (fit == NULL || signal == NULL || start == NULL)
         return SS_FAIL_NULL(err);
-    if (opts == NULL)
-        opts = &ss_rank_defaults;
     if (start->model == NULL || !start->model->has_contact)
         return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
                        ss_model_name(start->model));
-    ss_status st = ss_column_check(signal, column, opts, err);
+    ss_status st = ss_rank_opts_take(&own, given, err);
+    if (st == SS_OK)
+        st = ss_column_check(signal, column, opts, err);
     if (st == SS_OK)
         st = ss_column_check_unit(signal, column, opts->quantity, err);
     if (st == SS_OK)

@@ -5,7 +5,7 @@
 #include <stickslip/scene.h>
 #include "base/progress.h"
 #include "fit/cycle.h"
-#include "fit/record.h"
+#include "fit/column.h"
 #include "scene/key.h"
 
 /* The unknowns of a fit.  Keys, FREQUENCY and SIZE are logarithms. */

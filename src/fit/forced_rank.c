@@ -72,7 +72,7 @@ observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, ss_
 static ss_status
 fit_scene(found *f, const comparison *w, double factor)
 {
-    const double usual = (1 + ss_rank_defaults.spread) / (1 - ss_rank_defaults.spread);
+    const double usual = (1 + RANK_SPREAD) / (1 - RANK_SPREAD);
     const double wider = log(factor) / log(usual), more = fmax(1, fmin(wider * wider, FORCED_KEPT / KEEP));
     const ss_stretch whole = f->scene.progress;
     forced_start start[FORCED_KEPT];

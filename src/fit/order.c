@@ -8,7 +8,7 @@
  * power; the spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice
  * the damping or stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one
  * contour. */
-const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
+const criterion_rule ss_criterion_rules[SS_CRITERIA] = {
     [SS_BY_RESIDUAL]   = { "residual", "dB", 3, 1 },
     [SS_BY_ADJUSTMENT] = { "adjustment", "", 1, 1 },
     [SS_BY_MAXIMUM]    = { "maximum", "", 0.5, 1 },
@@ -24,11 +24,9 @@ const ss_criterion_rule ss_criterion_rules[SS_CRITERIA] = {
 double
 ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor)
 {
-    if (row == NULL || (unsigned)criterion >= SS_CRITERIA)
-        return NAN;
     double d = row->distance[criterion];
     double threshold = factor * ss_criterion_rules[criterion].threshold;
-    return isnan(d) ? 1 : fmin(d / threshold, SS_SCORE_MOST);
+    return isnan(d) ? 1 : fmin(d / threshold, SCORE_MOST);
 }
 
 static double
@@ -53,8 +51,6 @@ less_first(const void *a, const void *b)
 int
 ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor, size_t *order)
 {
-    if (ranking == NULL || order == NULL || (unsigned)criterion >= SS_CRITERIA)
-        return 0;
     int changed = 0;
     for (size_t i = 0; i < ranking->n; i++) {       /* insertion */
         double t = total(&ranking->row[i], criterion, factor);

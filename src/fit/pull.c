@@ -17,7 +17,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "fit/pulled.h"
-#include "fit/record.h"
+#include "fit/column.h"
 #include "scene/model.h"
 
 enum { FITTED = 4 };            /* parameters of a slip */
@@ -185,13 +185,15 @@ fit_falls(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *st
 
 ss_status
 ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scene *start,
-            const ss_rank_opts *opts, ss_error *err)
+            const ss_rank_opts *given, ss_error *err)
 {
+    ss_rank_opts own;
+    const ss_rank_opts *opts = &own;
     if (out == NULL || signal == NULL || start == NULL)
         return SS_FAIL_NULL(err);
-    if (opts == NULL)
-        opts = &ss_rank_defaults;
-    ss_status st = ss_pull_check(signal, column, start, opts, err);
+    ss_status st = ss_rank_opts_take(&own, given, err);
+    if (st == SS_OK)
+        st = ss_pull_check(signal, column, start, opts, err);
     if (st == SS_OK && start->model->has_contact)
         return ss_fail(err, SS_EINVAL, "an elastic contact is not fitted to a pull: many contacts explain "
                        "the same falls");

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stickslip/rank.h>
 #include "base/progress.h"
-#include "fit/record.h"
+#include "fit/column.h"
 
 enum {
     FALLS_MOST = 16,                /* falls that are fitted */

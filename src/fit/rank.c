@@ -12,7 +12,7 @@
 #include "fit/forced.h"
 #include "fit/order.h"
 #include "fit/pull.h"
-#include "fit/record.h"
+#include "fit/column.h"
 
 static ss_status
 check(const ss_signal *signal, size_t column, size_t n, const ss_rank_opts *opts, ss_error *err)
@@ -131,13 +131,15 @@ rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene 
 
 ss_status
 ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
-        const ss_rank_opts *opts, ss_error *err)
+        const ss_rank_opts *given, ss_error *err)
 {
+    ss_rank_opts own;
+    const ss_rank_opts *opts = &own;
     if (out == NULL || signal == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
-    if (opts == NULL)
-        opts = &ss_rank_defaults;
-    ss_status st = check(signal, column, n, opts, err);
+    ss_status st = ss_rank_opts_take(&own, given, err);
+    if (st == SS_OK)
+        st = check(signal, column, n, opts, err);
     size_t pulled = 0;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         pulled += (size_t)ss_scene_is_pulled(&scene[i]);

@@ -3,6 +3,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include "base/error.h"
+#include "fit/order.h"
+#include "fit/column.h"
 #include "io/record.h"
 
 enum { DIGITS = 4 };            /* more than a criterion deserves */
@@ -143,7 +146,7 @@ write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *s
         ss_rows_word(rows, "worst", compared ? worst_of(row) : "-");
     }
     for (int k = 0; k < SS_CRITERIA && !brief; k++) {
-        const ss_criterion_rule *rule = &ss_criterion_rules[k];
+        const criterion_rule *rule = &ss_criterion_rules[k];
         char score[64];
         snprintf(score, sizeof score, "%s_score", rule->name);
         ss_rows_rounded(rows, rule->name, rule->unit, compared ? row->value[k] : NAN, DIGITS);
@@ -154,25 +157,28 @@ write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *s
 
 ss_status
 ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const ss_rank_opts *opts,
-                 FILE *out, ss_format format)
+                 FILE *out, ss_format format, ss_error *err)
 {
     struct rows rows;
-    if (opts == NULL)
-        opts = &ss_rank_defaults;
-    if (ranking == NULL || ranking->n == 0 || about == NULL || about->signal == NULL
-        || about->column == NULL || about->known_by == NULL || about->scene == NULL
-        || (unsigned)opts->quantity >= SS_QUANTITIES || out == NULL)
-        return SS_EINVAL;
+    ss_rank_opts own;
+    if (ranking == NULL || about == NULL || about->signal == NULL || about->column == NULL
+        || about->known_by == NULL || about->scene == NULL || out == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_rank_opts_take(&own, opts, err);
+    if (st == SS_OK && ranking->n == 0)
+        st = ss_fail(err, SS_EINVAL, "no scene is ranked");
+    if (st != SS_OK)
+        return st;
     size_t *order = calloc(ranking->n, sizeof *order);
     if (order == NULL)
-        return SS_ENOMEM;
-    ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, NULL);
+        return ss_fail_memory(err, NULL);
+    st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, err);
     if (st == SS_OK) {
         int notes = rows.format->has_notes, all = notes && !about->brief;
         if (notes)
             write_answer(out, ranking, about->scene);
         if (all)
-            write_notes(out, ranking, about, opts);
+            write_notes(out, ranking, about, &own);
         if (notes)
             write_unfit(out, ranking, about);
         if (all && is_compared(ranking))
@@ -180,7 +186,7 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
         write_row(&rows, ranking, 0, about->scene, about->brief);       /* the names */
         for (size_t i = 0; i < ranking->n; i++)
             write_row(&rows, ranking, i, about->scene, about->brief);
-        st = ss_rows_finish(&rows, NULL);
+        st = ss_rows_finish(&rows, err);
     }
     free(order);
     return st;

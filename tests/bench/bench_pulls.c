@@ -108,7 +108,7 @@ static const ss_rank_opts *
 spring_opts(void)
 {
     static ss_rank_opts opts;
-    opts = ss_rank_defaults;
+    ss_rank_opts_init(&opts, sizeof opts);
     opts.quantity = SS_SPRING;
     return &opts;
 }

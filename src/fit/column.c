@@ -1,9 +1,9 @@
-/* record.c -- the samples to which a motion is fitted: their power, their noise, their distance
+/* column.c -- the samples to which a motion is fitted: their power, their noise, their distance
  * from a sinusoid.
  *
  * Fourth differences do not contain slow motion, and differences over one cycle do not contain
  * what repeats.  So the median size of either is that of the noise, or more. */
-#include "fit/record.h"
+#include "fit/column.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,11 +12,26 @@
 #include "base/error.h"
 #include "base/gauss.h"
 #include "base/least.h"
+#include "base/options.h"
 
 const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "s", NULL };
 
-const ss_rank_opts ss_rank_defaults = { .quantity = SS_ACCELERATION, .spread = 0.3,
-                                        .also = { -1, -1, -1, -1, -1 } };
+static const ss_rank_opts defaults = { .size = sizeof defaults, .quantity = SS_ACCELERATION,
+                                       .spread = RANK_SPREAD, .also = { -1, -1, -1, -1, -1 } };
+
+void
+ss_rank_opts_init(ss_rank_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &defaults, sizeof defaults);
+}
+
+ss_status
+ss_rank_opts_take(ss_rank_opts *own, const ss_rank_opts *given, ss_error *err)
+{
+    ss_status st = ss_options_take(own, sizeof *own, &defaults, given, err);
+    return st == SS_OK && (unsigned)own->quantity >= SS_QUANTITIES
+        ? ss_fail(err, SS_EINVAL, "the quantity is no known choice") : st;
+}
 
 /* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
  * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of
@@ -56,8 +71,6 @@ ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts
 {
     if (column >= signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
-    if ((unsigned)opts->quantity >= SS_QUANTITIES)
-        return ss_fail(err, SS_EINVAL, "the quantity is no known choice");
     if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
         return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
                        opts->forcing_frequency);

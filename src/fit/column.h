@@ -1,10 +1,12 @@
-/* record.h -- the samples to which a motion is fitted: their power, their noise, their distance
+/* column.h -- the samples to which a motion is fitted: their power, their noise, their distance
  * from a sinusoid. */
-#ifndef RECORD_H
-#define RECORD_H
+#ifndef COLUMN_H
+#define COLUMN_H
 
 #include <stddef.h>
 #include <stickslip/rank.h>
+
+#define RANK_SPREAD 0.3             /* the usual spread of a rig's parameters */
 
 typedef struct rank_record {
     const double *x;            /* n samples */
@@ -37,6 +39,8 @@ int ss_residue_explains(const residue *r, double noise);
 /* How much less than another leaves, in standard errors squared. */
 double ss_residue_lead(const residue *r, const residue *other, double noise);
 
+/* own becomes the caller's options, or the defaults for NULL.  SS_EINVAL. */
+ss_status ss_rank_opts_take(ss_rank_opts *own, const ss_rank_opts *given, ss_error *err);
 /* SS_OK for a column that is there, has finite values and suits the options. */
 ss_status ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts,
                           ss_error *err);
