@@ -20,7 +20,7 @@ run_by(const ss_scene *scene, const char *method, double tol)
 static inline run
 run_of(const ss_scene *scene)
 {
-    return run_by(scene, ss_sim_defaults.method, ss_sim_defaults.tol);
+    return run_by(scene, NULL, 1e-12);
 }
 
 static inline double

@@ -46,7 +46,8 @@ score_keep(const ss_event *e, void *user)
 static inline void
 score_scene_make(score_scene *s, const char *name, double rate, double duration, double damping)
 {
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     s->n_events = 0;
     s->scene = read_shipped_named(name);
     s->scene.rate = rate;

@@ -10,6 +10,7 @@
 #include "read_opts.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
+#include "scene/key.h"
 
 static ss_scene scene = { .mass = 1, .stiffness = 1, .friction = 1, .base_amplitude = 1,
     .base_frequency = 1, .duration = 1, .rate = 8 };
@@ -37,10 +38,10 @@ readers_refuse_null(void **state)
     double row;
     size_t n;
     (void)state;
-    assert_refused(ss_scene_read(NULL, in, "in", &e), &e);
-    assert_refused(ss_scene_read(&read, NULL, "in", &e), &e);
-    assert_refused(ss_scene_read(&read, in, NULL, &e), &e);
-    assert_refused(ss_scene_read_set(&read, in, "in", NULL, 1, &e), &e);
+    assert_refused(ss_scene_read(NULL, in, "in", NULL, 0, &e), &e);
+    assert_refused(ss_scene_read(&read, NULL, "in", NULL, 0, &e), &e);
+    assert_refused(ss_scene_read(&read, in, NULL, NULL, 0, &e), &e);
+    assert_refused(ss_scene_read(&read, in, "in", NULL, 1, &e), &e);
     assert_refused(ss_scene_load(NULL, "coulomb", NULL, 0, &e), &e);
     assert_refused(ss_scene_load(&read, NULL, NULL, 0, &e), &e);
     assert_refused(ss_scene_load(&read, "coulomb", NULL, 1, &e), &e);
@@ -94,8 +95,8 @@ makers_and_writers_refuse_null(void **state)
     assert_refused(ss_writer_new(&writer, NULL, SS_TSV, head, NULL), NULL);
     assert_refused(ss_writer_new(&writer, stdout, SS_TSV, NULL, NULL), NULL);
     assert_refused(ss_writer_rows(NULL, NULL, 0, &e), &e);
-    assert_refused(ss_scene_write(NULL, stdout), NULL);
-    assert_refused(ss_scene_write(&scene, NULL), NULL);
+    assert_refused(ss_scene_write(NULL, stdout, NULL), NULL);
+    assert_refused(ss_scene_write(&scene, NULL, NULL), NULL);
     assert_refused(ss_coefficients_write(NULL, stdout, SS_TSV, NULL), NULL);
     assert_refused(ss_morlet_transform(&c, NULL, 0, &ss_morlet_defaults, &e), &e);
     assert_refused(ss_store_write(NULL, &record, &e), &e);
@@ -201,9 +202,11 @@ simulations_refuse_null(void **state)
     ss_error e = { 0 };
     ss_scene copy = scene;
     ss_signal *signal = NULL;
+    ss_header *head = NULL;
     ss_sim_columns columns;
     ss_trade *trade = NULL;
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     static const ss_sample sample;
     double row = 7;
     (void)state;
@@ -214,8 +217,6 @@ simulations_refuse_null(void **state)
     assert_int_equal(ss_scene_set_text(&copy, "model", "?", &e), SS_EINVAL);
     assert_true(isnan(ss_scene_get(NULL, "mass")) && isnan(ss_scene_get(&scene, NULL))
                 && isnan(ss_scene_get(&scene, "release")) && isnan(ss_scene_get(&scene, "alpha")));
-    assert_null(ss_scene_unit(NULL, "mass"));
-    assert_null(ss_scene_unit(&scene, "model"));
     assert_null(ss_scene_word(NULL, "release"));
     assert_null(ss_scene_word(&scene, "law"));
     e.text[0] = '\0';
@@ -224,14 +225,14 @@ simulations_refuse_null(void **state)
     assert_refused(ss_scene_supported(NULL, &e), &e);
     assert_int_equal(ss_scene_samples(NULL), 0);
     assert_refused(ss_sim_run(NULL, &opts, NULL, &e), &e);
-    assert_refused(ss_sim_run(&scene, NULL, NULL, &e), &e);
     assert_refused(ss_sim_signal(NULL, &scene, &e), &e);
     assert_refused(ss_sim_signal(&signal, NULL, &e), &e);
     assert_refused(ss_sim_columns_parse(NULL, "x", &e), &e);
     assert_refused(ss_sim_columns_parse(&columns, NULL, &e), &e);
     assert_int_equal(ss_sim_columns_parse(&columns, "x", &e), SS_OK);
-    assert_null(ss_sim_header(NULL, &columns));
-    assert_null(ss_sim_header(&scene, NULL));
+    assert_refused(ss_sim_header(NULL, &scene, &columns, &e), &e);
+    assert_refused(ss_sim_header(&head, NULL, &columns, &e), &e);
+    assert_refused(ss_sim_header(&head, &scene, NULL, &e), &e);
     ss_sim_row(NULL, &sample, &row);
     ss_sim_row(&columns, NULL, &row);
     ss_sim_row(&columns, &sample, NULL);
@@ -733,7 +734,7 @@ refuses_what_is_no_known_choice(void **state)
         engine.engine = (ss_engine)k;
         rank.quantity = (ss_quantity)k;
         assert_int_equal(ss_scene_check(&copy, NULL), SS_EINVAL);
-        assert_int_equal(ss_scene_write(&copy, in), SS_EINVAL);
+        assert_int_equal(ss_scene_write(&copy, in, NULL), SS_EINVAL);
         assert_true(isnan(ss_scene_get(&copy, "mass")));
         assert_null(ss_model_at((size_t)k));
         assert_int_equal(ss_scene_supported(&copy, NULL), SS_EINVAL);

@@ -209,7 +209,7 @@ readers_stand_long_words_in_files_of_long_names(void **state)
         ss_error err = new_error();
         fprintf(in, "%s%s\n%s\n", before[i / 2], word, word);
         rewind(in);
-        assert_fails(ss_scene_read(&scene, in, word, &err), &err);
+        assert_fails(ss_scene_read(&scene, in, word, NULL, 0, &err), &err);
         rewind(in);
         assert_told(ss_signal_read(&signal, in, word, NULL, &err), &err);
         rewind(in);
@@ -240,7 +240,8 @@ keys_and_options_of_10000_letters_are_refused(void **state)
         char setting[LETTERS + 20];
         const char *const set[] = { setting };
         ss_scene scene = read_shipped_named("coulomb");
-        ss_sim_opts sim = ss_sim_defaults;
+        ss_sim_opts sim;
+        ss_sim_opts_init(&sim, sizeof sim);
         ss_steady steady;
         ss_steady_opts opts;
         ss_steady_opts_init(&opts, sizeof opts);

@@ -317,7 +317,8 @@ simulations(int variant)
 static ss_status
 closed_forms(int variant)
 {
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     opts.method = "exact";
     return ss_sim_run(&scene[variant == 0 ? COULOMB : COMPLIANT], &opts, NULL, &err);
 }
@@ -328,7 +329,8 @@ trades(int variant)
     ss_trade *made = NULL;
     ss_trade_opts opts;
     ss_trade_opts_init(&opts, sizeof opts);
-    ss_sim_opts chosen = ss_sim_defaults;
+    ss_sim_opts chosen;
+    ss_sim_opts_init(&chosen, sizeof chosen);
     ss_scene brief = scene[COULOMB];     /* as every allocation repeats what came before */
     opts.budget = 1e-3;
     chosen.method = NULL;

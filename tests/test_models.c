@@ -11,6 +11,7 @@
 #include <stickslip.h>
 #include "shipped.h"
 #include "unit.h"
+#include "scene/key.h"
 
 static ss_models *
 models_of(const ss_scene *scene)

@@ -88,7 +88,7 @@ static record
 record_by(const ss_scene *scene, const char *method, double snr, unsigned long seed, double sign)
 {
     record t = { .signal = new_signal(ss_scene_samples(scene), scene->rate, 0, "s", "N") };
-    const ss_sim_opts opts = { .method = method, .tol = 1e-12, .samples = append_samples,
+    const ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = method, .tol = 1e-12, .samples = append_samples,
                                .events = append_event, .user = &t };
     assert_int_equal(ss_sim_run(scene, &opts, NULL, NULL), SS_OK);
     double *x = t.signal->values;
@@ -849,7 +849,7 @@ static int
 slips(const ss_scene *s)
 {
     int n = 0;
-    const ss_sim_opts opts = { .tol = 1e-9, .events = count_slip, .user = &n };
+    const ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .tol = 1e-9, .events = count_slip, .user = &n };
     assert_int_equal(ss_sim_run(s, &opts, NULL, NULL), SS_OK);
     return n >= 8;
 }

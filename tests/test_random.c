@@ -8,6 +8,7 @@
 #include "extremes/runs.h"
 #include "random_scene.h"
 #include "unit.h"
+#include "scene/key.h"
 
 enum { DEFAULT_SCENES = 150 };
 

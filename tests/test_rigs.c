@@ -369,11 +369,11 @@ a_base_covers_the_scene_or_is_refused(void **state)
     (void)state;
     s.base = base;
     strcpy(s.base_file, "z.tsv");
-    assert_int_equal(ss_sim_run(&s, &ss_sim_defaults, NULL, &err), SS_EDATA);
+    assert_int_equal(ss_sim_run(&s, NULL, NULL, &err), SS_EDATA);
     assert_string_equal(err.text, "z.tsv: the base is known from 1 s to 20 s, and the scene moves from 0 to "
                         "48 s");
     s.base = NULL;
-    assert_int_equal(ss_sim_run(&s, &ss_sim_defaults, NULL, &err), SS_EINVAL);
+    assert_int_equal(ss_sim_run(&s, NULL, NULL, &err), SS_EINVAL);
     assert_string_equal(err.text, "z.tsv: the measured base has not been read");
     ss_base_free(base);
 }

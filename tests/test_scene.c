@@ -7,6 +7,7 @@
 #include <stickslip.h>
 
 #include "unit.h"
+#include "scene/key.h"
 
 static ss_status
 read_text(ss_scene *scene, const char *text, const char *const settings[], size_t n,
@@ -14,7 +15,7 @@ read_text(ss_scene *scene, const char *text, const char *const settings[], size_
 {
     FILE *in = fmemopen((void *)text, strlen(text), "r");
     assert_non_null(in);
-    ss_status st = ss_scene_read_set(scene, in, "my.scene", settings, n, err);
+    ss_status st = ss_scene_read(scene, in, "my.scene", settings, n, err);
     fclose(in);
     return st;
 }
@@ -59,7 +60,7 @@ writes_what_it_reads(void **state)
         assert_int_equal(read_text(&a, shipped->text, NULL, 0, &err), SS_OK);
         a.x0 = 0.1 + 0.2;
         FILE *out = fmemopen(text, sizeof text, "w");
-        assert_int_equal(ss_scene_write(&a, out), SS_OK);
+        assert_int_equal(ss_scene_write(&a, out, NULL), SS_OK);
         fclose(out);
         assert_int_equal(read_text(&b, text, NULL, 0, &err), SS_OK);
         assert_memory_equal(&a, &b, sizeof a);
@@ -80,7 +81,7 @@ writes_the_terms_that_are_there(void **state)
     assert_true(a.base_velocity == -1e-3 && a.static_friction == 1.5 && a.damping == 3);
     assert_true(a.base_amplitude == 0 && a.base_frequency == 0);
     FILE *out = fmemopen(text, sizeof text, "w");
-    assert_int_equal(ss_scene_write(&a, out), SS_OK);
+    assert_int_equal(ss_scene_write(&a, out, NULL), SS_OK);
     fclose(out);
     assert_null(strstr(text, "surface_velocity"));
     assert_int_equal(read_text(&b, text, NULL, 0, NULL), SS_OK);
@@ -256,7 +257,8 @@ models_do_what_their_tables_say(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         ss_scene s;
-        ss_sim_opts opts = ss_sim_defaults;
+        ss_sim_opts opts;
+        ss_sim_opts_init(&opts, sizeof opts);
         ss_sim_stats stats;
         assert_int_equal(ss_scene_load(&s, row[i].shipped, NULL, 0, NULL), SS_OK);
         assert_ptr_equal(s.model, ss_model_named(row[i].name));
@@ -278,7 +280,7 @@ refuses_bytes_that_are_not_text(void **state)
     ss_error err = { 0 };
     (void)state;
     FILE *in = fmemopen((void *)nul, sizeof nul - 1, "r");
-    assert_int_equal(ss_scene_read(&s, in, "my.scene", &err), SS_EDATA);
+    assert_int_equal(ss_scene_read(&s, in, "my.scene", NULL, 0, &err), SS_EDATA);
     assert_string_equal(err.text, "my.scene:2: NUL byte: this is not a text file");
     fclose(in);
     memset(longest, 'm', 4999);

@@ -58,7 +58,7 @@ loses_no_pair_of_events_within_a_step(void **state)
     ss_scene_set(&s, "contact_stiffness", 82309189578.27042, NULL);
     oracle *o = oracle_new(&s, s.duration);
     for (size_t i = 0; i < sizeof how / sizeof *how; i++) {
-        run r = run_by(&s, how[i].method, ss_sim_defaults.tol);
+        run r = run_by(&s, how[i].method, 1e-12);
         size_t pairs = 0;
         double worst = 0;
         assert_int_equal(r.n_events, o->n);
@@ -150,7 +150,7 @@ events_do_not_depend_on_the_rate(void **state)
         run first = { 0 };
         for (int k = 0; k < 3; k++) {
             ss_scene s = scene_named(with_events[i % 3], 4, rate[k]);
-            run r = run_by(&s, i < 3 ? "rk8pd" : "exact", ss_sim_defaults.tol);
+            run r = run_by(&s, i < 3 ? "rk8pd" : "exact", 1e-12);
             assert_true(r.in_order);
             if (k == 0) {
                 first = r;
@@ -263,7 +263,8 @@ static void
 stops_when_a_sink_asks(void **state)
 {
     ss_scene s = scene_named("compliant-light", 10, 2000);
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     int calls = 0;
     (void)state;
     opts.user = &calls;
@@ -280,20 +281,21 @@ static void
 refuses_what_it_cannot_do(void **state)
 {
     ss_scene s = scene_named("coulomb", 10, 2000);
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     ss_error err = { 0 };
     (void)state;
     opts.tol = NAN;
     assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_EINVAL);
-    opts = ss_sim_defaults;
+    ss_sim_opts_init(&opts, sizeof opts);
     opts.method = "magic";
     assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_EINVAL);
     assert_string_equal(err.text, "unknown method 'magic'");
-    opts = ss_sim_defaults;
+    ss_sim_opts_init(&opts, sizeof opts);
     opts.max_steps = 10;
     assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_EBUDGET);
     assert_non_null(strstr(err.text, "step budget of 10 used up at t = "));
-    opts = ss_sim_defaults;
+    ss_sim_opts_init(&opts, sizeof opts);
     s.mass = INFINITY;
     assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_EINVAL);
     s = scene_named("coulomb", 1e300, 2000);

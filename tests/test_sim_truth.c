@@ -18,7 +18,7 @@ compare_with_closed_form(const char *method, double allow_t, double allow_x, dou
         ss_scene s = scene_named(with_events[i % 3], 10, 2000);
         ss_scene_set_text(&s, "release", i < 3 ? "spring" : "total", NULL);
         oracle *o = oracle_new(&s, 10);
-        run r = run_by(&s, method, ss_sim_defaults.tol);
+        run r = run_by(&s, method, 1e-12);
         size_t first = o->starts_with_event ? 0 : 1, piece = 0;
         double worst_t = 0, worst_x = 0, worst_a = 0, max_x = 0, max_a = 0;
 

@@ -226,7 +226,8 @@ balances_energy(void **state)
         s.rate = 40000;
         s.duration = 1 / s.base_frequency + 1 / s.rate;     /* both ends */
         record r = { .drive = s.stiffness, .interval = 1 / s.rate };
-        ss_sim_opts opts = ss_sim_defaults;
+        ss_sim_opts opts;
+        ss_sim_opts_init(&opts, sizeof opts);
         opts.samples = integrate;
         opts.user = &r;
         assert_int_equal(ss_sim_run(&s, &opts, NULL, NULL), SS_OK);
@@ -265,7 +266,8 @@ multipliers_are_the_rate_of_approach(void **state)
             ss_steady at = steady_of(&s, BIT(SS_FLOQUET) | BIT(SS_FLOQUET_2) | BIT(SS_FLOQUET_ANGLE)
                                      | BIT(SS_X_PHASE) | BIT(SS_V_PHASE), way);
             record r = { 0 };
-            ss_sim_opts opts = ss_sim_defaults;
+            ss_sim_opts opts;
+            ss_sim_opts_init(&opts, sizeof opts);
             opts.samples = keep_strobe;
             opts.user = &r;
             s.settle = 0;
@@ -546,7 +548,8 @@ static onsets
 onsets_of(ss_scene s, double duration)
 {
     onsets o = { .U = s.base_velocity };
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     opts.method = "taylor";
     opts.tol = 1e-14;
     opts.events = keep_onsets;

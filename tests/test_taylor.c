@@ -9,6 +9,7 @@
 #include "shipped.h"
 #include "uniform.h"
 #include "unit.h"
+#include "scene/key.h"
 
 enum { SCENES = 60, SAMPLES = 101 };
 

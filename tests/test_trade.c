@@ -36,7 +36,7 @@ static ss_status
 run_scene(run *r, const ss_scene *scene, const char *method, double tol, unsigned long max_steps,
           ss_error *err)
 {
-    const ss_sim_opts opts = { .method = method, .tol = tol, .max_steps = max_steps,
+    const ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = method, .tol = tol, .max_steps = max_steps,
                                .samples = keep, .user = r };
     r->n = 0;
     return ss_sim_run(scene, &opts, &r->stats, err);
@@ -149,7 +149,7 @@ static int
 refuses(const ss_scene *s, size_t events, const char *method, double accuracy, const char *what)
 {
     int slow = method != NULL && strstr("rk1imp rk2imp", method) != NULL;    /* 1 us a step */
-    ss_sim_opts opts = { .method = method, .max_steps = slow ? 30000 : 0 };
+    ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = method, .max_steps = slow ? 30000 : 0 };
     ss_error err = { 0 };
     ss_status st = ss_trade_choose(&opts, s, accuracy, &err);
     if (st == SS_ETOL || st == SS_EBUDGET || st == SS_ECHATTER) {
@@ -246,7 +246,7 @@ keeps_the_accuracy_of_a_long_record(void **state)
     (void)state;
     for (size_t i = 0; ss_shipped_scenes[i].name != NULL; i++) {
         ss_scene s = shipped(i, 0, 4, 25000), thin = s;
-        ss_sim_opts opts = { .method = "rkf45" }, same = opts;
+        ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = "rkf45" }, same = opts;
         thin.rate = 100;
         assert_int_equal(ss_trade_choose(&opts, &s, 1e-7, NULL), SS_OK);
         assert_int_equal(ss_trade_choose(&same, &s, 1e-7, NULL), SS_OK);
@@ -261,15 +261,15 @@ static void
 refuses_an_accuracy_that_cannot_be(void **state)
 {
     ss_scene s = shipped(1, 0, 10, 500);
-    ss_sim_opts opts = { .method = "rk1imp" };
+    ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = "rk1imp" };
     ss_error err = { 0 };
     (void)state;
     opts.max_steps = 20000;
     assert_int_equal(ss_trade_choose(&opts, &s, 1e-6, &err), SS_EBUDGET);
     assert_non_null(strstr(err.text, "rk1imp needs more than 20000 steps"));
-    opts = (ss_sim_opts){ .method = "magic" };
+    opts = (ss_sim_opts){ .size = sizeof(ss_sim_opts), .method = "magic" };
     assert_int_equal(ss_trade_choose(&opts, &s, 1e-6, &err), SS_EINVAL);
-    opts = (ss_sim_opts){ .method = NULL };
+    opts = (ss_sim_opts){ .size = sizeof(ss_sim_opts), .method = NULL };
     assert_int_equal(ss_trade_choose(&opts, &s, 1e-15, &err), SS_EINVAL);
     assert_int_equal(ss_trade_choose(&opts, &s, NAN, &err), SS_EINVAL);
     /* 5000 free cycles: of the phase at their end, 3e4 rad, methods round 1e-16 otherwise */
@@ -280,7 +280,7 @@ refuses_an_accuracy_that_cannot_be(void **state)
     assert_non_null(strstr(err.text, "1e-12 cannot be told"));
     assert_int_equal(ss_trade_choose(&opts, &s, 1e-9, &err), SS_OK);
     s = shipped(3, 0, 1, 500);
-    opts = (ss_sim_opts){ .method = "exact" };
+    opts = (ss_sim_opts){ .size = sizeof(ss_sim_opts), .method = "exact" };
     assert_int_equal(ss_trade_choose(&opts, &s, 1e-6, &err), SS_EINVAL);
 }
 
@@ -402,7 +402,7 @@ stops_when_asked(void **state)
     assert_null(trade);
     opts.budget = 0;
     assert_int_equal(ss_trade_measure(&trade, &s, &opts, NULL), SS_EINVAL);
-    const ss_sim_opts run_opts = { .method = "rk8pd", .tol = 1e-9, .progress = { stop, NULL } };
+    const ss_sim_opts run_opts = { .size = sizeof(ss_sim_opts), .method = "rk8pd", .tol = 1e-9, .progress = { stop, NULL } };
     assert_int_equal(ss_sim_run(&s, &run_opts, NULL, NULL), SS_STOP);
 }
 

@@ -208,7 +208,8 @@ transitions_begin_and_end_with_the_events(void **state)
     for (int i = 0; i < 3; i++) {
         ss_scene scene = scene_of(names[i]);
         ss_features *f = features_of(&scene, INFINITY, 1);
-        ss_sim_opts opts = ss_sim_defaults;
+        ss_sim_opts opts;
+        ss_sim_opts_init(&opts, sizeof opts);
         kept k = { 0 };
         size_t t = 0;
         opts.events = keep;

@@ -183,7 +183,7 @@ tool_read_scene_by(const char *path, const tool_texts *settings, const char *opt
     ss_scene scene;
     ss_error err = { 0 };
     ss_status st = is_stdin(path)
-                 ? ss_scene_read_set(&scene, stdin, tool_input_name(path), settings->text,
+                 ? ss_scene_read(&scene, stdin, tool_input_name(path), settings->text,
                                      settings->n, &err)
                  : ss_scene_load(&scene, path, settings->text, settings->n, &err);
     if (st == SS_EINVAL)

@@ -219,7 +219,7 @@ fit_contact(const job *j, const ss_signal *signal, size_t column, const ss_scene
         fprintf(out, "#   %-17s %.2g %%\n", f.key[i].name, 100 * f.key[i].found.error / f.key[i].found.value);
     fprintf(out, "# Left of the signal: %.3g %%, and %.3g %% if the motion need not be settled; its noise\n"
             "# is %.3g %%.\n", 100 * f.residual, 100 * f.residual_started, 100 * f.noise);
-    if (ss_scene_write(&f.scene, out) != SS_OK)
+    if (ss_scene_write(&f.scene, out, NULL) != SS_OK)
         tool_die("write failed");
 }
 
@@ -334,7 +334,7 @@ fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *s
         write_slips(out, p, signal, k_over_m, loading);
     else
         write_common(out, p);
-    if (ss_scene_write(&p->scene, out) != SS_OK)
+    if (ss_scene_write(&p->scene, out, NULL) != SS_OK)
         tool_die("write failed");
     ss_pull_free(p);
 }

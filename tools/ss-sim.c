@@ -149,7 +149,7 @@ write_scene(const request *req, const ss_scene *scene)
     FILE *out = tool_output(req->path);
     fprintf(out, "# %s\n", name);
     free(name);
-    tool_check(ss_scene_write(scene, out), NULL);
+    tool_check(ss_scene_write(scene, out, NULL), NULL);
 }
 
 /* Let the base move as it was measured, in place of the scene's base.  A column follows the last colon,
@@ -194,8 +194,11 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         opts->method = ss_sim_method_for(scene, &why);
         tool_note("method %s: %s", opts->method, why);
     }
-    if (opts->tol == 0)
-        opts->tol = ss_sim_defaults.tol;
+    if (opts->tol == 0) {
+        ss_sim_opts usual;
+        ss_sim_opts_init(&usual, sizeof usual);
+        opts->tol = usual.tol;
+    }
 }
 
 /* A mistyped rate must not fill the disk, or the memory, without a warning. */
@@ -234,6 +237,9 @@ static void
 parse(request *req, int argc, char *argv[])
 {
     ss_sim_opts *opts = &req->opts;
+    ss_sim_opts_init(opts, sizeof *opts);
+    opts->tol = 0;                      /* not given */
+    opts->progress.function = tool_progress;
     const tool_option options[] = {
         TOOL_TEXTS('s', "set", &req->settings), TOOL_TEXT('b', "base", &req->base),
         TOOL_VALUE('c', "columns", set_columns, &req->columns), TOOL_FLAG('e', "events", &req->events),
@@ -307,7 +313,7 @@ finish(output *o, int has_events)
 int
 main(int argc, char *argv[])
 {
-    request req = { .kind = TOOL_TSV, .opts.progress.function = tool_progress };
+    request req = { .kind = TOOL_TSV };
     output o = { .req = &req };
 
     tool_begin(argv, "ss-sim", usage);
@@ -324,9 +330,8 @@ main(int argc, char *argv[])
         set_base(&scene, req.base);
     check_samples(&req, &scene);
     set_method(&req.opts, &scene, req.accuracy);
-    o.head = ss_sim_header(&scene, &req.columns);
-    if (o.head == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
+    ss_error err = { 0 };
+    tool_check(ss_sim_header(&o.head, &scene, &req.columns, &err), &err);
     note_origin(o.head, &req);
     if (req.events && !ss_model_has_events(scene.model))
         tool_warn("the %s model has no events", ss_model_name(scene.model));

@@ -21,7 +21,6 @@ const ss_model *ss_model_at(size_t i);              /* NULL after the last */
 const ss_model *ss_model_named(const char *name);   /* NULL: there is none */
 const char *ss_model_name(const ss_model *model);   /* "?" for NULL */
 int ss_model_has_events(const ss_model *model);     /* 1: it has events; 0: it is smooth, or NULL */
-int ss_model_is_linear(const ss_model *model);      /* 1: between events it has a closed form */
 
 typedef struct ss_base ss_base;     /* the measured displacement z(t) of a base */
 enum { SS_BASE_FILE = 256, SS_BASE_COLUMN = 64, SS_SCENE_OWN = 16 };
@@ -81,15 +80,12 @@ typedef struct ss_event {
     int direction;      /* +1 or -1, of the slip that begins; with SS_STICK, of the slip that ended */
 } ss_event;
 
-/* Read a scene from text.  Messages call the file by name.  On failure *scene does not change.
- * SS_EDATA: a key is unknown, repeated, missing, malformed, out of its range, or not one of the
- * model's; SS_EIO: reading failed. */
-ss_status ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *err);
-
-/* The same; then the n settings "key=value" replace values of the text.  SS_EINVAL: a setting is
- * wrong; SS_EDATA: the text is. */
-ss_status ss_scene_read_set(ss_scene *scene, FILE *in, const char *name,
-                            const char *const settings[], size_t n, ss_error *err);
+/* Read a scene from text, in which the n settings "key=value" then replace values; settings may be NULL if
+ * n is 0.  Messages call the file by name.  On failure *scene does not change.  SS_EDATA: a key is
+ * unknown, repeated, missing, malformed, out of its range, or not one of the model's; SS_EINVAL: a
+ * setting is; SS_EIO: reading failed. */
+ss_status ss_scene_read(ss_scene *scene, FILE *in, const char *name, const char *const settings[], size_t n,
+                        ss_error *err);
 
 /* Read the shipped scene whose name is path ("compliant-light"), or else the file at path, with
  * settings as above.  SS_EIO also if there is neither; err then lists the shipped names. */
@@ -101,7 +97,7 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 
 /* Write each key that the model has as a line, its value with the fewest digits from which
  * ss_scene_read gets the same double.  SS_EIO: writing failed. */
-ss_status ss_scene_write(const ss_scene *scene, FILE *out);
+ss_status ss_scene_write(const ss_scene *scene, FILE *out, ss_error *err);
 
 /* Make z(t) [m], the natural cubic spline through one column of a signal.  The signal's clock is
  * the scene's: its t = 0 is the start of settling.  The caller frees *base with ss_base_free.
@@ -118,7 +114,6 @@ void ss_base_free(ss_base *base);                   /* NULL is allowed */
 
 /* The number that key names, of the scene or of its model.  NaN: the model has no such number. */
 double ss_scene_get(const ss_scene *scene, const char *key);
-const char *ss_scene_unit(const ss_scene *scene, const char *key);      /* its unit; NULL: no such number */
 /* Set this number.  It may be out of its range, as a field may: ss_scene_check tells.  SS_EINVAL: the
  * model has no such number; err says what is wrong with the key. */
 ss_status ss_scene_set(ss_scene *scene, const char *key, double value, ss_error *err);
@@ -128,27 +123,9 @@ ss_status ss_scene_set(ss_scene *scene, const char *key, double value, ss_error 
 ss_status ss_scene_set_text(ss_scene *scene, const char *key, const char *value, ss_error *err);
 const char *ss_scene_word(const ss_scene *scene, const char *key);     /* of a word; NULL: no such key */
 
-/* A range in which scenes are supported: the tests verify results there.  A scene outside is
- * simulated too, without this promise. */
-typedef struct ss_scene_range {
-    const char *name, *unit;    /* "Omega/omega_n"; stickslip-scene(5) defines X */
-    double from, to;
-    int zero;                   /* 1: 0 belongs to the range too */
-    double (*value)(const ss_scene *scene);     /* NaN where it has no meaning */
-    void (*set)(ss_scene *scene, double x);     /* change a key so that the value is x; NULL: not one alone */
-} ss_scene_range;
-/* The i-th range of the scenes of a model; NULL after the last. */
-const ss_scene_range *ss_model_range(const ss_model *model, size_t i);
-
-/* SS_OK if a scene that has passed ss_scene_check lies within these ranges, else SS_EINVAL. */
+/* SS_OK if a scene that has passed ss_scene_check lies within the ranges in which the tests verify results
+ * (stickslip-scene(5) lists them), else SS_EINVAL.  A scene outside is simulated too. */
 ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
-
-/* Make the i-th of the simpler scenes that a scene contains.  Each loses more than the one before:
- * no damping; static friction equal to kinetic friction; no damping of the contact; the model that
- * is the limit of the scene's model (Coulomb's, for a stiff contact or for friction that follows v
- * at once); no friction.  Returns its name, "damping=0" or the name of its model, a constant text;
- * NULL after the last. */
-const char *ss_scene_simpler(ss_scene *simpler, const ss_scene *scene, size_t i);
 
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX from 2^53 on */
 int ss_scene_is_pulled(const ss_scene *scene);      /* 1: U or S moves it, and no forcing does */

@@ -16,6 +16,7 @@ typedef int ss_sample_sink(const ss_sample *s, size_t n, void *user);
 typedef int ss_event_sink(const ss_event *e, void *user);
 
 typedef struct ss_sim_opts {
+    size_t size;                /* set by ss_sim_opts_init */
     const char *method;         /* one of ss_sim_method_name; NULL: that of ss_sim_method_for */
     double tol;                 /* relative local error of a step, within ss_sim_tolerances */
     unsigned long max_steps;    /* 0: as many steps as 5e6 right-hand sides allow, with 1e4 more for
@@ -26,7 +27,8 @@ typedef struct ss_sim_opts {
     ss_progress progress;       /* called every few hundred steps or samples */
 } ss_sim_opts;
 extern const ss_range ss_sim_tolerances;        /* of tol: 1e-14 ... 1e-1 */
-extern const ss_sim_opts ss_sim_defaults;       /* the scene's method at 1e-12, no sinks */
+/* The scene's method at 1e-12, no sinks.  size is sizeof(ss_sim_opts); NULL options mean the same. */
+void ss_sim_opts_init(ss_sim_opts *opts, size_t size);
 
 typedef struct ss_sim_stats {   /* what a run cost, from the start of settling */
     unsigned long steps;        /* accepted integration steps */
@@ -57,8 +59,8 @@ typedef struct ss_sim_columns {
 /* Read a list such as "t,x,v,a,f".  SS_EINVAL: a name is unknown or repeated, or t is not the first. */
 ss_status ss_sim_columns_parse(ss_sim_columns *columns, const char *list, ss_error *err);
 /* Make the header of a signal with these columns; its notes are the scene's parameters.  The caller
- * frees it with ss_header_free.  NULL: no memory. */
-ss_header *ss_sim_header(const ss_scene *scene, const ss_sim_columns *columns);
+ * frees it with ss_header_free.  SS_EINVAL: the scene has no model or is out of range; SS_ENOMEM. */
+ss_status ss_sim_header(ss_header **head, const ss_scene *scene, const ss_sim_columns *columns, ss_error *err);
 /* Write the columns->n values of one sample to row, in that order. */
 void ss_sim_row(const ss_sim_columns *columns, const ss_sample *sample, double *row);
 

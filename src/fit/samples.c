@@ -35,7 +35,7 @@ clear_event(const ss_event *e, void *user)
 ss_sim_opts
 ss_samples_opts(const ss_scene *scene, double tol)
 {
-    return (ss_sim_opts){ .method = ss_method_for(scene, BEST)->name, .tol = tol,
+    return (ss_sim_opts){ .size = sizeof(ss_sim_opts), .method = ss_method_for(scene, BEST)->name, .tol = tol,
                           .max_steps = STEPS_MOST };
 }
 

@@ -81,7 +81,9 @@ void ss_engine_accept(engine *e);
 /* Instead of a step: the mass stands still for h. */
 void ss_engine_rest(engine *e, double h);
 
-/* run.c: SS_OK if the scene is valid and the samples of its record can be counted. */
+/* run.c: own becomes the caller's options or the usual ones, see ss_options_take. */
+ss_status ss_sim_opts_take(ss_sim_opts *own, const ss_sim_opts *given, ss_error *err);
+/* SS_OK if the scene is valid and the samples of its record can be counted. */
 ss_status ss_record_check(const ss_scene *scene, ss_error *err);
 
 #endif

@@ -9,12 +9,26 @@
 #include <stdint.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/options.h"
 #include "base/progress.h"
 #include "base/range.h"
 #include "motion/method.h"
 
 const ss_range ss_sim_tolerances = { 1e-14, 0.1 };
-const ss_sim_opts ss_sim_defaults = { .method = NULL, .tol = 1e-12 };
+static const ss_sim_opts usual = { .size = sizeof usual, .method = NULL, .tol = 1e-12 };
+
+void
+ss_sim_opts_init(ss_sim_opts *opts, size_t size)
+{
+    if (opts != NULL && size >= sizeof size)
+        ss_options_init(opts, size, &usual, sizeof usual);
+}
+
+ss_status
+ss_sim_opts_take(ss_sim_opts *own, const ss_sim_opts *given, ss_error *err)
+{
+    return ss_options_take(own, sizeof *own, &usual, given, err);
+}
 
 const char *
 ss_event_kind_name(ss_event_kind kind)
@@ -343,12 +357,16 @@ ss_record_check(const ss_scene *scene, ss_error *err)
 }
 
 ss_status
-ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats, ss_error *err)
+ss_sim_run(const ss_scene *scene, const ss_sim_opts *given, ss_sim_stats *stats, ss_error *err)
 {
-    if (scene == NULL || opts == NULL)
+    if (scene == NULL)
         return SS_FAIL_NULL(err);
     const struct method *how = NULL;
-    ss_status st = ss_record_check(scene, err);
+    ss_sim_opts own;
+    const ss_sim_opts *opts = &own;
+    ss_status st = ss_sim_opts_take(&own, given, err);
+    if (st == SS_OK)
+        st = ss_record_check(scene, err);
     if (st == SS_OK)
         st = ss_range_check(opts->tol, ss_sim_tolerances, "tolerance", err);
     if (st == SS_OK && opts->method != NULL)

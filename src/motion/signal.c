@@ -56,47 +56,49 @@ ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
 
 /* Add the scene's text as notes, without the rate, which every header has. */
 static ss_status
-note_scene(ss_header *head, const ss_scene *scene)
+note_scene(ss_header *head, const ss_scene *scene, ss_error *err)
 {
     char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (out == NULL)
-        return SS_ENOMEM;
-    ss_status st = ss_scene_write(scene, out);
+        return ss_fail_memory(err, NULL);
+    ss_status st = ss_scene_write(scene, out, err);
     if (fclose(out) != 0)
-        st = SS_ENOMEM;
+        st = ss_fail_memory(err, NULL);
     for (char *line = text; st == SS_OK && *line != '\0';) {
         char *equals = strstr(line, " = "), *end = strchr(line, '\n');
         *equals = *end = '\0';
         if (strcmp(line, "rate") != 0)
-            st = ss_header_note(head, line, equals + 3, NULL);
+            st = ss_header_note(head, line, equals + 3, err);
         line = end + 1;
     }
     free(text);
     if (st == SS_OK && scene->base != NULL && *scene->base->cksum != '\0')
-        st = ss_header_note(head, "base_cksum", scene->base->cksum, NULL);
+        st = ss_header_note(head, "base_cksum", scene->base->cksum, err);
     return st;
 }
 
-ss_header *
-ss_sim_header(const ss_scene *scene, const ss_sim_columns *columns)
+ss_status
+ss_sim_header(ss_header **out, const ss_scene *scene, const ss_sim_columns *columns, ss_error *err)
 {
-    if (scene == NULL || columns == NULL)
-        return NULL;
+    if (out == NULL || scene == NULL || columns == NULL)
+        return SS_FAIL_NULL(err);
     ss_header *head = NULL;
-    ss_header_new(&head, scene->rate, 0, NULL);
-    if (head == NULL)
-        return NULL;
-    head->has_time = columns->has_time;
-    ss_status st = note_scene(head, scene);
-    for (size_t i = 0; st == SS_OK && i < columns->n; i++)
-        st = ss_header_add_column(head, column[columns->pick[i]].name,
-                                  column[columns->pick[i]].unit, NULL);
+    ss_status st = ss_scene_check(scene, err);
     if (st == SS_OK)
-        return head;
-    ss_header_free(head);
-    return NULL;
+        st = ss_header_new(&head, scene->rate, 0, err);
+    if (st != SS_OK)
+        return st;
+    head->has_time = columns->has_time;
+    st = note_scene(head, scene, err);
+    for (size_t i = 0; st == SS_OK && i < columns->n; i++)
+        st = ss_header_add_column(head, column[columns->pick[i]].name, column[columns->pick[i]].unit, err);
+    if (st == SS_OK)
+        *out = head;
+    else
+        ss_header_free(head);
+    return st;
 }
 
 struct collector {
@@ -124,16 +126,16 @@ ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err)
     if (out == NULL)
         return SS_FAIL_NULL(err);
     const ss_sim_columns columns = { 1, 5, { 0, 1, 2, 3, 4 } };
-    ss_status st = ss_scene_check(scene, err);
-    if (st != SS_OK)
-        return st;
     struct collector c = { &columns, NULL, 0 };
-    ss_header *head = ss_sim_header(scene, &columns);
-    st = head != NULL ? ss_signal_new(&c.signal, head, ss_scene_samples(scene), NULL) : SS_ENOMEM;
+    ss_header *head = NULL;
+    ss_status st = ss_sim_header(&head, scene, &columns, err);
+    if (st == SS_OK)
+        st = ss_signal_new(&c.signal, head, ss_scene_samples(scene), err);
     ss_header_free(head);
     if (st != SS_OK)
-        return ss_fail(err, st, "%s", ss_strerror(st));
-    ss_sim_opts opts = ss_sim_defaults;
+        return st;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     opts.samples = collect;
     opts.user = &c;
     st = ss_sim_run(scene, &opts, NULL, err);

@@ -66,4 +66,28 @@ const char *ss_scene_term(const ss_scene *scene);
 /* 1 if the key belongs to the record that is made of the motion, not to the motion. */
 int ss_key_is_of_record(const char *name);
 
+const char *ss_scene_unit(const ss_scene *scene, const char *key);      /* of a number; NULL: no such number */
+int ss_model_is_linear(const ss_model *model);      /* 1: between events it has a closed form */
+
+/* A range in which scenes are supported: the tests verify results there.  A scene outside is
+ * simulated too, without this promise. */
+typedef struct ss_scene_range {
+    const char *name, *unit;    /* "Omega/omega_n"; stickslip-scene(5) defines X */
+    double from, to;
+    int zero;                   /* 1: 0 belongs to the range too */
+    double (*value)(const ss_scene *scene);     /* NaN where it has no meaning */
+    void (*set)(ss_scene *scene, double x);     /* change a key so that the value is x; NULL: not one alone */
+} ss_scene_range;
+/* The i-th range of the scenes of a model; NULL after the last. */
+const ss_scene_range *ss_model_range(const ss_model *model, size_t i);
+
+/* --- simpler.c ----------------------------------------------------------------------------- */
+
+/* Make the i-th of the simpler scenes that a scene contains.  Each loses more than the one before:
+ * no damping; static friction equal to kinetic friction; no damping of the contact; the model that
+ * is the limit of the scene's model (Coulomb's, for a stiff contact or for friction that follows v
+ * at once); no friction.  Returns its name, "damping=0" or the name of its model, a constant text;
+ * NULL after the last. */
+const char *ss_scene_simpler(ss_scene *simpler, const ss_scene *scene, size_t i);
+
 #endif

@@ -209,8 +209,8 @@ read_line(FILE *in, char *line, size_t size, struct key_origin at, int *end, ss_
 }
 
 ss_status
-ss_scene_read_set(ss_scene *out, FILE *in, const char *name, const char *const settings[],
-                  size_t n, ss_error *err)
+ss_scene_read(ss_scene *out, FILE *in, const char *name, const char *const settings[], size_t n,
+              ss_error *err)
 {
     ss_scene scene = ss_scene_defaults;
     given g = { .n = 0 };
@@ -238,10 +238,4 @@ ss_scene_read_set(ss_scene *out, FILE *in, const char *name, const char *const s
     if (st == SS_OK)
         *out = scene;
     return st;
-}
-
-ss_status
-ss_scene_read(ss_scene *scene, FILE *in, const char *name, ss_error *err)
-{
-    return ss_scene_read_set(scene, in, name, NULL, 0, err);
 }

@@ -64,7 +64,7 @@ ss_scene_load(ss_scene *scene, const char *path, const char *const settings[], s
     FILE *in = open_scene(path, err);
     if (in == NULL)
         return SS_EIO;
-    ss_status st = ss_scene_read_set(scene, in, path, settings, n, err);
+    ss_status st = ss_scene_read(scene, in, path, settings, n, err);
     fclose(in);
     return st;
 }

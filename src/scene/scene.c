@@ -50,15 +50,18 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
 }
 
 ss_status
-ss_scene_write(const ss_scene *scene, FILE *out)
+ss_scene_write(const ss_scene *scene, FILE *out, ss_error *err)
 {
-    if (scene == NULL || out == NULL || ss_scene_check(scene, NULL) != SS_OK)
-        return SS_EINVAL;
+    if (scene == NULL || out == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_scene_check(scene, err);
+    if (st != SS_OK)
+        return st;
     const scene_key *k;
     for (size_t i = 0; (k = ss_key_at(scene->model, i)) != NULL; i++) {
         char room[SS_NUMBER_MAX];
         if (k->required != TERM || ss_key_is_named(scene, k))
             fprintf(out, "%s = %s\n", k->name, ss_value_text(scene, k, room));
     }
-    return ferror(out) ? SS_EIO : SS_OK;
+    return ferror(out) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
 }

@@ -102,7 +102,7 @@ cost_simulate(const ss_scene *scene, const char *method, double tol, double *x, 
 {
     bench_kept k = { x, 0, 0 };
     ss_error err = { 0 };
-    ss_sim_opts opts = { .method = method, .tol = tol, .samples = bench_keep,
+    ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = method, .tol = tol, .samples = bench_keep,
                          .events = bench_count, .user = &k };
     ss_status st = ss_sim_run(scene, &opts, NULL, &err);
     if (st != SS_OK)

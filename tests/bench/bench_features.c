@@ -96,7 +96,8 @@ probe(const ss_scene *scene)
     static const double most[2][2] = { { 1e-3, 1e-2 }, { 5e-3, 5e-2 } };
     ss_signal *signal = NULL;
     stick_times sticks = { .began = NAN };
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     double total = scene->stiffness + ss_scene_get(scene, "contact_stiffness");
     double ratio = ss_scene_get(scene, "contact_damping") / (2 * sqrt(total * scene->mass));
     int errors = 0;

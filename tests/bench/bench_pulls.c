@@ -18,6 +18,7 @@
 #include "../foreign.h"
 #include "../pull.h"
 #include "bench.h"
+#include "scene/key.h"
 
 enum { PLAIN, DAMPED, ON_BELT, STRIBECK, COMPLIANT, KINDS };
 static const char *const kind_name[KINDS] = { "coulomb", "damped", "belt", "stribeck", "compliant" };
@@ -197,7 +198,7 @@ static int
 slips(const ss_scene *scene)
 {
     int n = 0;
-    const ss_sim_opts opts = { .method = ss_model_is_linear(scene->model) ? "exact" : NULL, .tol = 1e-9,
+    const ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = ss_model_is_linear(scene->model) ? "exact" : NULL, .tol = 1e-9,
                                .events = count_slip, .user = &n };
     return ss_sim_run(scene, &opts, NULL, NULL) == SS_OK && n >= 8;
 }

@@ -103,7 +103,7 @@ static double
 time_to(ss_sample_sink *sink, void *user, const ss_scene *scene, const char *method,
         unsigned long max_steps, ss_sim_stats *stats, ss_error *err)
 {
-    ss_sim_opts opts = { .method = method, .tol = 1e-10, .max_steps = max_steps, .samples = sink,
+    ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = method, .tol = 1e-10, .max_steps = max_steps, .samples = sink,
                          .user = user };
     double seconds[9], total = 0;
     int n = 0;
@@ -225,7 +225,8 @@ cost_of_columns(void)
         printf("%s\t%.3g", list[i], 1e3 * time_to(pick_rows, &r, &s, "exact", 0, NULL, NULL));
         for (int form = 0; form < 2; form++) {
             FILE *out = fopen("/dev/null", "w");
-            ss_header *head = ss_sim_header(&s, &r.columns);
+            ss_header *head = NULL;
+            ss_sim_header(&head, &s, &r.columns, NULL);
             if (out == NULL || head == NULL
                 || ss_writer_new(&r.writer, out, form == 0 ? SS_AU : SS_TSV, head, NULL) != SS_OK)
                 exit(1);

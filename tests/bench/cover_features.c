@@ -232,7 +232,8 @@ find_sticks(draw *d)
 {
     double of[2 * CYCLES + 1] = { 0 };
     sticks st = { .began = NAN, .half = 0.5 / d->scene.base_frequency, .of = of, .room = 2 * CYCLES };
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     if (d->scene.base == NULL)
         opts.method = "exact";
     opts.events = watch;

@@ -4,7 +4,7 @@ cat > sim.c <<'C'
 int main(void)
 {
     ss_scene scene = ss_scene_defaults;
-    return ss_sim_run(&scene, &ss_sim_defaults, NULL, NULL) != SS_EINVAL;   /* it lacks a mass */
+    return ss_sim_run(&scene, NULL, NULL, NULL) != SS_EINVAL;   /* it lacks a model */
 }
 C
 # shellcheck disable=SC2046  # flags are a list

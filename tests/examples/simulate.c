@@ -46,7 +46,8 @@ main(void)
     scene.settle = 20;
     scene.duration = 200;
 
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     opts.method = "exact";
     opts.samples = take_samples;
     opts.events = take_event;

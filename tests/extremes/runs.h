@@ -54,7 +54,7 @@ static run
 run_with(const ss_scene *scene, const char *method, double tol, unsigned long max_steps)
 {
     run r = { .in_order = 1 };
-    ss_sim_opts opts = { .method = method, .tol = tol, .max_steps = max_steps,
+    ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = method, .tol = tol, .max_steps = max_steps,
                          .samples = keep_samples, .events = keep_event, .user = &r };
     r.status = ss_sim_run(scene, &opts, &r.stats, &r.err);
     return r;
@@ -100,7 +100,7 @@ static inline void
 complain(uint64_t number, const ss_scene *scene, const char *what, double got, double allowed)
 {
     fprintf(stderr, "scene %lu: %s: %.3g, allowed %.3g\n", (unsigned long)number, what, got, allowed);
-    ss_scene_write(scene, stderr);
+    ss_scene_write(scene, stderr, NULL);
     fail();
 }
 

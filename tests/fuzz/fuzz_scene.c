@@ -13,10 +13,10 @@ check_scene(const ss_scene *scene)
     ss_error err = { 0 };
     fuzz_check(ss_scene_check(scene, &err) == SS_OK, err.text);
     FILE *out = open_memstream(&text, &length);
-    fuzz_check(ss_scene_write(scene, out) == SS_OK, "written");
+    fuzz_check(ss_scene_write(scene, out, NULL) == SS_OK, "written");
     fclose(out);
     FILE *in = fuzz_open(text, length);
-    fuzz_check(ss_scene_read(&back, in, "in", &err) == SS_OK, err.text);
+    fuzz_check(ss_scene_read(&back, in, "in", NULL, 0, &err) == SS_OK, err.text);
     fclose(in);
     free(text);
     fuzz_check(memcmp(&back, scene, sizeof back) == 0, "the scene reads back");
@@ -36,7 +36,7 @@ LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     const char *const settings[] = { setting };
     FILE *in = fuzz_open(bytes, text);
     memset(&scene, 0, sizeof scene);
-    ss_status status = ss_scene_read_set(&scene, in, "in", settings, nul != NULL, &err);
+    ss_status status = ss_scene_read(&scene, in, "in", settings, nul != NULL, &err);
     if (status == SS_OK)
         check_scene(&scene);
     else

@@ -30,6 +30,7 @@
 #endif
 #include <gsl/gsl_errno.h>
 #include "../random_scene.h"
+#include "scene/key.h"
 
 /* --- numbers ------------------------------------------------------------------------------------
  * Balls of a pool.  A function that needs room for a moment ends with used = what it was. */
@@ -658,7 +659,8 @@ enum { WRONG = 1, UNFINISHED = 2 };
 static void
 collect(listing *l, const ss_scene *scene, unsigned long *unresolved)
 {
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     ss_sim_stats stats;
     ss_error err;
     opts.method = l->method;

@@ -56,7 +56,7 @@ tolerance_of_walks(const cycles *c)
 void
 ss_cycles_begin(cycles *c)
 {
-    const ss_sim_opts sim = { .method = c->how->name, .tol = tolerance_of_walks(c),
+    const ss_sim_opts sim = { .size = sizeof(ss_sim_opts), .method = c->how->name, .tol = tolerance_of_walks(c),
                               .max_steps = c->opts->max_steps };
     const state *m = &c->w.m.now;
     c->n = 0;

@@ -29,7 +29,7 @@ write_scene(struct rows *rows, const ss_sweep_text *sweep)
     char *text = NULL;
     size_t size;
     FILE *all = open_memstream(&text, &size);
-    ss_status st = all == NULL ? SS_ENOMEM : ss_scene_write(sweep->scene, all);
+    ss_status st = all == NULL ? SS_ENOMEM : ss_scene_write(sweep->scene, all, NULL);
     if (all != NULL && fclose(all) != 0)
         st = SS_ENOMEM;
     for (char *line = text, *end; st == SS_OK && *line != '\0'; line = end + 1) {

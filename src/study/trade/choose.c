@@ -120,8 +120,10 @@ choose(choice *s, ss_sim_opts *opts, ss_error *err)
     const struct method *best = ss_method_for(&s->p.scene, BEST);
     if (best->kind == CLOSED_FORM && strcmp(witness[0], best->name) == 0
         && (opts->method == NULL || strcmp(opts->method, best->name) == 0)) {
+        ss_sim_opts usual;
+        ss_sim_opts_init(&usual, sizeof usual);
         opts->method = best->name;
-        opts->tol = ss_sim_defaults.tol;
+        opts->tol = usual.tol;
         return SS_OK;
     }
     s->max_steps = OUTRAGEOUS * (double)(s->ref.stats.steps + 1);
@@ -139,7 +141,10 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
 {
     if (opts == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_record_check(scene, err);
+    ss_sim_opts known;
+    ss_status st = ss_sim_opts_take(&known, opts, err);
+    if (st == SS_OK)
+        st = ss_record_check(scene, err);
     if (st == SS_OK)
         st = ss_range_check(accuracy, ss_trade_accuracies, "accuracy", err);
     const struct method *given;
@@ -147,9 +152,9 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
         st = ss_method_named(&given, opts->method, scene, err);
     if (st != SS_OK)
         return st;
-    const run empty = { .progress = opts->progress };
+    const run empty = { .progress = known.progress };
     choice s = { .p = ss_trade_probe(scene), .ref = empty, .run = empty, .accuracy = accuracy,
-                 .user_steps = opts->max_steps };
+                 .user_steps = known.max_steps };
     st = choose(&s, opts, err);
     ss_trade_run_free(&s.ref);
     ss_trade_run_free(&s.run);

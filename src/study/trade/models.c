@@ -116,7 +116,8 @@ pass_samples(const ss_sample *s, size_t n, void *user)
 static ss_status
 simulate(const ss_scene *scene, portrait *p, double *seconds, ss_error *err)
 {
-    ss_sim_opts opts = ss_sim_defaults;
+    ss_sim_opts opts;
+    ss_sim_opts_init(&opts, sizeof opts);
     opts.method = ss_method_for(scene, BEST)->name;
     opts.samples = p != NULL ? keep_samples : pass_samples;
     opts.events = p != NULL ? count_event : NULL;
@@ -131,10 +132,12 @@ static ss_status
 make_signal(portrait *p, const ss_scene *scene, ss_error *err)
 {
     const ss_sim_columns columns = { 1, COLUMNS, { 0, 1, 2, 3 } };
-    ss_header *head = ss_sim_header(scene, &columns);
-    ss_status st = head != NULL ? ss_signal_new(&p->signal, head, ss_scene_samples(scene), NULL) : SS_ENOMEM;
+    ss_header *head = NULL;
+    ss_status st = ss_sim_header(&head, scene, &columns, err);
+    if (st == SS_OK)
+        st = ss_signal_new(&p->signal, head, ss_scene_samples(scene), err);
     ss_header_free(head);
-    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+    return st;
 }
 
 static ss_status

@@ -112,7 +112,7 @@ ss_status
 ss_trade_run(run *k, const probe *p, const char *method, double tol, unsigned long max_steps,
            ss_error *err)
 {
-    const ss_sim_opts opts = { .method = method, .tol = tol, .max_steps = max_steps,
+    const ss_sim_opts opts = { .size = sizeof(ss_sim_opts), .method = method, .tol = tol, .max_steps = max_steps,
                                .samples = keep_samples, .progress = { watch, k }, .user = k,
                                .events = k->wants_events ? keep_event : NULL };
     if (k->x == NULL)
