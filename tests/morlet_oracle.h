@@ -70,8 +70,8 @@ worst_error(const ss_morlet *plan, const double *x, size_t n, double rate,
     double worst = 0, x_max = 0;
     for (size_t i = 0; i < n; i++)
         x_max = fmax(x_max, fabs(x[i]));
-    for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
-        const ss_scale *sc = ss_morlet_scale(plan, i);
+    for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
+        const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
         double unit = (opts->norm == SS_NORM_L1 ? 1 : sqrt(sc->a)) * x_max, most = 0, error = 0;
         for (size_t k = 0; k < sc->n; k++) {
             const double *got = w + 2 * (sc->offset + k);

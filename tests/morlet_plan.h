@@ -21,7 +21,7 @@ plan_of(size_t n, double rate, const ss_morlet_opts *opts)
 static inline double *
 transform(const ss_morlet *plan, const double *x)
 {
-    double *w = malloc((2 * ss_morlet_total(plan) + 1) * sizeof *w);
+    double *w = malloc((2 * ss_morlet_grid(plan)->total + 1) * sizeof *w);
     assert_int_equal(ss_morlet_execute(plan, x, w, NULL), SS_OK);
     return w;
 }

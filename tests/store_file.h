@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <stickslip.h>
+#include "map/map.h"
 
 #include "store_samples.h"
 #include "unit.h"

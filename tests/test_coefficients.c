@@ -1,6 +1,7 @@
 /* test_coefficients.c -- coefficients as a stream: read back, in any order of scales, and damaged. */
 #include <stdlib.h>
 #include <string.h>
+#include "map/map.h"
 #include "morlet_plan.h"
 #include "unit.h"
 

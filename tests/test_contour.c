@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+#include "map/map.h"
 #include "plot/contour.h"
 #include "contour_script.h"
 #include "shipped.h"

@@ -3,6 +3,7 @@
 #include <string.h>
 #include <math.h>
 #include <stickslip.h>
+#include "map/map.h"
 
 #include "new_signal.h"
 

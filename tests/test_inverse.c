@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+#include "map/map.h"
 
 #include "map/fft/blocks.h"
 #include "morlet_plan.h"
@@ -49,13 +50,15 @@ difference(const ss_signal *a, const ss_signal *b)
     return sqrt(off / all);
 }
 
+#define GRID .size = sizeof(ss_morlet_opts)
+
 static const ss_morlet_opts fine[] = {
-    { .center = 6, .voices = 16, .step = 0.25 },
-    { .center = 6, .voices = 8, .step = 0.25, .norm = SS_NORM_L1 },
-    { .center = 3, .voices = 4,  .step = 0.5,  .admissible = 1 },
-    { .center = 6, .voices = 4,  .dense = 1 },
-    { .center = 6, .voices = 2,  .step = 0.5,  .norm = SS_NORM_L1 },
-    { .center = 10, .voices = 6, .step = 0.4 },
+    { GRID, .center = 6, .voices = 16, .step = 0.25 },
+    { GRID, .center = 6, .voices = 8, .step = 0.25, .norm = SS_NORM_L1 },
+    { GRID, .center = 3, .voices = 4,  .step = 0.5,  .admissible = 1 },
+    { GRID, .center = 6, .voices = 4,  .dense = 1 },
+    { GRID, .center = 6, .voices = 2,  .step = 0.5,  .norm = SS_NORM_L1 },
+    { GRID, .center = 10, .voices = 6, .step = 0.4 },
 };
 
 static void
@@ -150,7 +153,7 @@ sum_at(const ss_scale *sc, const ss_morlet_opts *opts, double rate, const double
 static void
 in_blocks(const ss_morlet *plan, block_sums *sums, size_t i, double *scratch, double *w, double *x)
 {
-    const ss_scale *sc = ss_morlet_scale(plan, i);
+    const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
     make(NOISE, w, 2 * sc->n);
     memset(x, 0, plan->n * sizeof *x);
     for (size_t k = 0, n; k < sc->n; k += n) {
@@ -166,10 +169,13 @@ static void
 adjoint_in_blocks_is_the_sum(void **state)
 {
     static const ss_morlet_opts grid[] = {
-        { .center = 6, .voices = 3, .step = 0.25 }, { .center = 3, .voices = 2, .step = 0.7, .admissible = 1 },
-        { .center = 6, .voices = 3, .dense = 1 },   { .center = 2, .voices = 1, .dense = 1, .admissible = 1 },
-        { .center = 6, .voices = 3, .step = 0.3, .exact = 1 }, { .center = 40, .voices = 2, .step = 2 },
-        { .center = 5, .voices = 1, .step = 1 },
+        { GRID, .center = 6, .voices = 3, .step = 0.25 },
+        { GRID, .center = 3, .voices = 2, .step = 0.7, .admissible = 1 },
+        { GRID, .center = 6, .voices = 3, .dense = 1 },
+        { GRID, .center = 2, .voices = 1, .dense = 1, .admissible = 1 },
+        { GRID, .center = 6, .voices = 3, .step = 0.3, .exact = 1 },
+        { GRID, .center = 40, .voices = 2, .step = 2 },
+        { GRID, .center = 5, .voices = 1, .step = 1 },
     };
     static const size_t length[] = { 8009, 700 };
     (void)state;
@@ -179,10 +185,10 @@ adjoint_in_blocks_is_the_sum(void **state)
         opts.engine = SS_ENGINE_FFT, opts.accuracy = 1e-12, opts.threads = 1;
         ss_morlet *plan = plan_of(n, 1500, &opts);
         block_sums *sums = ss_block_sums_new(plan->blocks);
-        double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w), *x = malloc(n * sizeof *x), *scratch;
+        double *w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w), *x = malloc(n * sizeof *x), *scratch;
         assert_int_equal(ss_morlet_scratch(plan, &scratch), SS_OK);
-        for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
-            const ss_scale *sc = ss_morlet_scale(plan, i);
+        for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
+            const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
             double error = 0, sum_of_h = 1.88 / (1500 * sc->b_num / sc->b_den);
             double allow = 16 * DBL_EPSILON * sum_of_h;
             if (!ss_blocks_covers(plan->blocks, i))
@@ -217,8 +223,8 @@ static void
 refuses_what_has_no_inverse(void **state)
 {
     static const ss_morlet_opts coarse[] = {
-        { .center = 20, .voices = 1, .step = 0.5, .threads = 1 },
-        { .center = 6,  .voices = 8, .step = 5,   .threads = 1 },
+        { GRID, .center = 20, .voices = 1, .step = 0.5, .threads = 1 },
+        { GRID, .center = 6,  .voices = 8, .step = 5,   .threads = 1 },
     };
     ss_morlet_opts opts = ss_morlet_defaults;
     ss_signal *signal = some_signal(1);

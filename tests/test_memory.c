@@ -12,6 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 #include <stickslip.h>
+#include "map/map.h"
 
 #include "find/drops.h"
 #include "find/events.h"
@@ -385,7 +386,7 @@ comparisons(int variant)
     opts.engine = variant == 0 ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
     ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err);
     if (st == SS_OK)
-        st = (w = malloc(2 * ss_morlet_total(plan) * sizeof *w)) != NULL ? SS_OK : SS_ENOMEM;
+        st = (w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w)) != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
         st = ss_morlet_execute(plan, x, w, &err);
     if (st == SS_OK)
@@ -664,6 +665,7 @@ static ss_status
 overviews(int variant)
 {
     ss_overview *overview;
+    ss_overview_result shows;
     ss_morlet_opts opts = ss_morlet_defaults;
     (void)variant;
     opts.voices = 2;
@@ -673,7 +675,7 @@ overviews(int variant)
         return st;
     st = ss_overview_push(overview, signal->values, signal->n, &err);
     if (st == SS_OK)
-        st = ss_overview_end(overview, &err);
+        st = ss_overview_end(overview, &shows, &err);
     ss_overview_free(overview);
     return st;
 }
@@ -827,7 +829,7 @@ set_up(void **state)
     if (st != SS_OK)
         return -1;
     out = fmemopen(wisdom, sizeof wisdom, "w");
-    if (ss_wisdom_write(out) != SS_OK)
+    if (ss_wisdom_write(out, NULL) != SS_OK)
         return -1;
     fclose(out);
     ss_record record = { .signal = signal, .coefficients = coefficients };

@@ -9,6 +9,7 @@
 
 
 #include <stickslip.h>
+#include "map/map.h"
 #include "shipped.h"
 #include "unit.h"
 #include "scene/key.h"

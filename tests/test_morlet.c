@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include "map/map.h"
 #include "map/fft/blocks.h"
 #include "morlet_plan.h"
 #include "unit.h"
@@ -49,7 +50,7 @@ error_of_the_sum_is_below_its_bound(void **state)
                 double *x = malloc(s.n * sizeof *x);
                 make(which, x, s.n);
                 double *w = transform(plan, x);
-                size_t every = 1 + ss_morlet_total(plan) * s.n / 10000;
+                size_t every = 1 + ss_morlet_grid(plan)->total * s.n / 10000;
                 double worst = worst_error(plan, x, s.n, s.rate, &opts, w, every);
                 if (!(worst <= 1))
                     fail_msg("engine %d, center %g, %d voices, accuracy %g, %s: %g times the bound",
@@ -107,9 +108,9 @@ long_scales_by_fft_keep_the_bound(void **state)
             make(which, x, N);
             ss_morlet *plan = plan_of(N, row[i].rate, &opts);
             double *w = transform(plan, x);
-            size_t every = 1 + ss_morlet_total(plan) / 150;
-            for (size_t j = 0; j < ss_morlet_scales(plan); j++)
-                assert_int_equal(ss_morlet_engine(plan, j), SS_ENGINE_FFT);
+            size_t every = 1 + ss_morlet_grid(plan)->total / 150;
+            for (size_t j = 0; j < ss_morlet_grid(plan)->n_scales; j++)
+                assert_int_equal(ss_morlet_grid(plan)->scale[j].engine, SS_ENGINE_FFT);
             double worst = worst_error(plan, x, N, row[i].rate, &opts, w, every);
             if (!(worst <= 1))
                 fail_msg("row %zu, %s: %g times the bound", i, kind_name[which], worst);
@@ -165,11 +166,11 @@ blocks_keep_the_bound(void **state)
             make(which, x, n);
             ss_morlet *plan = plan_of(n, row[i].rate, &opts);
             double *w = transform(plan, x);
-            for (size_t j = 0; j < ss_morlet_scales(plan); j++)
+            for (size_t j = 0; j < ss_morlet_grid(plan)->n_scales; j++)
                 in_blocks += ss_blocks_covers(plan->blocks, j);
-            assert_true(in_blocks + 8 > ss_morlet_scales(plan));
+            assert_true(in_blocks + 8 > ss_morlet_grid(plan)->n_scales);
             double worst = worst_error(plan, x, n, row[i].rate, &opts, w,
-                                       1 + ss_morlet_total(plan) / 40);
+                                       1 + ss_morlet_grid(plan)->total / 40);
             if (!(worst <= 1))
                 fail_msg("row %zu, %s: %g times the bound", i, kind_name[which], worst);
             ss_morlet_free(plan);
@@ -224,7 +225,7 @@ threads_change_nothing(void **state)
     opts.threads = 5;
     ss_morlet *five = plan_of(N, 2000, &opts);
     double *u = transform(one, x), *v = transform(five, x);
-    assert_memory_equal(u, v, 2 * ss_morlet_total(one) * sizeof *u);
+    assert_memory_equal(u, v, 2 * ss_morlet_grid(one)->total * sizeof *u);
     free(u);
     free(v);
     ss_morlet_free(one);
@@ -242,7 +243,7 @@ static int
 follow(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
 {
     sequence *s = user;
-    const ss_scale *want = ss_morlet_scale(s->plan, s->next);
+    const ss_scale *want = &ss_morlet_grid(s->plan)->scale[s->next];
     assert_true(pthread_equal(pthread_self(), s->thread));
     assert_true(scale->j == want->j && first == 0 && n == want->n && samples == 3001);
     assert_memory_equal(w, s->w + 2 * want->offset, 2 * n * sizeof *w);
@@ -274,7 +275,7 @@ scales_come_one_by_one_to_the_last_bit(void **state)
         double *w = transform(plan, x);
         sequence s = { .plan = plan, .w = w, .thread = pthread_self() };
         assert_int_equal(ss_morlet_each(plan, x, follow, &s, NULL), SS_OK);
-        assert_int_equal(s.next, ss_morlet_scales(plan));
+        assert_int_equal(s.next, ss_morlet_grid(plan)->n_scales);
         s.next = 0;
         s.stop_at = 2;
         assert_int_equal(ss_morlet_each(plan, x, follow, &s, NULL), SS_STOP);
@@ -286,7 +287,7 @@ scales_come_one_by_one_to_the_last_bit(void **state)
     opts.progress = (ss_progress){ stop_half_way, &done };
     ss_morlet *plan = plan_of(N, 2000, &opts);
     sequence s = { .plan = plan, .thread = pthread_self() };
-    double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    double *w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
     s.w = w;
     assert_int_equal(ss_morlet_execute(plan, x, w, NULL), SS_STOP);
     ss_morlet_free(plan);
@@ -298,7 +299,7 @@ scales_come_one_by_one_to_the_last_bit(void **state)
     s.plan = plan = plan_of(N, 2000, &opts);
     done = 0;
     assert_int_equal(ss_morlet_each(plan, x, follow, &s, NULL), SS_STOP);
-    assert_true(done > 0.5 && s.next < ss_morlet_scales(plan));
+    assert_true(done > 0.5 && s.next < ss_morlet_grid(plan)->n_scales);
     x[77] = INFINITY;
     ss_error err = { 0 };
     assert_int_equal(ss_morlet_each(plan, x, follow, &s, &err), SS_EINVAL);
@@ -320,7 +321,7 @@ make_plans(void *user)
     opts.engine = SS_ENGINE_FFT;
     for (opts.voices = 1; opts.voices <= 12; opts.voices++) {
         *failures += ss_morlet_new(&plan, N - (size_t)opts.voices, 2000, &opts, NULL) != SS_OK;
-        w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+        w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
         *failures += ss_morlet_execute(plan, x, w, NULL) != SS_OK;
         free(w);
         ss_morlet_free(plan);
@@ -359,7 +360,7 @@ wisdom_is_kept_and_keeps_the_bound(void **state)
     ss_morlet *plan = plan_of(N, 2000, &opts);
     double *w = transform(plan, x);
     assert_true(worst_error(plan, x, N, 2000, &opts, w, 7) <= 1);
-    assert_int_equal(ss_wisdom_write(file), SS_OK);
+    assert_int_equal(ss_wisdom_write(file, NULL), SS_OK);
     rewind(file);
     assert_int_equal(ss_wisdom_read(file, &err), SS_OK);
     rewind(file);
@@ -394,7 +395,7 @@ engines_agree_and_damage_is_seen(void **state)
         double *w = transform(plan, x);
         assert_int_equal(ss_morlet_compare(plan, x, w, 10, &difference, NULL), SS_OK);
         assert_true(difference > 0 && difference < 2e-6);
-        for (size_t c = 0; c < 2 * ss_morlet_total(plan); c++)
+        for (size_t c = 0; c < 2 * ss_morlet_grid(plan)->total; c++)
             w[c] *= 1.001;      /* of the largest, too */
         assert_int_equal(ss_morlet_compare(plan, x, w, 10, &difference, NULL), SS_OK);
         assert_true(difference > 5e-4);

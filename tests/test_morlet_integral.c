@@ -1,6 +1,7 @@
 /* test_morlet_integral.c -- wavelet coefficients against the integral of a continuous signal by GSL. */
 #include <stdlib.h>
 #include <gsl/gsl_integration.h>
+#include "map/map.h"
 #include "morlet_plan.h"
 #include "unit.h"
 
@@ -64,8 +65,8 @@ sampling_error(wave p, double rate, const ss_morlet_opts *opts, double b_lo, dou
         x[(size_t)rate] = p.first;
     ss_morlet *plan = plan_of(n, rate, opts);
     double *w = transform(plan, x);
-    for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
-        const ss_scale *sc = ss_morlet_scale(plan, i);
+    for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
+        const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
         size_t at, every = sc->n / 40 + 1;
         double most = largest(sc, w, &at), want[2];
         for (size_t k = 0; k < sc->n; k += every) {

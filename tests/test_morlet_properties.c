@@ -2,6 +2,7 @@
  * and signals and options at the extremes. */
 #include <stdlib.h>
 #include <string.h>
+#include "map/map.h"
 #include "morlet_plan.h"
 #include "unit.h"
 
@@ -48,8 +49,8 @@ cone_of_an_impulse_is_the_wavelet(void **state)
     opts.accuracy = 1e-13;
     ss_morlet *plan = plan_of(N, rate, &opts);
     double *w = transform(plan, x);
-    for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
-        const ss_scale *sc = ss_morlet_scale(plan, i);
+    for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
+        const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
         for (size_t k = 0; k < sc->n; k++) {
             double *got = w + 2 * (sc->offset + k), unit = 3 / sqrt(sc->a) / rate;
             double u = (217 / rate - ss_scale_b(sc, k)) / sc->a;
@@ -80,8 +81,8 @@ is_linear(void **state)
         x[2][i] = 2 * x[0][i] - 3 * x[1][i];
     ss_morlet *plan = plan_of(N, 2000, &opts);
     double *u = transform(plan, x[0]), *v = transform(plan, x[1]), *w = transform(plan, x[2]);
-    for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
-        const ss_scale *sc = ss_morlet_scale(plan, i);
+    for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
+        const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
         double allow = sqrt(sc->a) * 5 * (3 * 1e-13 + 3 * 16 * DBL_EPSILON);
         for (size_t c = 2 * sc->offset; c < 2 * (sc->offset + sc->n); c++)
             assert_true(fabs(w[c] - (2 * u[c] - 3 * v[c])) <= allow);
@@ -105,8 +106,8 @@ shifts_with_the_signal_by_a_lattice_step(void **state)
     memcpy(y + 32, x, (N - 64) * sizeof *x);        /* 2 steps of 2^-6 s at 1024 Hz */
     ss_morlet *plan = plan_of(N, 1024, &opts);
     double *u = transform(plan, x), *v = transform(plan, y);
-    const ss_scale *sc = ss_morlet_scale(plan, 0);
-    assert_int_equal(ss_morlet_scales(plan), 1);
+    const ss_scale *sc = ss_morlet_grid(plan)->scale;
+    assert_int_equal(ss_morlet_grid(plan)->n_scales, 1);
     assert_true(sc->a == 0x1p-6);
     for (size_t k = 0; k + 2 < sc->n; k++)
         for (int c = 0; c < 2; c++)
@@ -128,9 +129,9 @@ scales_with_the_rate(void **state)
     make(WEAK_BURST, x, N);
     ss_morlet *fast = plan_of(N, 2000, &opts), *slow = plan_of(N, 1000, &opts);
     double *u = transform(fast, x), *v = transform(slow, x);
-    assert_int_equal(ss_morlet_total(fast), ss_morlet_total(slow));
-    for (size_t i = 0; i < ss_morlet_scales(fast); i++) {
-        const ss_scale *p = ss_morlet_scale(fast, i), *q = ss_morlet_scale(slow, i);
+    assert_int_equal(ss_morlet_grid(fast)->total, ss_morlet_grid(slow)->total);
+    for (size_t i = 0; i < ss_morlet_grid(fast)->n_scales; i++) {
+        const ss_scale *p = &ss_morlet_grid(fast)->scale[i], *q = &ss_morlet_grid(slow)->scale[i];
         assert_true(2 * p->a == q->a && p->j + 16 == q->j && p->f == 2 * q->f);
         for (size_t c = 2 * p->offset; c < 2 * (p->offset + p->n); c++)
             assert_true(fabs(sqrt(2) * u[c] - v[c]) <= 4 * DBL_EPSILON * fabs(v[c]));
@@ -170,8 +171,8 @@ dyadic_grid_is_exact(void **state)
     (void)state;
     opts.voices = 1, opts.step = 1;
     ss_morlet *plan = plan_of(6000, 2000, &opts);
-    for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
-        const ss_scale *sc = ss_morlet_scale(plan, i);
+    for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
+        const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
         assert_true(sc->a == ldexp(1, sc->j) && sc->m == sc->j);
         for (size_t k = 0; k < sc->n; k++)
             assert_true(ss_scale_b(sc, k) == ldexp((double)k, sc->j));
@@ -193,8 +194,8 @@ steps_are_fractions_of_samples_just_below_the_one_asked_for(void **state)
             ss_morlet_opts opts = ss_morlet_defaults;
             opts.step = row[i].step;
             ss_morlet *plan = plan_of(6000, rate, &opts);
-            for (size_t j = 0; j < ss_morlet_scales(plan); j++) {
-                const ss_scale *sc = ss_morlet_scale(plan, j);
+            for (size_t j = 0; j < ss_morlet_grid(plan)->n_scales; j++) {
+                const ss_scale *sc = &ss_morlet_grid(plan)->scale[j];
                 double ratio = sc->b_num / sc->b_den / (opts.step * sc->a);
                 double m = rint(sc->b_den / rate);
                 assert_true(ratio <= 1 + 1e-15 && ratio >= row[i].least * (1 - 1e-15));
@@ -215,9 +216,9 @@ exact_steps_are_the_scale_times_the_step(void **state)
     for (opts.step = 0.25; opts.step < 3; opts.step += 1) {
         opts.exact = opts.step <= 1;
         ss_morlet *plan = plan_of(6000, 2000, &opts);
-        for (size_t j = 0; j < ss_morlet_scales(plan); j++)
-            assert_true(ss_scale_b(ss_morlet_scale(plan, j), 1)
-                        == opts.step * ss_morlet_scale(plan, j)->a);
+        for (size_t j = 0; j < ss_morlet_grid(plan)->n_scales; j++)
+            assert_true(ss_scale_b(&ss_morlet_grid(plan)->scale[j], 1)
+                        == opts.step * ss_morlet_grid(plan)->scale[j].a);
         ss_morlet_free(plan);
     }
 }
@@ -230,8 +231,8 @@ dense_grid_has_a_coefficient_a_sample(void **state)
     opts.dense = 1;
     for (size_t n = 12; n < 300; n++) {
         ss_morlet *plan = plan_of(n, 441. / 7, &opts);
-        assert_int_equal(ss_morlet_total(plan), n * ss_morlet_scales(plan));
-        assert_true(ss_scale_b(ss_morlet_scale(plan, 0), n - 1) == (double)(n - 1) / (441. / 7));
+        assert_int_equal(ss_morlet_grid(plan)->total, n * ss_morlet_grid(plan)->n_scales);
+        assert_true(ss_scale_b(ss_morlet_grid(plan)->scale, n - 1) == (double)(n - 1) / (441. / 7));
         ss_morlet_free(plan);
     }
 }
@@ -250,7 +251,7 @@ long_dense_scales_are_as_exact_by_either_engine(void **state)
     opts.m0 = 15, opts.m1 = 17;
     opts.accuracy = 1e-12;
     ss_morlet *plan = plan_of(N, 1, &opts);
-    double *w = test_malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    double *w = test_malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
     assert_int_equal(ss_morlet_execute(plan, x, w, NULL), SS_OK);
     assert_int_equal(ss_morlet_compare(plan, x, w, 5, &differs, NULL), SS_OK);
     assert_true(differs <= 2e-12);
@@ -264,8 +265,8 @@ default_scales_are_four_cycles_a_record_to_the_highest_resolved(void **state)
 {
     (void)state;
     ss_morlet *plan = plan_of(6000, 2000, &ss_morlet_defaults);
-    const ss_scale *first = ss_morlet_scale(plan, 0);
-    const ss_scale *last = ss_morlet_scale(plan, ss_morlet_scales(plan) - 1);
+    const ss_scale *first = ss_morlet_grid(plan)->scale;
+    const ss_scale *last = &ss_morlet_grid(plan)->scale[ss_morlet_grid(plan)->n_scales - 1];
     double d = exp2(1. / 16), u;
     assert_true(first->f >= 4. / 3 && first->f / d < 4. / 3);
     u = last->a * M_PI * 2000 - 6;
@@ -282,7 +283,7 @@ edges_are_within_the_cone(void **state)
     (void)state;
     opts.octaves = 1, opts.m0 = opts.m1 = -3, opts.dense = 1;
     ss_morlet *plan = plan_of(1001, 1000, &opts);
-    const ss_scale *sc = ss_morlet_scale(plan, 0);
+    const ss_scale *sc = ss_morlet_grid(plan)->scale;
     for (size_t k = 0; k < sc->n; k++)      /* sqrt(2)/8 s = 176.8 samples */
         assert_int_equal(ss_scale_edge(sc, k, 1001, 1000), k <= 176 || k >= 1000 - 176);
     ss_morlet_free(plan);
@@ -376,7 +377,7 @@ amplitudes_of_any_size_scale_the_coefficients(void **state)
         for (size_t k = 0; k < N; k++)
             y[k] = ldexp(x[k], power[i / 3]);
         double *v = transform(plan, y);
-        for (size_t c = 0; c < 2 * ss_morlet_total(plan); c++)
+        for (size_t c = 0; c < 2 * ss_morlet_grid(plan)->total; c++)
             assert_true(v[c] == ldexp(u[c], power[i / 3]));
         free(v);
         free(u);
@@ -399,8 +400,8 @@ samples_below_2_to_the_minus_900_of_the_largest_count_as_zeros(void **state)
     for (opts.engine = SS_ENGINE_QUADRATURE; opts.engine <= SS_ENGINE_FFT; opts.engine++) {
         ss_morlet *plan = plan_of(N, 2000, &opts);
         double *u = transform(plan, x), *v = transform(plan, y);
-        assert_memory_equal(u, v, 2 * ss_morlet_total(plan) * sizeof *u);
-        const ss_scale *shortest = ss_morlet_scale(plan, ss_morlet_scales(plan) - 1);
+        assert_memory_equal(u, v, 2 * ss_morlet_grid(plan)->total * sizeof *u);
+        const ss_scale *shortest = &ss_morlet_grid(plan)->scale[ss_morlet_grid(plan)->n_scales - 1];
         assert_true(opts.engine != SS_ENGINE_QUADRATURE
                     || fabs(u[2 * (shortest->offset + shortest->n * 3 / 4)]) > 0x1p-960);
         free(u);
@@ -464,8 +465,8 @@ trends_are_subtracted(void **state)
         opts.detrend = d;
         ss_morlet *less = plan_of(N, 2000, &opts);
         double *u = transform(plain, x), *v = transform(less, y);
-        for (size_t i = 0; i < ss_morlet_scales(less); i++) {
-            const ss_scale *sc = ss_morlet_scale(less, i);
+        for (size_t i = 0; i < ss_morlet_grid(less)->n_scales; i++) {
+            const ss_scale *sc = &ss_morlet_grid(less)->scale[i];
             for (size_t c = 2 * sc->offset; c < 2 * (sc->offset + sc->n); c++)
                 assert_true(fabs(u[c] - v[c])
                             <= sqrt(sc->a) * (2e-12 * 2 + 16 * DBL_EPSILON * top));
@@ -488,7 +489,7 @@ constant_signal_less_its_mean_is_nothing(void **state)
     for (opts.detrend = SS_DETREND_MEAN; opts.detrend <= SS_DETREND_LINEAR; opts.detrend++) {
         ss_morlet *plan = plan_of(500, 2000, &opts);
         double *w = transform(plan, x);
-        for (size_t c = 0; c < 2 * ss_morlet_total(plan); c++)
+        for (size_t c = 0; c < 2 * ss_morlet_grid(plan)->total; c++)
             assert_true(w[c] == 0);
         ss_morlet_free(plan);
         free(w);

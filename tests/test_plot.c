@@ -510,7 +510,7 @@ new_coefficients(void)
     c->w = calloc(2 * 3 * 1000, sizeof *c->w);
     for (size_t i = 0; i < 3; i++) {
         double f = 20 << i, a = 6 / (2 * M_PI * f);
-        c->scale[i] = (ss_scale){ 0, log2(a), a, f, 1, 1000, 1000, 1000 * i };
+        c->scale[i] = (ss_scale){ 0, log2(a), a, f, 1, 1000, 1000, 1000 * i, SS_ENGINE_AUTO };
     }
     return c;
 }

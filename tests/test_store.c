@@ -1,6 +1,7 @@
 /* test_store.c -- what goes into an HDF5 file comes out again, to the last bit, at once or piece by
  * piece. */
 #include <time.h>
+#include "map/map.h"
 
 #include "store_file.h"
 
@@ -173,10 +174,10 @@ write_transform(const ss_signal *signal, const ss_morlet_opts *opts, int stream)
     const double *x = signal->values + signal->n;
     struct stat st;
     assert_int_equal(ss_morlet_new(&plan, signal->n, signal->head->rate, opts, NULL), SS_OK);
-    assert_int_equal(ss_coefficients_header(&grid.head, signal->head, 1, grid.n, opts), SS_OK);
-    grid.n_scales = ss_morlet_scales(plan);
+    assert_int_equal(ss_coefficients_header(&grid.head, signal->head, 1, grid.n, opts, NULL), SS_OK);
+    grid.n_scales = ss_morlet_grid(plan)->n_scales;
     grid.scale = malloc(grid.n_scales * sizeof *grid.scale);
-    memcpy(grid.scale, ss_morlet_scale(plan, 0), grid.n_scales * sizeof *grid.scale);
+    memcpy(grid.scale, ss_morlet_grid(plan)->scale, grid.n_scales * sizeof *grid.scale);
     assert_int_equal(ss_store_writer_new(&writer, path, NULL, &grid, NULL), SS_OK);
     if (stream) {
         assert_int_equal(ss_stream_new(&flow, signal->head->rate, opts, to_store, writer, NULL), SS_OK);
@@ -206,13 +207,13 @@ error_of_file(const ss_signal *signal, const ss_morlet_opts *opts)
     exact.engine = SS_ENGINE_QUADRATURE, exact.accuracy = 1e-13, exact.rounded = 0, exact.force = 1;
     assert_int_equal(ss_store_read_coefficients(&back, path, NULL), SS_OK);
     assert_int_equal(ss_morlet_new(&plan, signal->n, signal->head->rate, &exact, NULL), SS_OK);
-    assert_int_equal(ss_morlet_scales(plan), back->n_scales);
-    double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    assert_int_equal(ss_morlet_grid(plan)->n_scales, back->n_scales);
+    double *w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
     assert_int_equal(ss_morlet_execute(plan, signal->values + signal->n, w, NULL), SS_OK);
     for (size_t i = 0; i < back->n_scales; i++) {
         const ss_scale *scale = &back->scale[i];
         double most = 0, error = 0;
-        assert_int_equal(scale->offset, ss_morlet_scale(plan, i)->offset);
+        assert_int_equal(scale->offset, ss_morlet_grid(plan)->scale[i].offset);
         for (size_t k = scale->offset; k < scale->offset + scale->n; k++) {
             most = fmax(most, hypot(w[2 * k], w[2 * k + 1]));
             error = fmax(error, hypot(w[2 * k] - back->w[2 * k], w[2 * k + 1] - back->w[2 * k + 1]));

@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include "map/map.h"
 #include "store_file.h"
 
 static void

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "fit/order.h"
+#include "map/map.h"
 #include "morlet_oracle.h"
 #include "unit.h"
 
@@ -19,8 +20,8 @@ typedef struct collection {
 static size_t
 index_of(const ss_morlet *plan, const ss_scale *scale)
 {
-    for (size_t i = 0; i < ss_morlet_scales(plan); i++)
-        if (ss_morlet_scale(plan, i)->j == scale->j)
+    for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++)
+        if (ss_morlet_grid(plan)->scale[i].j == scale->j)
             return i;
     fail_msg("scale %d is not one of the record's", scale->j);
     return 0;
@@ -32,7 +33,7 @@ collect(const ss_scale *scale, size_t first, size_t n, const double *w, size_t s
 {
     collection *c = user;
     size_t i = index_of(c->plan, scale);
-    const ss_scale *want = ss_morlet_scale(c->plan, i);
+    const ss_scale *want = &ss_morlet_grid(c->plan)->scale[i];
     assert_true(n > 0 && samples > 0);
     assert_int_equal(first, c->next[i]);
     assert_true(first + n <= want->n);
@@ -92,10 +93,10 @@ stream_of(const double *x, size_t n, double rate, const ss_morlet_opts *opts, bl
         || ss_stream_new(&stream, rate, opts, collect, &c, &err) != SS_OK)
         fail_msg("%s", err.text);
     c.plan = *plan;
-    c.w = malloc(2 * ss_morlet_total(*plan) * sizeof *c.w);
-    assert_int_equal(ss_stream_scales(stream), ss_morlet_scales(*plan));
+    c.w = malloc(2 * ss_morlet_grid(*plan)->total * sizeof *c.w);
+    assert_int_equal(ss_stream_grid(stream)->n_scales, ss_morlet_grid(*plan)->n_scales);
     feed(stream, x, n, how);
-    assert_int_equal(c.total, ss_morlet_total(*plan));
+    assert_int_equal(c.total, ss_morlet_grid(*plan)->total);
     ss_stream_free(stream);
     return c.w;
 }
@@ -106,7 +107,7 @@ check_stream(const char *what, const double *x, size_t n, double rate, const ss_
 {
     ss_morlet *plan;
     double *w = stream_of(x, n, rate, opts, how, &plan);
-    size_t every = 1 + ss_morlet_total(plan) / looked_at;
+    size_t every = 1 + ss_morlet_grid(plan)->total / looked_at;
     double worst = worst_error(plan, x, n, rate, opts, w, every);
     if (!(worst <= 1))
         fail_msg("%s, %zu samples, blocks %d, engine %d, accuracy %g: %g times the bound", what, n,
@@ -208,15 +209,15 @@ quiet_beginning_is_as_accurate_as_by_itself(void **state)
         for (size_t i = 0; i < QUIET; i++)
             x[i] *= 1e-9;
         assert_int_equal(ss_morlet_new(&plan, N, 2000, &opts, NULL), SS_OK);
-        collection c = { .plan = plan, .w = malloc(2 * ss_morlet_total(plan) * sizeof *c.w) }, then;
+        collection c = { .plan = plan, .w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *c.w) }, then;
         assert_int_equal(ss_stream_new(&stream, 2000, &opts, collect, &c, NULL), SS_OK);
         assert_int_equal(ss_stream_push(stream, x, QUIET, NULL), SS_OK);
         assert_int_equal(ss_stream_drain(stream, NULL), SS_OK);
         then = c;
         assert_int_equal(ss_stream_push(stream, x + QUIET, N - QUIET, NULL), SS_OK);
         assert_int_equal(ss_stream_end(stream, NULL), SS_OK);
-        for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
-            const ss_scale *sc = ss_morlet_scale(plan, i);
+        for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
+            const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
             double most = 0, error = 0, eps = DBL_EPSILON * sqrt(sc->a);
             assert_true(then.next[i] > 0);
             for (size_t k = 0; k < then.next[i]; k++) {
@@ -249,9 +250,9 @@ blocks_are_those_of_the_record(void **state)
     make(NOISE, x, N);
     opts.octaves = 1, opts.m0 = 2, opts.m1 = 3;
     double *w = stream_of(x, N, 1, &opts, RANDOM, &plan);
-    double *whole = malloc(2 * ss_morlet_total(plan) * sizeof *whole);
+    double *whole = malloc(2 * ss_morlet_grid(plan)->total * sizeof *whole);
     assert_int_equal(ss_morlet_execute(plan, x, whole, NULL), SS_OK);
-    assert_memory_equal(w, whole, 2 * ss_morlet_total(plan) * sizeof *w);
+    assert_memory_equal(w, whole, 2 * ss_morlet_grid(plan)->total * sizeof *w);
     ss_morlet_free(plan);
     free(whole);
     free(w);
@@ -307,7 +308,7 @@ check_window(const ss_scale *scale, size_t first, size_t n, const double *w, siz
     delays *d = user;
     size_t i = 0;
     (void)w;
-    while (ss_stream_scale(d->stream, i)->a != scale->a)
+    while (ss_stream_grid(d->stream)->scale[i].a != scale->a)
         i++;
     double window = (double)ss_stream_window(d->stream, i);
     for (size_t k = first; k < first + n; k++)
@@ -325,7 +326,7 @@ windows_delay_coefficients_by_less_than_their_length(void **state)
         delays d = { .ended = 0 };
         opts.fmin = row == 2 ? 1 : 20, opts.voices = 1, opts.dense = row == 1;
         assert_int_equal(ss_stream_new(&d.stream, 2000, &opts, check_window, &d, NULL), SS_OK);
-        assert_int_equal(ss_stream_window(d.stream, ss_stream_scales(d.stream)), 0);
+        assert_int_equal(ss_stream_window(d.stream, ss_stream_grid(d.stream)->n_scales), 0);
         assert_in_range(ss_stream_window(d.stream, 0), 1 << 13, row == 2 ? 140000 : 20000);
         for (int i = 0; i < 150000; i++)
             assert_int_equal(ss_stream_push(d.stream, &(double){ sin(i) }, 1, NULL), SS_OK);
@@ -352,7 +353,7 @@ threads_change_nothing(void **state)
         ss_morlet_free(plan);
         opts.threads = 4;
         double *four = stream_of(x, N, 2000, &opts, ALL, &plan);
-        assert_memory_equal(one, four, 2 * ss_morlet_total(plan) * sizeof *one);
+        assert_memory_equal(one, four, 2 * ss_morlet_grid(plan)->total * sizeof *one);
         ss_morlet_free(plan);
         free(one);
         free(four);
@@ -378,7 +379,7 @@ amplitudes_of_any_size_scale_the_coefficients(void **state)
             for (size_t i = 0; i < N; i++)
                 y[i] = ldexp(x[i], power[p]);
             double *w = stream_of(x, N, 2000, &opts, RANDOM, &plan), most = 0;
-            size_t total = 2 * ss_morlet_total(plan);
+            size_t total = 2 * ss_morlet_grid(plan)->total;
             ss_morlet_free(plan);
             double *v = stream_of(y, N, 2000, &opts, RANDOM, &plan);
             for (size_t i = 0; i < total; i++) {
@@ -482,7 +483,7 @@ sink_stops_the_stream(void **state)
     make(NOISE, x, 5000);
     opts.fmin = 20;
     assert_int_equal(ss_morlet_new(&plan, 5000, 2000, &opts, NULL), SS_OK);
-    collection c = { .plan = plan, .w = malloc(2 * ss_morlet_total(plan) * sizeof *c.w),
+    collection c = { .plan = plan, .w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *c.w),
                      .stop_after = 100 };
     assert_int_equal(ss_stream_new(&stream, 2000, &opts, collect, &c, NULL), SS_OK);
     assert_int_equal(ss_stream_push(stream, x, 1000, NULL), SS_OK);      /* no window is full */
@@ -506,7 +507,7 @@ static int
 write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples,
            void *user)
 {
-    return ss_coefficient_writer_rows(((file *)user)->writer, scale, first, n, w, samples) != SS_OK;
+    return ss_coefficient_writer_rows(((file *)user)->writer, scale, first, n, w, samples, NULL) != SS_OK;
 }
 
 /* A file of the coefficients of n samples as a stream, and those that the whole record gives. */
@@ -524,11 +525,11 @@ file_of_stream(size_t n, ss_format format, int dense, ss_coefficients **whole)
     ss_header_note(head, "made", "by hand", NULL);
     assert_int_equal(ss_signal_new(&signal, head, n, NULL), SS_OK);
     make(NOISE, signal->values, n);
-    assert_int_equal(ss_coefficients_header(&own, head, 0, 0, &opts), SS_OK);
+    assert_int_equal(ss_coefficients_header(&own, head, 0, 0, &opts, NULL), SS_OK);
     assert_int_equal(ss_coefficient_writer_new(&f.writer, f.out, format, own, NULL), SS_OK);
     assert_int_equal(ss_stream_new(&stream, 2000, &opts, write_rows, &f, NULL), SS_OK);
     feed(stream, signal->values, n, HURRIED);
-    assert_int_equal(ss_coefficient_writer_end(f.writer, n), SS_OK);
+    assert_int_equal(ss_coefficient_writer_end(f.writer, n, NULL), SS_OK);
     opts.force = 1;
     opts.fmax = highest(2000, &opts);
     assert_int_equal(ss_morlet_transform(whole, signal, 0, &opts, NULL), SS_OK);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <stickslip.h>
+#include "map/map.h"
 
 #include "unit.h"
 
@@ -121,7 +122,7 @@ threads_that_share_a_plan_get_what_one_gets(void **state)
         opts.engine = engine[e];
         opts.threads = 2;               /* and each of the two has two */
         assert_int_equal(ss_morlet_new(&plan, signal->n, 2000, &opts, NULL), SS_OK);
-        size_t bytes = 2 * ss_morlet_total(plan) * sizeof(double);
+        size_t bytes = 2 * ss_morlet_grid(plan)->total * sizeof(double);
         job alone = { .plan = plan, .x = signal->values, .w = malloc(bytes) }, jobs[THREADS];
         for (int i = 0; i < THREADS; i++)
             jobs[i] = (job){ .plan = plan, .x = signal->values, .w = malloc(bytes) };

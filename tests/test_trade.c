@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include <stickslip.h>
+#include "map/map.h"
 #include "oracle.h"
 #include "shipped.h"
 #include "uniform.h"

@@ -5,6 +5,7 @@
  * (morlet_oracle.h), for the bound in stickslip/morlet.h. */
 #include <stdlib.h>
 #include <string.h>
+#include "map/map.h"
 
 #include "morlet_oracle.h"
 #include "unit.h"
@@ -111,10 +112,10 @@ extreme_records_keep_the_bound(void **state)
             opts.accuracy = accuracy[k / 4];
             if (ss_morlet_new(&plan, r->n, r->rate, &opts, &err) != SS_OK)
                 fail_msg("%s: %s", r->what, err.text);
-            double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+            double *w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
             if (ss_morlet_execute(plan, x, w, &err) != SS_OK)
                 fail_msg("%s: %s", r->what, err.text);
-            size_t every = 1 + ss_morlet_total(plan) * r->n / 20000;
+            size_t every = 1 + ss_morlet_grid(plan)->total * r->n / 20000;
             double worst = worst_error(plan, x, r->n, r->rate, &opts, w, every);
             if (!(worst <= 1))
                 fail_msg("%s, engine %d, %s steps, accuracy %g: %g times the bound", r->what,
@@ -137,12 +138,12 @@ an_oscillation_is_seen_on_an_offset_of_1e12(void **state)
     (void)state;
     opts.detrend = SS_DETREND_MEAN;
     assert_int_equal(ss_morlet_new(&plan, N, 2000, &opts, NULL), SS_OK);
-    double *u = malloc(2 * ss_morlet_total(plan) * sizeof *u);
-    double *v = malloc(2 * ss_morlet_total(plan) * sizeof *v);
+    double *u = malloc(2 * ss_morlet_grid(plan)->total * sizeof *u);
+    double *v = malloc(2 * ss_morlet_grid(plan)->total * sizeof *v);
     assert_int_equal(ss_morlet_execute(plan, on_offset, u, NULL), SS_OK);
     assert_int_equal(ss_morlet_execute(plan, alone, v, NULL), SS_OK);
-    for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
-        const ss_scale *sc = ss_morlet_scale(plan, i);
+    for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
+        const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
         double allow = sqrt(sc->a) * (1.9 * 6.2e-5 + 4 * opts.accuracy);
         for (size_t c = 2 * sc->offset; c < 2 * (sc->offset + sc->n); c++)
             if (!(fabs(u[c] - v[c]) <= allow))
@@ -189,7 +190,7 @@ what_cannot_be_is_refused_in_words(void **state)
             x[17] = r->spoil;
         ss_status st = ss_morlet_new(&plan, r->n, r->rate, &opts, &err);
         if (st == SS_OK) {
-            w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+            w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
             st = ss_morlet_execute(plan, x, w, &err);
         }
         if (st == SS_OK || strstr(err.text, r->says) == NULL)
@@ -222,10 +223,10 @@ two_to_the_26_samples_keep_the_bound(void **state)
     opts.accuracy = 1e-9;
     opts.fmin = 0.5;            /* longer scales have too many taps for the sum in long double */
     assert_int_equal(ss_morlet_new(&plan, n, 2000, &opts, NULL), SS_OK);
-    double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    double *w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
     assert_int_equal(ss_morlet_execute(plan, x, w, NULL), SS_OK);
-    for (size_t i = 0; i < ss_morlet_scales(plan); i++) {
-        const ss_scale *sc = ss_morlet_scale(plan, i);
+    for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
+        const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
         double most = 0;
         for (size_t k = 0; k < sc->n; k++)
             most = fmax(most, hypot(w[2 * (sc->offset + k)], w[2 * (sc->offset + k) + 1]));

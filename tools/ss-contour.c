@@ -61,8 +61,9 @@ static size_t
 open_overview(drawing *d, const ss_header *head)
 {
     ss_error err = { 0 };
-    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_morlet_opts opts;
     size_t column = tool_column(head, d->path, d->column);
+    ss_morlet_opts_init(&opts, sizeof opts);
     opts.fmin = d->opts.fmin > 0 ? d->opts.fmin : LOWEST * head->rate;
     opts.fmax = d->opts.fmax;
     tool_check(ss_overview_new(&d->overview, head, column, &opts, &err), &err);
@@ -82,14 +83,15 @@ static void
 end_overview(drawing *d)
 {
     ss_error err = { 0 };
-    ss_status st = ss_overview_end(d->overview, &err);
+    ss_overview_result shows;
+    ss_status st = ss_overview_end(d->overview, &shows, &err);
     if (st != SS_OK)
         tool_die("%s: %s", d->path, err.text);
-    d->coefficients = ss_overview_coefficients(d->overview);
-    d->opts.signal = ss_overview_signal(d->overview);
-    d->opts.top = ss_overview_top(d->overview);
+    d->coefficients = shows.coefficients;
+    d->opts.signal = shows.signal;
+    d->opts.top = shows.top;
     if (isnan(d->opts.noise))
-        d->opts.noise = ss_overview_noise(d->overview);
+        d->opts.noise = shows.noise;
     d->opts.fmin = d->opts.fmax = 0;
     d->opts.progress = (ss_progress){ NULL, NULL };     /* the rest takes no time */
 }

@@ -181,7 +181,7 @@ write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_
     if (f->store != NULL)
         st = ss_store_writer_rows(f->store, scale, first, n, w, samples, &f->error);
     else
-        st = ss_coefficient_writer_rows(f->text, scale, first, n, w, samples);
+        st = ss_coefficient_writer_rows(f->text, scale, first, n, w, samples, &f->error);
     if (f->w != NULL)
         memcpy(f->w + 2 * f->coefficients, w, 2 * n * sizeof *w);
     f->coefficients += n;
@@ -202,7 +202,7 @@ open_output(flow *f, const request *req, const ss_header *signal, size_t column,
             const ss_scale *scale, size_t n_scales)
 {
     ss_header *head;
-    tool_check(ss_coefficients_header(&head, signal, column, n, &req->opts), NULL);
+    tool_check(ss_coefficients_header(&head, signal, column, n, &req->opts, &f->error), &f->error);
     if (req->kind == TOOL_H5) {
         const ss_coefficients grid = { .head = head, .n = n, .center = req->opts.center,
                                        .n_scales = n_scales, .scale = (ss_scale *)scale };
@@ -235,7 +235,7 @@ close_output(flow *f, size_t samples)
     if (f->store != NULL)
         tool_check(ss_store_writer_end(f->store, samples, &f->error), &f->error);
     else
-        check_written(ss_coefficient_writer_end(f->text, samples), NULL);
+        check_written(ss_coefficient_writer_end(f->text, samples, NULL), NULL);
     ss_store_writer_free(f->store);
     ss_coefficient_writer_free(f->text);
 }
@@ -256,12 +256,12 @@ compare(const ss_morlet *plan, const double *x, const double *w, const char *pat
 static void
 say_what_was_done(const ss_morlet *plan, size_t n, double seconds)
 {
-    size_t scales = ss_morlet_scales(plan), by_fft = 0;
+    size_t scales = ss_morlet_grid(plan)->n_scales, by_fft = 0;
     for (size_t i = 0; i < scales; i++)
-        by_fft += ss_morlet_engine(plan, i) == SS_ENGINE_FFT;
+        by_fft += ss_morlet_grid(plan)->scale[i].engine == SS_ENGINE_FFT;
     tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz, %zu by fft, "
-              "%zu by quadrature, %.3g s", ss_morlet_total(plan), n, scales,
-              ss_morlet_scale(plan, 0)->f, ss_morlet_scale(plan, scales - 1)->f, by_fft,
+              "%zu by quadrature, %.3g s", ss_morlet_grid(plan)->total, n, scales,
+              ss_morlet_grid(plan)->scale[0].f, ss_morlet_grid(plan)->scale[scales - 1].f, by_fft,
               scales - by_fft, seconds);
 }
 
@@ -281,9 +281,9 @@ transform_whole(const request *req, const char *path)
     double begin = now();
     check(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err), &err, path);
     if (req->check)
-        f.w = tool_room(NULL, 2 * ss_morlet_total(plan), sizeof *f.w);
-    open_output(&f, req, signal->head, column, signal->n, ss_morlet_scale(plan, 0),
-                ss_morlet_scales(plan));
+        f.w = tool_room(NULL, 2 * ss_morlet_grid(plan)->total, sizeof *f.w);
+    open_output(&f, req, signal->head, column, signal->n, ss_morlet_grid(plan)->scale,
+                ss_morlet_grid(plan)->n_scales);
     double **all = tool_room(NULL, signal->head->n_columns, sizeof *all);
     for (size_t c = 0; c < signal->head->n_columns; c++)
         all[c] = signal->values + c * signal->n;
@@ -341,7 +341,7 @@ push_rows(flow *f, double *const x[], size_t n, const ss_header *head, size_t co
           const char *path)
 {
     if (f->text == NULL && f->store == NULL)
-        open_output(f, req, head, column, 0, ss_stream_scale(f->stream, 0), ss_stream_scales(f->stream));
+        open_output(f, req, head, column, 0, ss_stream_grid(f->stream)->scale, ss_stream_grid(f->stream)->n_scales);
     store_samples(f, x, n);
     push_samples(f, x[column], n, req, path);
 }
@@ -373,12 +373,12 @@ static void
 close_flow(flow *f, const char *path)
 {
     ss_error err = { 0 };
-    size_t scales = ss_stream_scales(f->stream);
+    size_t scales = ss_stream_grid(f->stream)->n_scales;
     check_flow(f, ss_stream_end(f->stream, &err), &err, path);
     close_output(f, ss_stream_samples(f->stream));
     tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
-              ss_stream_samples(f->stream), scales, ss_stream_scale(f->stream, 0)->f,
-              ss_stream_scale(f->stream, scales - 1)->f);
+              ss_stream_samples(f->stream), scales, ss_stream_grid(f->stream)->scale[0].f,
+              ss_stream_grid(f->stream)->scale[scales - 1].f);
     tool_note("each at most %zu to %zu samples behind b", ss_stream_window(f->stream, scales - 1) - 1,
               ss_stream_window(f->stream, 0) - 1);
     ss_stream_free(f->stream);
@@ -402,7 +402,8 @@ transform_stream(const request *req, const char *path)
 int
 main(int argc, char *argv[])
 {
-    request req = { .opts = ss_morlet_defaults, .kind = TOOL_TSV };
+    request req = { .kind = TOOL_TSV };
+    ss_morlet_opts_init(&req.opts, sizeof req.opts);
 
     tool_begin(argv, "ss-morlet", usage);
     int first = parse(&req, argc, argv);
@@ -421,7 +422,7 @@ main(int argc, char *argv[])
         transform_stream(&req, path);
     else
         transform_whole(&req, path);
-    if (wisdom != NULL && ss_wisdom_write(wisdom) != SS_OK)
+    if (wisdom != NULL && ss_wisdom_write(wisdom, NULL) != SS_OK)
         tool_die("%s: write error: %s", req.wisdom, strerror(errno));
     tool_reading_free(&req.reading);
     tool_end();

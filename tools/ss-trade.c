@@ -144,7 +144,8 @@ measure_signal(request *req)
 {
     ss_trade *trade = NULL;
     ss_error err = { 0 };
-    ss_morlet_opts grid = ss_morlet_defaults;
+    ss_morlet_opts grid;
+    ss_morlet_opts_init(&grid, sizeof grid);
     if (req->settings.n > 0)
         tool_usage("--set is for a scene, and %s is a signal", tool_input_name(req->path));
     ss_signal *signal = tool_read_signal(req->path, &req->reading.opts);

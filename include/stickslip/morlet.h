@@ -47,6 +47,7 @@ typedef enum ss_planner { SS_PLANNER_ESTIMATE, SS_PLANNER_MEASURE, SS_PLANNER_PA
 
 /* The ranges of the numbers are ss_morlet_ranges. */
 typedef struct ss_morlet_opts {
+    size_t size;                /* set by ss_morlet_opts_init */
     double center;              /* omega_c */
     int voices;                 /* V, scales per octave */
     double step;                /* B_0, translation step in units of the scale; unused if dense */
@@ -76,8 +77,9 @@ extern const struct ss_morlet_ranges {
     ss_range center, voices, step, frequency, octave, accuracy;
     ss_range inverse_accuracy;  /* tol of ss_morlet_inverse */
 } ss_morlet_ranges;
-/* omega_c 6, 16 voices, step 0.25, l2, accuracy 1e-6, fmin and fmax by default. */
-extern const ss_morlet_opts ss_morlet_defaults;
+/* omega_c 6, 16 voices, step 0.25, l2, accuracy 1e-6, fmin and fmax by default, one thread.  Every function
+ * takes NULL for these. */
+void ss_morlet_opts_init(ss_morlet_opts *opts, size_t size);
 
 typedef struct ss_scale {
     int j;                      /* a = 2^(j/V) */
@@ -87,7 +89,14 @@ typedef struct ss_scale {
     double b_num, b_den;        /* translation k is k * b_num / b_den [s] */
     size_t n;                   /* translations in the record */
     size_t offset;              /* the number of coefficients in w before those of this scale */
+    ss_engine engine;           /* of a plan: what computes it; SS_ENGINE_AUTO: not known */
 } ss_scale;
+
+typedef struct ss_grid {
+    size_t n_scales;
+    const ss_scale *scale;      /* long to short */
+    size_t total;               /* coefficients of all scales; 0: not known yet */
+} ss_grid;
 
 /* A plan: a grid for records of one length and rate.  A scale is usable under two conditions.  The
  * sampling resolves it: at the Nyquist frequency the spectrum of its wavelet is at most accuracy,
@@ -105,14 +114,11 @@ ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_
  * same.  SS_EINVAL: in holds no wisdom of this FFTW and machine (less than 16 MB); SS_ENOMEM;
  * SS_EIO. */
 ss_status ss_wisdom_read(FILE *in, ss_error *err);
-ss_status ss_wisdom_write(FILE *out);
-size_t ss_morlet_scales(const ss_morlet *plan);                     /* the number of scales */
-const ss_scale *ss_morlet_scale(const ss_morlet *plan, size_t i);   /* the i-th of an array that the
-                                                                       plan owns, long to short */
-ss_engine ss_morlet_engine(const ss_morlet *plan, size_t i);        /* the engine of scale i */
-size_t ss_morlet_total(const ss_morlet *plan);                      /* coefficients of all scales */
+ss_status ss_wisdom_write(FILE *out, ss_error *err);
+/* The grid of a plan, owned by it.  NULL: the plan is NULL. */
+const ss_grid *ss_morlet_grid(const ss_morlet *plan);
 
-/* Transform the plan's n samples of x, which must be finite.  w is an array of 2 * ss_morlet_total
+/* Transform the plan's n samples of x, which must be finite.  w is an array of 2 * total
  * doubles that the caller owns: re and im of coefficient c are w[2c] and w[2c + 1].  Several
  * threads may execute one plan at the same time. */
 ss_status ss_morlet_execute(const ss_morlet *plan, const double *x, double *w, ss_error *err);
@@ -174,9 +180,7 @@ typedef struct ss_stream ss_stream;
  * record. */
 ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts,
                         ss_coefficient_sink *sink, void *user, ss_error *err);
-size_t ss_stream_scales(const ss_stream *stream);                   /* the number of scales */
-const ss_scale *ss_stream_scale(const ss_stream *stream, size_t i); /* the i-th of an array that the
-                                                                       stream owns, long to short */
+const ss_grid *ss_stream_grid(const ss_stream *stream);             /* owned by the stream */
 size_t ss_stream_samples(const ss_stream *stream);                  /* the samples pushed so far */
 /* The largest delay of scale i in samples: without ss_stream_drain, a coefficient is sent before
  * so many samples after b have arrived.  0 if there is no scale i. */
@@ -268,16 +272,17 @@ ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients
 /* Make the header of coefficients, of the header of their signal and the options.  n = 0: the
  * number of samples is not known yet, and the end of the text will give it. */
 ss_status ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
-                                 const ss_morlet_opts *opts);
+                                 const ss_morlet_opts *opts, ss_error *err);
 /* A writer of coefficients as they arrive.  The caller keeps and closes out. */
 typedef struct ss_coefficient_writer ss_coefficient_writer;
 ss_status ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_format format,
                                     const ss_header *head, ss_error *err);
 /* Append coefficients; the arguments are those of an ss_coefficient_sink.  SS_EIO: out refuses them. */
 ss_status ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
-                                     size_t first, size_t n, const double *w, size_t samples);
+                                     size_t first, size_t n, const double *w, size_t samples,
+                                     ss_error *err);
 /* End the text of a record of so many samples, and flush out. */
-ss_status ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples);
+ss_status ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples, ss_error *err);
 void ss_coefficient_writer_free(ss_coefficient_writer *writer);     /* NULL is allowed */
 
 /* The largest |W| outside the cone of influence (or of all, if all lie inside): 0 dB of the contours.

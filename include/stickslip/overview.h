@@ -22,18 +22,17 @@ ss_status ss_overview_new(ss_overview **out, const ss_header *head, size_t colum
                           const ss_morlet_opts *opts, ss_error *err);
 /* Append n samples. */
 ss_status ss_overview_push(ss_overview *overview, const double *x, size_t n, ss_error *err);
+/* What an overview shows, owned by it.  A coefficient is the |W| of a block, with an imaginary part of
+ * 0.  A scale that lies inside the cone of influence as a whole is left out. */
+typedef struct ss_overview_result {
+    const ss_coefficients *coefficients;
+    const ss_signal *signal;
+    double top, noise;          /* for ss_contour_opts: the largest |W| outside the cone of influence, and
+                                   the |W| at which noise begins, 0 if there is no noise */
+} ss_overview_result;
 /* The recording has ended.  SS_EDATA: it is shorter than the cone of influence of the second
  * shortest scale. */
-ss_status ss_overview_end(ss_overview *overview, ss_error *err);
-
-/* The result after the end, owned by the overview.  A coefficient is the |W| of a block, with an
- * imaginary part of 0.  A scale that lies inside the cone of influence as a whole is left out. */
-const ss_coefficients *ss_overview_coefficients(const ss_overview *overview);
-const ss_signal *ss_overview_signal(const ss_overview *overview);
-/* Values for top and noise of ss_contour_opts: the largest |W| outside the cone of influence, and
- * the |W| at which noise begins, 0 if there is no noise. */
-double ss_overview_top(const ss_overview *overview);
-double ss_overview_noise(const ss_overview *overview);
+ss_status ss_overview_end(ss_overview *overview, ss_overview_result *out, ss_error *err);
 void ss_overview_free(ss_overview *overview);           /* NULL is allowed */
 
 SS_END_DECLARATIONS

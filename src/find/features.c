@@ -13,6 +13,7 @@
 #include "find/numbers.h"
 #include "find/events.h"
 #include "find/search.h"
+#include "map/map.h"
 #include "signal/gaps.h"
 
 static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement = -1, .force = -1,

@@ -7,6 +7,7 @@
 #include "find/maxima.h"
 #include "find/scale_rows.h"
 #include "find/search.h"
+#include "map/map.h"
 #include "signal/gaps.h"
 
 #define BAND 0.25               /* [octaves] the largest distance of maxima of one kind */

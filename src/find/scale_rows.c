@@ -19,6 +19,7 @@
 #include "base/error.h"
 #include "find/levels.h"
 #include "find/scale_rows.h"
+#include "map/map.h"
 #include "signal/gaps.h"
 #include <stickslip/morlet.h>
 

@@ -1,6 +1,7 @@
 /* observation.c -- numbers from the features, spikes and contours of a signal, and the distance of
  * two signals by them. */
 #include "fit/observation.h"
+#include "map/map.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>

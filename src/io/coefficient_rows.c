@@ -68,10 +68,10 @@ ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_form
 
 ss_status
 ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale, size_t first,
-                           size_t n, const double *w, size_t samples)
+                           size_t n, const double *w, size_t samples, ss_error *err)
 {
     if (writer == NULL || scale == NULL || w == NULL)
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     size_t (*write_number)(char *, double, int) = writer->format->number;
     char m_and_a[2 * SS_NUMBER_MAX] = { 0 }, f[SS_NUMBER_MAX] = { 0 };
     size_t f_length = write_number(f, scale->f, 0), length = write_number(m_and_a, scale->m, 0);
@@ -93,10 +93,11 @@ ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
         if (writer->out.used > OUTPUT_ROOM - LONGEST) {
             ss_status st = ss_output_drain(&writer->out);
             if (st != SS_OK)
-                return st;
+                return ss_fail(err, st, "%s", ss_strerror(st));
         }
     }
-    return ss_output_drain(&writer->out);
+    ss_status st = ss_output_drain(&writer->out);
+    return st == SS_OK ? SS_OK : ss_fail(err, st, "%s", ss_strerror(st));
 }
 
 /* Write the length of a stream, which is known only at its end: as a note, or as a row at scale 0 whose b
@@ -115,14 +116,16 @@ write_length(struct output *out, const struct format *format, size_t samples, do
 }
 
 ss_status
-ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples)
+ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples, ss_error *err)
 {
     if (writer == NULL)
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     if (writer->stream)
         write_length(&writer->out, writer->format, samples, writer->rate);
     ss_status st = ss_output_drain(&writer->out);
-    return st == SS_OK ? ss_output_flush(writer->out.file) : st;
+    if (st == SS_OK)
+        st = ss_output_flush(writer->out.file);
+    return st == SS_OK ? SS_OK : ss_fail(err, st, "%s", ss_strerror(st));
 }
 
 void
@@ -145,10 +148,10 @@ ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format 
     for (size_t i = 0; st == SS_OK && i < coefficients->n_scales; i++) {
         const ss_scale *scale = &coefficients->scale[i];
         st = ss_coefficient_writer_rows(writer, scale, 0, scale->n,
-                                        coefficients->w + 2 * scale->offset, coefficients->n);
+                                        coefficients->w + 2 * scale->offset, coefficients->n, err);
     }
     if (st == SS_OK)
-        st = ss_coefficient_writer_end(writer, coefficients->n);
+        st = ss_coefficient_writer_end(writer, coefficients->n, err);
     ss_coefficient_writer_free(writer);
     return st;
 }

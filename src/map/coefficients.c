@@ -69,20 +69,25 @@ note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
 
 ss_status
 ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
-                       const ss_morlet_opts *opts)
+                       const ss_morlet_opts *given, ss_error *err)
 {
-    if (out == NULL || signal == NULL || opts == NULL
-        || ss_morlet_check(n > 0 ? n : 1, signal->rate, opts, NULL) != SS_OK)
-        return SS_EINVAL;
+    ss_morlet_opts opts;
+    if (out == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
     *out = NULL;
-    ss_status st = ss_header_select(out, signal, &column, 1, 0, NULL);
+    ss_status st = ss_morlet_take(&opts, given, err);
     if (st == SS_OK)
-        ss_header_forget(*out, ss_coefficient_notes);
-    if (st == SS_OK && (st = note_options(*out, n, opts)) != SS_OK) {
-        ss_header_free(*out);
-        *out = NULL;
-    }
-    return st;
+        st = ss_morlet_check(n > 0 ? n : 1, signal->rate, &opts, err);
+    if (st == SS_OK)
+        st = ss_header_select(out, signal, &column, 1, 0, err);
+    if (st != SS_OK)
+        return st;
+    ss_header_forget(*out, ss_coefficient_notes);
+    if (note_options(*out, n, &opts) == SS_OK)
+        return SS_OK;
+    ss_header_free(*out);
+    *out = NULL;
+    return ss_fail_memory(err, NULL);
 }
 
 ss_status
@@ -94,7 +99,7 @@ ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
         return SS_ENOMEM;
     ss_status st = SS_OK;
     if (signal != NULL)
-        st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts);
+        st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts, NULL);
     if (st == SS_OK && signal != NULL)
         st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head, NULL);
     if (st != SS_OK)
@@ -111,18 +116,21 @@ ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
 
 ss_status
 ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
-             const ss_morlet_opts *opts, ss_error *err)
+             const ss_morlet_opts *given, ss_error *err)
 {
     ss_morlet *plan = NULL;
-    if (out == NULL || signal == NULL || opts == NULL)
+    ss_morlet_opts opts;
+    if (out == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
     if (column >= signal->head->n_columns)
         return ss_fail_column(err, column, signal->head->n_columns);
-    ss_status st = ss_morlet_new(&plan, signal->n, signal->head->rate, opts, err);
+    ss_status st = ss_morlet_take(&opts, given, err);
+    if (st == SS_OK)
+        st = ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, err);
     if (st != SS_OK)
         return st;
     ss_coefficients *coef = NULL;
-    st = ss_morlet_grid_of(&coef, signal, column, plan, opts);
+    st = ss_morlet_grid_of(&coef, signal, column, plan, &opts);
     if (st == SS_OK && (coef->w = malloc(2 * plan->total * sizeof *coef->w)) == NULL)
         st = SS_ENOMEM;
     if (st == SS_OK)

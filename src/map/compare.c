@@ -34,8 +34,8 @@ draw(uint64_t *state)
 static int
 only_by_sum(const compare *cmp, size_t i)
 {
-    return ss_morlet_engine(cmp->plan, i) == SS_ENGINE_QUADRATURE
-        && ss_morlet_engine(cmp->other, i) == SS_ENGINE_FFT;
+    return cmp->plan->scale[i].engine == SS_ENGINE_QUADRATURE
+        && cmp->other->scale[i].engine == SS_ENGINE_FFT;
 }
 
 static ss_status

@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/options.h"
 #include "base/range.h"
 #include "map/plan.h"
 
@@ -25,10 +26,22 @@ static const int odd_part[] = { 1, 35, 9, 5, 21, 45, 3, 25, 7, 15 };
 enum { ODD_PARTS = sizeof odd_part / sizeof *odd_part };
 
 const ss_morlet_opts ss_morlet_defaults = {
-    .center = WAVELET_CENTER, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO, .accuracy = 1e-6,
+    .size = sizeof(ss_morlet_opts), .center = WAVELET_CENTER, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO, .accuracy = 1e-6,
     .norm = SS_NORM_L2, .detrend = SS_DETREND_NONE,
     .threads = 1
 };
+
+void
+ss_morlet_opts_init(ss_morlet_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &ss_morlet_defaults, sizeof ss_morlet_defaults);
+}
+
+ss_status
+ss_morlet_take(ss_morlet_opts *own, const ss_morlet_opts *given, ss_error *err)
+{
+    return ss_options_take(own, sizeof *own, &ss_morlet_defaults, given, err);
+}
 
 const struct ss_morlet_ranges ss_morlet_ranges = {
     .rate = { 1e-100, 1e100 }, .center = { 2, 1000 }, .voices = { 1, 1024 }, .step = { 1e-6, 1e6 },
@@ -283,7 +296,7 @@ ss_morlet_leave_rounding(ss_morlet_opts *opts)
 }
 
 ss_status
-ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
+ss_grid_make(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                const ss_morlet_opts *opts, ss_error *err)
 {
     range use = usable(n, rate, opts), ask = requested_range(n, rate, opts, use);

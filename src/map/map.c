@@ -1,36 +1,10 @@
 /* map.c -- see map.h: maps in memory, and maps that are computed where they are read. */
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
-#include "base/versions.h"
 #include "map/map.h"
 #include "map/plan.h"
-
-/* The magnitude of each.  Hardly any number needs hypot, and then this is faster. */
-VERSIONS static void
-magnitudes_of(const double *restrict w, size_t n, double *restrict level)
-{
-    uint64_t others = 0;
-    for (size_t k = 0; k < n; k++) {
-        double square = w[2 * k] * w[2 * k] + w[2 * k + 1] * w[2 * k + 1];
-        others += square > SQUARE_LEAST ? 0 : 1;
-        others += square < SQUARE_MOST ? 0 : 1;
-        level[k] = sqrt(square);
-    }
-    for (size_t k = 0; k < n && others > 0; k++)
-        level[k] = magnitude_of(w + 2 * k);
-}
-
-void
-ss_map_give(const ss_map_part *part, size_t at, size_t n, const double *w)
-{
-    if (part->w != NULL)
-        memcpy(part->w + 2 * at, w, 2 * n * sizeof *w);
-    else
-        magnitudes_of(w, n, part->level + at);
-}
 
 ss_status
 ss_map_read(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err)

@@ -10,6 +10,10 @@
 #include <math.h>
 #include <stickslip/morlet.h>
 
+/* The options by default, and those of a caller: NULL are the defaults, as ss_options_take. */
+extern const ss_morlet_opts ss_morlet_defaults;
+ss_status ss_morlet_take(ss_morlet_opts *own, const ss_morlet_opts *given, ss_error *err);
+
 #define SQUARE_LEAST 1e-280
 #define SQUARE_MOST 1e280
 

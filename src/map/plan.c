@@ -11,7 +11,7 @@ enum { PART = 1 << 14 };        /* coefficients by the definition, computed at a
 static ss_status
 fill_plan(ss_morlet *plan, ss_error *err)
 {
-    ss_status st = ss_morlet_grid(&plan->scale, &plan->n_scales, plan->n, plan->rate, &plan->opts,
+    ss_status st = ss_grid_make(&plan->scale, &plan->n_scales, plan->n, plan->rate, &plan->opts,
                                   err);
     ss_morlet_leave_rounding(&plan->opts);
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
@@ -24,17 +24,20 @@ fill_plan(ss_morlet *plan, ss_error *err)
 }
 
 ss_status
-ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
+ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *given, ss_error *err)
 {
-    if (out == NULL || opts == NULL)
+    ss_morlet_opts opts;
+    if (out == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_morlet_check(n, rate, opts, err);
+    ss_status st = ss_morlet_take(&opts, given, err);
+    if (st == SS_OK)
+        st = ss_morlet_check(n, rate, &opts, err);
     if (st != SS_OK)
         return st;
     ss_morlet *plan = calloc(1, sizeof *plan);
     if (plan == NULL)
         return SS_ENOMEM;
-    *plan = (ss_morlet){ .opts = *opts, .n = n, .rate = rate };
+    *plan = (ss_morlet){ .opts = opts, .n = n, .rate = rate };
     st = fill_plan(plan, err);
     if (st == SS_OK)
         st = ss_blocks_new(plan);
@@ -42,34 +45,17 @@ ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts
         ss_morlet_free(plan);
         return st;
     }
+    for (size_t i = 0; i < plan->n_scales; i++)
+        plan->scale[i].engine = ss_blocks_covers(plan->blocks, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
+    plan->grid = (ss_grid){ plan->n_scales, plan->scale, plan->total };
     *out = plan;
     return SS_OK;
 }
 
-size_t
-ss_morlet_scales(const ss_morlet *plan)
+const ss_grid *
+ss_morlet_grid(const ss_morlet *plan)
 {
-    return plan != NULL ? plan->n_scales : 0;
-}
-
-const ss_scale *
-ss_morlet_scale(const ss_morlet *plan, size_t i)
-{
-    return i < ss_morlet_scales(plan) ? &plan->scale[i] : NULL;
-}
-
-size_t
-ss_morlet_total(const ss_morlet *plan)
-{
-    return plan != NULL ? plan->total : 0;
-}
-
-ss_engine
-ss_morlet_engine(const ss_morlet *plan, size_t i)
-{
-    if (plan == NULL || i >= plan->n_scales)
-        return SS_ENGINE_AUTO;
-    return ss_blocks_covers(plan->blocks, i) ? SS_ENGINE_FFT : SS_ENGINE_QUADRATURE;
+    return plan != NULL ? &plan->grid : NULL;
 }
 
 void

@@ -5,6 +5,7 @@
 #include <float.h>
 #include <stddef.h>
 #include <stickslip/morlet.h>
+#include "map/map.h"
 #include "map/wavelet.h"
 
 /* The note of a stepped grid whose translations are fractions of samples: without it they are n B_0 a. */
@@ -24,6 +25,7 @@ struct ss_morlet {
     size_t n_scales;
     ss_scale *scale;        /* long to short */
     size_t total;           /* coefficients */
+    ss_grid grid;           /* these, for callers */
     int window;             /* 1: for windows of a stream, of whose coefficients only those are
                                asked for that lie REACH a and a unit within its ends */
     struct blocks *blocks;  /* NULL: all by quadrature */
@@ -71,7 +73,7 @@ ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_
 
 /* The scales of opts, long to short, to be freed.  n = 0: the length is not known, and
  * translations are not counted. */
-ss_status ss_morlet_grid(ss_scale **scale, size_t *n_scales, size_t n, double rate,
+ss_status ss_grid_make(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                          const ss_morlet_opts *opts, ss_error *err);
 /* The part of the accuracy that rounding leaves, if there is any, once the grid is chosen. */
 void ss_morlet_leave_rounding(ss_morlet_opts *opts);

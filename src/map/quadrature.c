@@ -382,14 +382,17 @@ one_point(const ss_morlet_opts *opts, double rate, const record *rec, double a, 
 }
 
 ss_status
-ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts,
+ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *given,
                 ss_point at, double w[2], ss_error *err)
 {
-    if (x == NULL || opts == NULL || w == NULL)
+    if (x == NULL || w == NULL)
         return SS_FAIL_NULL(err);
     const double a = at.a, b = at.b;
     record rec;
-    ss_status st = ss_morlet_check(n, rate, opts, err);
+    ss_morlet_opts opts;
+    ss_status st = ss_morlet_take(&opts, given, err);
+    if (st == SS_OK)
+        st = ss_morlet_check(n, rate, &opts, err);
     if (st != SS_OK)
         return st;
     if (!(a >= 0x1p-500 && a <= 0x1p500))
@@ -397,10 +400,10 @@ ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *op
     if (!(b >= 0 && b <= (double)(n - 1) / rate))
         return ss_fail(err, SS_EINVAL, "b = %g s lies outside the record, 0 ... %.9g s", b,
                        (double)(n - 1) / rate);
-    if ((st = ss_morlet_record(&rec, x, n, opts->detrend, err)) != SS_OK)
+    if ((st = ss_morlet_record(&rec, x, n, opts.detrend, err)) != SS_OK)
         return st;
-    if ((st = one_point(opts, rate, &rec, a, b, w)) == SS_OK)
-        st = ss_morlet_finish(w, 1, a, opts->norm, rec.exponent, err);
+    if ((st = one_point(&opts, rate, &rec, a, b, w)) == SS_OK)
+        st = ss_morlet_finish(w, 1, a, opts.norm, rec.exponent, err);
     free(rec.x);
     return st;
 }

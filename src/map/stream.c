@@ -182,25 +182,29 @@ ss_stream_end(ss_stream *s, ss_error *err)
 /* --- making and freeing ----------------------------------------------------------------------- */
 
 ss_status
-ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts, ss_coefficient_sink *sink,
+ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *given, ss_coefficient_sink *sink,
               void *user, ss_error *err)
 {
-    if (out == NULL || opts == NULL || sink == NULL)
+    ss_morlet_opts opts;
+    if (out == NULL || sink == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_morlet_check(1, rate, opts, err);
+    ss_status st = ss_morlet_take(&opts, given, err);
+    if (st == SS_OK)
+        st = ss_morlet_check(1, rate, &opts, err);
     if (st != SS_OK)
         return st;
-    if (!(opts->fmin > 0) && !opts->octaves)
+    if (!(opts.fmin > 0) && !opts.octaves)
         return ss_fail(err, SS_EINVAL, "a stream, whose length is not known, needs fmin");
-    if (opts->detrend != SS_DETREND_NONE)
+    if (opts.detrend != SS_DETREND_NONE)
         return ss_fail(err, SS_EINVAL, "a stream cannot be detrended: a mean or a line is that of "
                        "the whole record");
     ss_stream *s = calloc(1, sizeof *s);
     if (s == NULL)
         return SS_ENOMEM;
-    *s = (ss_stream){ .opts = *opts, .rate = rate, .sink = sink, .user = user };
+    *s = (ss_stream){ .opts = opts, .rate = rate, .sink = sink, .user = user };
     if ((st = ss_stream_plan(s, err)) == SS_OK)
         st = transform_full(s, err);
+    s->grid = (ss_grid){ s->n_scales, s->scale, 0 };
     if (st == SS_OK)
         *out = s;
     else
@@ -233,16 +237,10 @@ ss_stream_free(ss_stream *s)
 
 /* --- what it does ----------------------------------------------------------------------------- */
 
-size_t
-ss_stream_scales(const ss_stream *s)
+const ss_grid *
+ss_stream_grid(const ss_stream *s)
 {
-    return s != NULL ? s->n_scales : 0;
-}
-
-const ss_scale *
-ss_stream_scale(const ss_stream *s, size_t i)
-{
-    return i < ss_stream_scales(s) ? &s->scale[i] : NULL;
+    return s != NULL ? &s->grid : NULL;
 }
 
 size_t
@@ -254,7 +252,7 @@ ss_stream_samples(const ss_stream *s)
 size_t
 ss_stream_window(const ss_stream *s, size_t i)
 {
-    if (i >= ss_stream_scales(s))
+    if (s == NULL || i >= s->n_scales)
         return 0;
     if (i < s->blocks.plan->n_scales)
         return (size_t)ss_blocks_delay(s->blocks.plan->blocks, i);

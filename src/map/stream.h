@@ -46,6 +46,7 @@ struct ss_stream {
     size_t n_scales, n_groups, samples;
     size_t full;                /* no window is full before there are so many samples */
     ss_scale *scale;
+    ss_grid grid;               /* both, for callers */
     scale_state *state;
     group blocks;               /* the first scales, those in blocks, if any */
     cascade *cascade;           /* NULL: none are */

@@ -22,7 +22,7 @@ enum {
 static ss_status
 plan_grid(ss_stream *s, ss_error *err)
 {
-    ss_status st = ss_morlet_grid(&s->scale, &s->n_scales, 0, s->rate, &s->opts, err);
+    ss_status st = ss_grid_make(&s->scale, &s->n_scales, 0, s->rate, &s->opts, err);
     if (st != SS_OK)
         return st;
     ss_morlet_leave_rounding(&s->opts);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/largest.h"
 #include "base/versions.h"
+#include "map/map.h"
 #include "map/wavelet.h"
 #include "plot/extremes.h"
 #include "plot/noise_level.h"
@@ -22,7 +23,7 @@ struct ss_overview {
     size_t n_gaps;
     extremes samples, *scale;   /* of |W|, of each scale */
     noise_level *noise;
-    double top, noise_begins;
+    double top;
     ss_coefficients result;
     ss_signal *signal;
 };
@@ -94,7 +95,7 @@ static void
 add_stretch(ss_overview *o, const ss_scale *scale, size_t first, size_t n, double *level, int squares,
             int edge)
 {
-    size_t i = (size_t)(scale - ss_stream_scale(o->stream, 0));
+    size_t i = (size_t)(scale - ss_stream_grid(o->stream)->scale);
     double most = add_levels(&o->scale[i], level, n, squares);
     if (edge)
         return;
@@ -126,7 +127,7 @@ ss_status
 ss_overview_new(ss_overview **out, const ss_header *head, size_t column, const ss_morlet_opts *opts,
                 ss_error *err)
 {
-    if (out == NULL || head == NULL || opts == NULL)
+    if (out == NULL || head == NULL)
         return SS_FAIL_NULL(err);
     if (column >= head->n_columns)
         return ss_fail_column(err, column, head->n_columns);
@@ -134,9 +135,10 @@ ss_overview_new(ss_overview **out, const ss_header *head, size_t column, const s
     if (o == NULL)
         return ss_fail_memory(err, NULL);
     o->column = column;
-    o->opts = *opts;
-    ss_status st = ss_stream_new(&o->stream, head->rate, opts, add_rows, o, err);
-    size_t scales = st == SS_OK ? ss_stream_scales(o->stream) : 0;
+    ss_status st = ss_morlet_take(&o->opts, opts, err);
+    if (st == SS_OK)
+        st = ss_stream_new(&o->stream, head->rate, &o->opts, add_rows, o, err);
+    size_t scales = st == SS_OK ? ss_stream_grid(o->stream)->n_scales : 0;
     if (st == SS_OK)
         st = ss_header_gaps(&o->gap, &o->n_gaps, head, NULL);
     int made = st == SS_OK && ss_header_copy(&o->head, head, NULL) == SS_OK
@@ -186,8 +188,8 @@ static ss_status
 make_coefficients(ss_overview *o)
 {
     ss_coefficients *c = &o->result;
-    size_t scales = ss_stream_scales(o->stream), first = 0, total = 0;
-    const ss_scale *scale = ss_stream_scale(o->stream, 0);
+    size_t scales = ss_stream_grid(o->stream)->n_scales, first = 0, total = 0;
+    const ss_scale *scale = ss_stream_grid(o->stream)->scale;
     c->n = ss_stream_samples(o->stream);
     c->center = o->opts.center;
     c->gap = o->gap;
@@ -213,49 +215,27 @@ make_coefficients(ss_overview *o)
         for (size_t k = 0; k < ss_extremes_count(r); k++, w += 2)
             w[0] = r->most[k];
     }
-    return ss_coefficients_header(&c->head, o->head, o->column, c->n, &o->opts);
+    return ss_coefficients_header(&c->head, o->head, o->column, c->n, &o->opts, NULL);
 }
 
 ss_status
-ss_overview_end(ss_overview *o, ss_error *err)
+ss_overview_end(ss_overview *o, ss_overview_result *out, ss_error *err)
 {
-    if (o == NULL)
+    if (o == NULL || out == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_stream_end(o->stream, err);
     if (st != SS_OK)
         return st;
-    o->noise_begins = ss_noise_level(o->noise, ss_stream_scale(o->stream, 0));
+    double noise = ss_noise_level(o->noise, ss_stream_grid(o->stream)->scale);
     st = make_coefficients(o);
     if (st == SS_EDATA)
         return ss_fail(err, SS_EDATA, "too few samples, %zu: less than two scales have translations outside "
                        "the cone of influence", ss_stream_samples(o->stream));
     if (st == SS_OK)
         st = make_signal(o);
+    if (st == SS_OK)
+        *out = (ss_overview_result){ &o->result, o->signal, o->top, noise };
     return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
-}
-
-const ss_coefficients *
-ss_overview_coefficients(const ss_overview *o)
-{
-    return o != NULL && o->signal != NULL ? &o->result : NULL;
-}
-
-const ss_signal *
-ss_overview_signal(const ss_overview *o)
-{
-    return o != NULL ? o->signal : NULL;
-}
-
-double
-ss_overview_top(const ss_overview *o)
-{
-    return o != NULL ? o->top : 0;
-}
-
-double
-ss_overview_noise(const ss_overview *o)
-{
-    return o != NULL ? o->noise_begins : 0;
 }
 
 void
@@ -263,7 +243,7 @@ ss_overview_free(ss_overview *o)
 {
     if (o == NULL)
         return;
-    for (size_t i = 0; o->scale != NULL && i < ss_stream_scales(o->stream); i++)
+    for (size_t i = 0; o->scale != NULL && i < ss_stream_grid(o->stream)->n_scales; i++)
         ss_extremes_free(&o->scale[i]);
     free(o->scale);
     ss_extremes_free(&o->samples);

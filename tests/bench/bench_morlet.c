@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "map/map.h"
 #include "../morlet_oracle.h"
 #include "bench.h"
 
@@ -20,7 +21,7 @@ run(kind which, size_t n, const ss_morlet_opts *opts, double *worst, size_t *coe
     make(which, x, n);
     if (ss_morlet_new(&plan, n, 2000, opts, NULL) != SS_OK)
         exit(2);
-    *coefficients = ss_morlet_total(plan);
+    *coefficients = ss_morlet_grid(plan)->total;
     w = malloc(2 * *coefficients * sizeof *w);
     seconds = INFINITY;
     for (int i = 0; i < 3; i++) {
@@ -108,7 +109,7 @@ run_work(const struct work *work, double accuracy)
     double fft = fft_seconds(x, work->n), begin = bench_seconds();
     if (ss_morlet_new(&plan, work->n, 1, &opts, NULL) != SS_OK)
         exit(2);
-    double planning = bench_seconds() - begin, *w = calloc(2 * ss_morlet_total(plan), sizeof *w);
+    double planning = bench_seconds() - begin, *w = calloc(2 * ss_morlet_grid(plan)->total, sizeof *w);
     for (int i = 0; i < 5; i++) {
         begin = bench_seconds();
         if (ss_morlet_execute(plan, x, w, NULL) != SS_OK)

@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <stickslip.h>
+#include "map/map.h"
 #include "bench.h"
 
 static double
@@ -47,8 +48,8 @@ add(const ss_scale *scale, size_t first, size_t n, const double *w, size_t sampl
     (void)samples;
     s->total += w[0] + w[2 * n - 1];
     s->n += n;
-    for (size_t i = 0; s->plan != NULL && i < ss_morlet_scales(s->plan); i++) {
-        const ss_scale *sc = ss_morlet_scale(s->plan, i);
+    for (size_t i = 0; s->plan != NULL && i < ss_morlet_grid(s->plan)->n_scales; i++) {
+        const ss_scale *sc = &ss_morlet_grid(s->plan)->scale[i];
         double error = 0;
         if (sc->j != scale->j)
             continue;
@@ -106,8 +107,8 @@ in_memory(const ss_morlet_opts *opts, const double *x, size_t n, ss_morlet **pla
 {
     if (ss_morlet_new(plan, n, 1, opts, NULL) != SS_OK)
         exit(2);
-    *w = malloc(2 * ss_morlet_total(*plan) * sizeof **w);
-    memset(*w, 0, 2 * ss_morlet_total(*plan) * sizeof **w);
+    *w = malloc(2 * ss_morlet_grid(*plan)->total * sizeof **w);
+    memset(*w, 0, 2 * ss_morlet_grid(*plan)->total * sizeof **w);
     double begin = bench_seconds();
     if (ss_morlet_execute(*plan, x, *w, NULL) != SS_OK)
         exit(2);
@@ -118,10 +119,10 @@ in_memory(const ss_morlet_opts *opts, const double *x, size_t n, ss_morlet **pla
 static double *
 largest_of_scales(const ss_morlet *plan, const double *w)
 {
-    size_t scales = ss_morlet_scales(plan);
+    size_t scales = ss_morlet_grid(plan)->n_scales;
     double *largest = calloc(scales, sizeof *largest);
     for (size_t i = 0; i < scales; i++) {
-        const ss_scale *scale = ss_morlet_scale(plan, i);
+        const ss_scale *scale = &ss_morlet_grid(plan)->scale[i];
         const double *row = w + 2 * scale->offset;
         for (size_t k = 0; k < scale->n; k++)
             largest[i] = fmax(largest[i], hypot(row[2 * k], row[2 * k + 1]));

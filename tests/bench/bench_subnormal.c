@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <stickslip.h>
+#include "map/map.h"
 #include "bench.h"
 
 enum { N = 20000, ROUNDS = 7, RECORDS = 3 };
@@ -58,7 +59,7 @@ measure(ss_engine engine, int streamed, double x[RECORDS][N])
     opts.engine = engine, opts.voices = 4, opts.fmin = 2;
     if (ss_morlet_new(&plan, N, 2000, &opts, NULL) != SS_OK)
         return 1;
-    double *w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    double *w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
     for (int round = 0; w != NULL && round < ROUNDS; round++)
         for (int r = 0; r < RECORDS; r++)
             least[r] = fmin(least[r], time_of(&opts, plan, x[r], w, streamed));

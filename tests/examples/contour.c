@@ -48,7 +48,7 @@ main(int argc, char *argv[])
         status = ss_sim_signal(&signal, &scene, &err);
     if (status == SS_OK) {
         column = (size_t)ss_header_column(signal->head, "a");
-        status = ss_morlet_transform(&coefficients, signal, column, &ss_morlet_defaults, &err);
+        status = ss_morlet_transform(&coefficients, signal, column, NULL, &err);
     }
     if (status == SS_OK)
         status = ss_store_write("contour.h5", &(ss_record){ .signal = signal,

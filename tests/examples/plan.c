@@ -25,14 +25,14 @@ static void *
 transform(void *argument)
 {
     job *j = argument;
-    double *x = malloc(N * sizeof *x), *w = malloc(2 * ss_morlet_total(j->plan) * sizeof *w);
+    double *x = malloc(N * sizeof *x), *w = malloc(2 * ss_morlet_grid(j->plan)->total * sizeof *w);
     j->status = x != NULL && w != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0; j->status == SS_OK && i < N; i++)
         x[i] = j->amplitude * cos(2 * acos(-1) * frequency * (double)i / rate);
     if (j->status == SS_OK)
         j->status = ss_morlet_execute(j->plan, x, w, NULL);
     if (j->status == SS_OK) {
-        const ss_scale *scale = ss_morlet_scale(j->plan, 0);
+        const ss_scale *scale = ss_morlet_grid(j->plan)->scale;
         const double *middle = w + 2 * (scale->offset + scale->n / 2);
         j->found = hypot(middle[0], middle[1]) * sqrt(2) / pow(acos(-1), 0.25);
     }
@@ -46,7 +46,8 @@ main(void)
 {
     ss_morlet *plan;
     ss_error err = { 0 };
-    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_morlet_opts opts;
+    ss_morlet_opts_init(&opts, sizeof opts);
     opts.norm = SS_NORM_L1;
     opts.dense = 1;
     opts.accuracy = 1e-9;

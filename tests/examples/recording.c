@@ -36,13 +36,14 @@ main(int argc, char *argv[])
     ss_coefficients *coefficients = NULL;
     ss_error err = { 0 };
     ss_read_opts read;
-    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_morlet_opts opts;
     if (argc != 3) {
         fputs("usage: recording FILE COLUMN\n", stderr);
         return 2;
     }
     ss_read_opts_init(&read, sizeof read);
     read.gaps = SS_GAPS_INTERPOLATE;
+    ss_morlet_opts_init(&opts, sizeof opts);
     opts.detrend = SS_DETREND_MEAN;
     opts.norm = SS_NORM_L1;             /* a sine then reads at its own frequency */
 

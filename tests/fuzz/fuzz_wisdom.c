@@ -5,6 +5,7 @@
 #include <fftw3.h>
 #include <stdlib.h>
 #include <string.h>
+#include "map/map.h"
 
 static void
 transform(void)
@@ -19,7 +20,7 @@ transform(void)
     for (size_t i = 0; i < N; i++)
         x[i] = (double)(i * i % 7) - 3;
     fuzz_check(ss_morlet_new(&plan, N, 1, &opts, NULL) == SS_OK, "a plan");
-    w = malloc(2 * ss_morlet_total(plan) * sizeof *w);
+    w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
     fuzz_check(w != NULL && ss_morlet_execute(plan, x, w, NULL) == SS_OK, "a transform");
     fuzz_check(ss_morlet_compare(plan, x, w, 5, &difference, NULL) == SS_OK, "a comparison");
     fuzz_check(difference <= opts.accuracy, "accurate");

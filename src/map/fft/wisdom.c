@@ -55,12 +55,12 @@ ss_wisdom_read(FILE *in, ss_error *err)
 }
 
 ss_status
-ss_wisdom_write(FILE *out)
+ss_wisdom_write(FILE *out, ss_error *err)
 {
     if (out == NULL)
-        return SS_EINVAL;
+        return SS_FAIL_NULL(err);
     pthread_mutex_lock(&ss_fftw_planner);
     fftw_export_wisdom_to_file(out);
     pthread_mutex_unlock(&ss_fftw_planner);
-    return fflush(out) == 0 && !ferror(out) ? SS_OK : SS_EIO;
+    return fflush(out) == 0 && !ferror(out) ? SS_OK : ss_fail_errno(err, "wisdom", errno);
 }

@@ -10,6 +10,7 @@
 #include <stickslip/sweep.h>
 #include "base/options.h"
 #include "find/numbers.h"
+#include "map/map.h"
 #include "motion/method.h"
 #include "study/curve.h"
 #include "study/trade/common.h"

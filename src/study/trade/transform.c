@@ -188,13 +188,14 @@ ss_trade_transform(ss_trade **out, const double *x, size_t n, double rate,
                    const ss_morlet_opts *grid, const ss_trade_opts *given, ss_error *err)
 {
     ss_trade_opts opts;
-    if (out == NULL || x == NULL || grid == NULL)
+    if (out == NULL || x == NULL)
         return SS_FAIL_NULL(err);
+    trial t = { .x = x, .n = n, .rate = rate, .how = &opts };
     ss_status st = ss_trade_opts_take(&opts, given, err);
+    if (st == SS_OK)
+        st = ss_morlet_take(&t.opts, grid, err);
     if (st != SS_OK)
         return st;
-    trial t = { .x = x, .n = n, .rate = rate, .opts = *grid,
-                .how = &opts };
     t.opts.engine = SS_ENGINE_AUTO;
     t.opts.threads = 1;
     t.trade = calloc(1, sizeof *t.trade);
