@@ -44,6 +44,9 @@ ss-features run1.tsv > one && ss-features < run1.tsv | cmp - one
 for file in run2.tsv saw.csv; do ss-features --mass 2.42 --summary $file | grep '^[rs]' >> rows; done
 grep -E '^(run2.tsv|saw.csv)' table | cmp - rows
 ss-features --summary < run1.tsv | grep -c '^-'
+# a row never looks like a note
+cp run1.tsv '#1.tsv'
+ss-features --summary '#1.tsv' | grep -c '^\./#1\.tsv	'
 # nothing at all is read
 ss-features empty.csv none.csv > nothing 2> /dev/null || echo "status $?"
 grep -vc '^#' nothing
