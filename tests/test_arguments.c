@@ -671,6 +671,7 @@ plots_refuse_null(void **state)
     assert_int_equal(ss_plot_diagram(out, &table, y, 2, &none, &e), SS_EINVAL);
     assert_int_equal(ftell(out), 0);
     assert_int_equal(ss_store_is_hdf5(NULL), 0);
+    assert_non_null(ss_store_calls(&e));
     fclose(out);
 }
 

@@ -202,8 +202,8 @@ tool_hint(ss_status status, const ss_error *err)
     case SS_EKIND:   return err != NULL ? kind_hint(err->found, err->wanted) : "";
     case SS_ECLOCK:  return "; --time NAME names a column or dataset of time, --rate HZ gives the sample rate";
     case SS_EGAPS:   return "; --gaps=split or interpolate fills the gap";
-    case SS_EUNEVEN: return tool_given("resample") ? "; --rate HZ takes the rows as uniform"
-        : "; --resample HZ makes time stamps uniform, --rate HZ takes the rows so";
+    case SS_EUNEVEN: return tool_given("resample") ? "; --rate HZ ignores the stamps and spaces rows evenly"
+        : "; --resample HZ makes time stamps uniform, --rate HZ ignores the stamps and spaces rows evenly";
     case SS_EUNIT:   return "; --time-unit UNIT says what it counts: s, ms, us, ns, min, h or d";
     case SS_ETABLES: return "; --table N reads one";
     case SS_ESCALE:  return tool_given("force") || tool_given("inverse") ? ""

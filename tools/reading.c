@@ -81,7 +81,7 @@ tool_reading_end(tool_reading *r, const char *column)
     if (opts->rate > 0 && (opts->time != NULL || opts->time_unit != NULL))
         tool_usage("--%s and --rate exclude each other", opts->time != NULL ? "time" : "time-unit");
     if (r->from >= r->to)
-        tool_usage("--from does not lie before --to");
+        tool_usage("--from must be less than --to");
     if (!isnan(r->from) || !isnan(r->to)) {
         opts->from = isnan(r->from) ? -DBL_MAX : r->from;
         opts->to = isnan(r->to) ? DBL_MAX : r->to;

@@ -95,16 +95,7 @@ ss_status ss_wavelet_reader_open(wavelet_reader *r, h5_file *file, ss_coefficien
 ss_status ss_wavelet_reader_scale(wavelet_reader *r, const ss_coefficients *map, size_t i, double *w);
 void ss_wavelet_reader_close(wavelet_reader *r);        /* the file stays open */
 
-/* The functions of stickslip/store.h, whose arguments have been checked (read.c, write.c). */
+/* The coefficients of a file, which stay there (read.c). */
 ss_status ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err);
-ss_status ss_h5_write(const char *path, const ss_record *record, ss_error *err);
-ss_status ss_h5_writer_new(ss_store_writer **out, const char *path, const ss_header *signal,
-                           const ss_coefficients *grid, ss_error *err);
-ss_status ss_h5_writer_signal(ss_store_writer *writer, double *const column[], size_t n, ss_error *err);
-ss_status ss_h5_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n,
-                            const double *w, size_t samples, ss_error *err);
-ss_status ss_h5_writer_note(ss_store_writer *writer, const char *key, const char *value, ss_error *err);
-ss_status ss_h5_writer_end(ss_store_writer *writer, size_t samples, ss_error *err);
-void ss_h5_writer_free(ss_store_writer *writer);
 
 #endif

@@ -8,6 +8,7 @@
 #include "signal/header.h"
 #include "io/hdf5/groups.h"
 #include "io/hdf5/output.h"
+#include "io/store.h"
 
 struct ss_store_writer {
     h5_output output;
@@ -90,11 +91,25 @@ report(const ss_store_writer *w, ss_status st, ss_error *err)
     return st;
 }
 
-/* --- public -------------------------------------------------------------------------------- */
+/* --- what ss_store_writer_new and the rest call, whose arguments have been checked ------------ */
 
-ss_status
-ss_h5_writer_new(ss_store_writer **out, const char *path, const ss_header *signal, const ss_coefficients *grid,
-                 ss_error *err)
+static void
+writer_free(ss_store_writer *w)
+{
+    if (w == NULL)
+        return;
+    H5E_BEGIN_TRY {
+        ss_h5_output_close(&w->output, SS_STOP);     /* does nothing if it has ended */
+    } H5E_END_TRY
+    ss_wavelet_writer_free(&w->wavelet);
+    free(w->signal.column);
+    free(w->output.path);
+    free(w);
+}
+
+static ss_status
+writer_new(ss_store_writer **out, const char *path, const ss_header *signal, const ss_coefficients *grid,
+           ss_error *err)
 {
     ss_store_writer *w = NULL;
     ss_status st = ss_header_check_notes(grid != NULL ? grid->head : signal, err);
@@ -109,13 +124,15 @@ ss_h5_writer_new(ss_store_writer **out, const char *path, const ss_header *signa
         *out = w;
     else if (w != NULL)
         report(w, st, err);
+    else
+        ss_fail_memory(err, path);
     if (st != SS_OK)
-        ss_h5_writer_free(w);
+        writer_free(w);
     return st;
 }
 
-ss_status
-ss_h5_writer_signal(ss_store_writer *w, double *const column[], size_t n, ss_error *err)
+static ss_status
+writer_signal(ss_store_writer *w, double *const column[], size_t n, ss_error *err)
 {
     ss_status st = w->status;
     signal_writer *signal = &w->signal;
@@ -130,9 +147,9 @@ ss_h5_writer_signal(ss_store_writer *w, double *const column[], size_t n, ss_err
     return report(w, st, err);
 }
 
-ss_status
-ss_h5_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n, const double *w,
-                  size_t samples, ss_error *err)
+static ss_status
+writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n, const double *w,
+            size_t samples, ss_error *err)
 {
     ss_status st = writer->status;
     size_t i = ss_wavelet_writer_find(&writer->wavelet, scale, first, n);
@@ -147,8 +164,8 @@ ss_h5_writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, 
     return report(writer, st, err);
 }
 
-ss_status
-ss_h5_writer_note(ss_store_writer *w, const char *key, const char *value, ss_error *err)
+static ss_status
+writer_note(ss_store_writer *w, const char *key, const char *value, ss_error *err)
 {
     ss_status st = w->status;
     h5_file *file = &w->output.file;
@@ -179,8 +196,8 @@ complete(ss_store_writer *w, size_t samples)
     return w->wavelet.n_scales > 0 ? ss_wavelet_writer_end(&w->wavelet, samples) : SS_OK;
 }
 
-ss_status
-ss_h5_writer_end(ss_store_writer *w, size_t samples, ss_error *err)
+static ss_status
+writer_end(ss_store_writer *w, size_t samples, ss_error *err)
 {
     ss_status st = w->status;
     H5E_BEGIN_TRY {
@@ -191,20 +208,6 @@ ss_h5_writer_end(ss_store_writer *w, size_t samples, ss_error *err)
         st = keep(w, ss_h5_output_close(&w->output, st));
     } H5E_END_TRY
     return report(w, st, err);
-}
-
-void
-ss_h5_writer_free(ss_store_writer *w)
-{
-    if (w == NULL)
-        return;
-    H5E_BEGIN_TRY {
-        ss_h5_output_close(&w->output, SS_STOP);     /* does nothing if it has ended */
-    } H5E_END_TRY
-    ss_wavelet_writer_free(&w->wavelet);
-    free(w->signal.column);
-    free(w->output.path);
-    free(w);
 }
 
 static ss_status
@@ -240,8 +243,8 @@ write_all(ss_store_writer **out, const char *path, const ss_record *r)
     return st == SS_OK ? complete(w, c->n) : st;
 }
 
-ss_status
-ss_h5_write(const char *path, const ss_record *r, ss_error *err)
+static ss_status
+write_record(const char *path, const ss_record *r, ss_error *err)
 {
     ss_store_writer *w = NULL;
     ss_status st;
@@ -254,6 +257,17 @@ ss_h5_write(const char *path, const ss_record *r, ss_error *err)
         report(w, st, err);
     else
         ss_fail(err, st, "%s: %s", path, ss_strerror(st));
-    ss_h5_writer_free(w);
+    writer_free(w);
     return st;
+}
+
+const struct ss_store_calls *
+ss_store_calls(ss_error *err)
+{
+    static const struct ss_store_calls calls = {
+        .open_signal = ss_h5_open_signal, .open_coefficients = ss_h5_open_coefficients, .write = write_record,
+        .writer_new = writer_new, .writer_signal = writer_signal, .writer_rows = writer_rows,
+        .writer_note = writer_note, .writer_end = writer_end, .writer_free = writer_free };
+    (void)err;
+    return &calls;
 }
