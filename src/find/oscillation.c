@@ -100,6 +100,17 @@ stick_behind(const search *s, size_t anchor, size_t next, double f)
 
 /* --- is it ringing? ---------------------------------------------------------------------------- */
 
+/* Is the frequency that of the rig's own mass and spring, sqrt(k/m), within errors?  So it rings while it slips,
+ * which says nothing of the contact. */
+static int
+is_spring(const search *s, const ss_value all[2])
+{
+    double m = s->opts->mass, k = s->opts->stiffness, r = hypot(all[0].value, all[1].value);
+    double error = hypot(all[0].value * all[0].error, all[1].value * all[1].error) / r;
+    double w = r * s->rate, total = m * w * w;
+    return m > 0 && k > 0 && fabs(total - k) <= SIGMAS * 2 * total * error / r;
+}
+
 /* The tests that a fit near the frequency f [Hz] passes before its numbers are printed: the reason why it is no
  * ringing, or NULL.  cycles: the number of them; an oscillation that fewer than half of the transitions show,
  * and not every cycle, was picked by the fit itself. */
@@ -125,6 +136,8 @@ judge(const search *s, const ringdown *r, double f, size_t cycles)
         return "what recurs does not decay";
     if (!(w.error < w.value / PRECISE))
         return "the transitions do not agree on a frequency";
+    if (is_spring(s, r->all))
+        return "it rings as the given mass does on the given spring, while it slips";
     return NULL;
 }
 

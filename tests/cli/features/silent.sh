@@ -49,6 +49,14 @@ ss-sim -s mass=103.576 -s stiffness=12013.1 -s contact_stiffness=2.97592e+06 -s 
     -s duration=20.7472 -s rate=865.017 compliant-light | ss-noise --snr 80 --seed 65 > noisy
 ss-features --column x --mass 103.576 noisy > found
 covers damping_ratio 0.00646812 < found
+# the rig's own mass and spring, which ring while it slips
+ss-sim -m exact -s mass=0.922770650151 -s stiffness=184384.238385 -s friction=0.732958942546 -s damping=36.4123861351 \
+    -s base_amplitude=1.40632942711e-05 -s base_frequency=1.13580545156 -s phase=5.76807674471 \
+    -s contact_stiffness=1207545.42582 -s contact_damping=14.5892465523 -s settle=0 -s duration=4.72024993039 \
+    -s rate=8474.12755466 compliant-light | ss-features --mass 0.922771 --stiffness 184384 > found
+none transition_frequency < found
+none contact_stiffness < found
+none contact_damping < found
 # what repeats, with the drift of a start that has not settled, and exactly
 ss-sim compliant-light | ss-features | covers repetition_frequency 2.5
 ss-signal sine | ss-features | covers repetition_frequency 10
