@@ -2,6 +2,7 @@
  * whole record, however its samples come. */
 #include <stdlib.h>
 #include <string.h>
+#include "fit/order.h"
 #include "map/map.h"
 #include "morlet_oracle.h"
 #include "unit.h"
