@@ -301,7 +301,8 @@ transforms_refuse_null(void **state)
     assert_true(isnan(ss_scale_b(NULL, 1)));
     assert_int_equal(ss_scale_edge(NULL, 1, 1, 1), 1);
 
-    ss_morlet_opts with_fmin = *opts;
+    ss_morlet_opts with_fmin;
+    ss_morlet_opts_init(&with_fmin, sizeof with_fmin);
     with_fmin.fmin = 0.1;
     assert_refused(ss_stream_new(NULL, 1, &with_fmin, no_coefficients, NULL, &e), &e);
     assert_int_equal(ss_stream_new(&stream, 1, NULL, no_coefficients, NULL, &e), SS_EINVAL);     /* no fmin */
@@ -726,6 +727,7 @@ refuses_what_is_no_known_choice(void **state)
         assert_int_equal(ss_scene_check(&copy, NULL), SS_EINVAL);
         assert_int_equal(ss_scene_write(&copy, in, NULL), SS_EINVAL);
         assert_true(isnan(ss_scene_get(&copy, "mass")));
+        assert_null(ss_model_named(NULL));
         assert_null(ss_model_at((size_t)k));
         assert_int_equal(ss_scene_supported(&copy, NULL), SS_EINVAL);
         assert_null(ss_sim_method_for(&copy, NULL));
