@@ -198,7 +198,8 @@ after(const ss_scene *s, const oracle_piece *p, long double t)
         long double way = p->at_rest != 0 ? load(s, t, x) : q[1];
         return slip_from(s, t, x, q[1] + p->belt, way > 0 ? 1 : -1);
     }
-    long double limit = s->model == ss_model_named("compliant") ? s->friction / ss_scene_get(s, "contact_stiffness") : 0;
+    int compliant = s->model == ss_model_named("compliant");
+    long double limit = compliant ? s->friction / ss_scene_get(s, "contact_stiffness") : 0;
     return stop_from(s, t, x, p->mode * limit, p->mode);
 }
 
@@ -244,7 +245,8 @@ rates(const ss_scene *s, long double t, const long double q[], long double dqdt[
     long double spring = swing(s, t) + s->stiffness * (s->base_velocity * t - q[0]);
     long double speed = q[1] - s->surface_velocity;
     dqdt[1] = (spring - s->damping * q[1] - q[2]) / s->mass;
-    dqdt[2] = -(long double)ss_scene_get(s, "gamma") * (q[2] - s->friction * tanhl(ss_scene_get(s, "alpha") * speed));
+    long double goal = s->friction * tanhl(ss_scene_get(s, "alpha") * speed);
+    dqdt[2] = -(long double)ss_scene_get(s, "gamma") * (q[2] - goal);
 }
 
 /* n steps by the midpoint rule, whose error is a series in (h / n)^2. */

@@ -391,6 +391,13 @@ a_threshold_that_moves_can_change_the_order(void **state)
 
 /* --- fits ---------------------------------------------------------------------------------- */
 
+/* A number of one scene over that of another. */
+static double
+ratio_of(const char *key, const ss_scene *a, const ss_scene *b)
+{
+    return ss_scene_get(a, key) / ss_scene_get(b, key);
+}
+
 /* From a start whose contact is twice as stiff and damps three times as much.  What is left
  * without noise is the tolerance of the descent; at 40 dB, 5 times what 12 seeds left: 0.005 and
  * 0.1 %, with f_k and Z_e, which have much the same effect, at 0.03 %. */
@@ -415,9 +422,9 @@ finds_the_parameters_of_a_compliant_signal(void **state)
             fail_msg("%s at %g dB: f_k %.3g off", ss_shipped_scenes[row[k].scene].name, row[k].snr,
                      fit.scene.friction / truth.friction - 1);
         assert_true(fabs(fit.scene.base_amplitude / truth.base_amplitude - 1) <= row[k].force);
-        assert_true(fabs(ss_scene_get(&fit.scene, "contact_stiffness") / ss_scene_get(&truth, "contact_stiffness") - 1)
+        assert_true(fabs(ratio_of("contact_stiffness", &fit.scene, &truth) - 1)
                     <= row[k].stiffness);
-        assert_true(fabs(ss_scene_get(&fit.scene, "contact_damping") / ss_scene_get(&truth, "contact_damping") - 1) <= row[k].damping);
+        assert_true(fabs(ratio_of("contact_damping", &fit.scene, &truth) - 1) <= row[k].damping);
         /* all that is left is the noise */
         assert_true(fit.residual_started <= 1.02 * pow(10, -row[k].snr / 20) + 1e-8);
         assert_true(fit.scene.rate == truth.rate && fit.scene.duration == truth.duration);
@@ -533,7 +540,7 @@ gaps_do_not_matter(void **state)
         ss_ranking_free(r);
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &truth, NULL, NULL), SS_OK);
         assert_true(fit.conclusive && fit.residual_started <= 1e-8);
-        assert_true(fabs(ss_scene_get(&fit.scene, "contact_stiffness") / ss_scene_get(&truth, "contact_stiffness") - 1) <= 1e-8);
+        assert_true(fabs(ratio_of("contact_stiffness", &fit.scene, &truth) - 1) <= 1e-8);
         assert_true(fabs(fit.scene.friction / truth.friction - 1) <= 1e-8);
         ss_signal_free(signal);
     }

@@ -49,7 +49,8 @@ loses_no_pair_of_events_within_a_step(void **state)
 {
     static const struct { const char *method; double allow; } how[] = {
         { "exact", 1e-14 }, { "taylor", 1e-10 }, { "rk8pd", 1e-10 } };
-    ss_scene s = { .model = ss_model_named("compliant"), .mass = 39.962297470418015, .stiffness = 1210590.7683860338,
+    ss_scene s = { .model = ss_model_named("compliant"), .mass = 39.962297470418015,
+                   .stiffness = 1210590.7683860338,
                    .friction = 6424.5387020796, .base_amplitude = .0053703860382076155,
                    .base_frequency = 21.398368727045753,
                    .x0 = -.00030267041130123407, .v0 = 1.115255409262061, .duration = .8608,
@@ -205,7 +206,7 @@ state_variable_oscillates_instead_of_sticking(void **state)
     assert_int_equal(extrema, 6);
     assert_true(fabs((last[5] - last[2]) / 3 - 8.3e-3) < 0.1e-3);
 
-    ss_scene_set_text(&literal, "law", "literal", NULL);                       /* settles at +-1 N: a weaker oscillation */
+    ss_scene_set_text(&literal, "law", "literal", NULL);      /* settles at +-1 N: a weaker oscillation */
     run weak = run_of(&literal);
     double max_f = 0;
     for (size_t i = 160000; i < 200000; i++)

@@ -89,6 +89,10 @@ ss_method_named(const struct method **how, const char *name, const ss_scene *sce
 {
     const ss_model *model = scene->model;
     size_t i = 0;
+    if (name == NULL) {
+        *how = ss_method_for(scene, USUAL);
+        return SS_OK;
+    }
     while (i < METHODS && strcmp(list[i].name, name) != 0)
         i++;
     if (i == METHODS)

@@ -33,7 +33,8 @@ typedef enum wish {
 } wish;
 /* Choose the method for a scene that has passed ss_scene_check. */
 const struct method *ss_method_for(const ss_scene *scene, wish wanted);
-/* Find the method of this name.  SS_EINVAL: there is none, or it cannot run the scene. */
+/* Find the method of this name, or the USUAL one if it is NULL.  SS_EINVAL: there is none, or it cannot run
+ * the scene. */
 ss_status ss_method_named(const struct method **how, const char *name, const ss_scene *scene, ss_error *err);
 /* The names of the methods that BEST means for scenes of this model. */
 const char *ss_method_best_names(const ss_scene *scene);

@@ -369,10 +369,8 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *given, ss_sim_stats *stats,
         st = ss_record_check(scene, err);
     if (st == SS_OK)
         st = ss_range_check(opts->tol, ss_sim_tolerances, "tolerance", err);
-    if (st == SS_OK && opts->method != NULL)
+    if (st == SS_OK)
         st = ss_method_named(&how, opts->method, scene, err);
-    else if (st == SS_OK)
-        how = ss_method_for(scene, USUAL);
     if (st != SS_OK)
         return st;
     ss_sample buffer[BUFFERED];

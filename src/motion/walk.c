@@ -8,8 +8,8 @@
 ss_status
 ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error *err)
 {
-    const struct method *how = ss_method_for(scene, USUAL);
-    ss_status st = opts->method != NULL ? ss_method_named(&how, opts->method, scene, err) : SS_OK;
+    const struct method *how = ss_method_for(scene, USUAL);     /* w is filled even on failure */
+    ss_status st = ss_method_named(&how, opts->method, scene, err);
     *w = (walk){ .m = ss_motion_of(scene, how->kind == CLOSED_FORM, opts->tol), .max_steps = opts->max_steps };
     ss_motion_start(&w->m);
     if (st == SS_OK)
