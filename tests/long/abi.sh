@@ -8,7 +8,7 @@ soname() { readelf -d "$1" | sed -n 's/.*SONAME.*\[\(.*\)\]/\1/p'; }
 # abidiff sets bit 8 where a program may break, bit 4 where anything changed.
 breaks() {
     status=0
-    abidiff --headers-dir1 "$1/include" --headers-dir2 "$2/include" "$1/lib.so" "$2/lib.so" > diff || status=$?
+    abidiff --headers-dir1 "$1/include" --headers-dir2 "$2/include" "$1/lib.so" "$2/lib.so" > differences || status=$?
     [ $((status & 8)) != 0 ]
 }
 
@@ -32,6 +32,6 @@ breaks new cut && echo "a function that goes is seen"
 ! breaks new new && echo "the same is the same"
 
 if breaks old new; then
-    [ "$(soname old/lib.so)" != "$(soname new/lib.so)" ] || { echo "breaks programs, with the same soname"; head -n 20 diff; }
+    [ "$(soname old/lib.so)" != "$(soname new/lib.so)" ] || { echo "breaks programs, with the same soname"; head -n 20 differences; }
 fi
 echo "$(soname old/lib.so) then"
