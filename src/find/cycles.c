@@ -21,11 +21,11 @@
  *
  * A signal does not repeat itself
  * - if the median cycle explains less of the variance of the next than is asked for;
- * - if more than BROKEN of the cycles have no best lag within WIDTH of the period, or are not like the
+ * - if more than PART of the cycles have no best lag within WIDTH of the period, or are not like the
  *   next cycle at that lag.  Such is a signal that rings anew behind each slip;
  * - if it rings once: the effective number of cycles, (sum E)^2 / sum E^2 of their energies E, is less
- *   than LASTING of them, or the energy decays or grows exponentially, by more than FADE in all and
- *   by more than e in QUICK cycles;
+ *   than PART of them, or the energy decays or grows exponentially, by more than FADE in all and
+ *   by more than e in MANY cycles;
  * - if the energies of the cycles repeat: the signal is modulated, and more than a cycle repeats; or if
  *   their means repeat: the cycle is that of a hum or a ringing.
  *
@@ -44,23 +44,18 @@
 
 #define POINTS 256.0            /* in a period while the lag is searched: more are averaged */
 #define WIDTH 0.2               /* relative difference of a cycle's period from the record's, at most */
-#define AGREES 0.5              /* the least correlation of a cycle that is like the next */
-#define SPOILT 2                /* cycles that one gap may make unlike the next */
-#define BROKEN 0.25             /* part of the cycles that may be unlike the next: see above */
+#define SPOILT 2                /* cycles that one gap may make unlike the next (gaps in test_transitions) */
+#define PART 0.25               /* of the cycles: more may not be unlike the next, or without energy: see above */
 #define ACTIVE 0.01             /* part of the mean energy: weaker cycles do not count */
-#define LASTING 0.25            /* the least effective part of the cycles: see above */
 #define FADE 10.0               /* factor of the energy from the first cycle to the last */
-#define QUICK 16.0              /* cycles in which the energy falls by e: slower decays do not count */
 #define STRAIGHT 0.95           /* the least r^2 of log energy on time in a decay */
 #define DEPTH 0.1               /* the least relative scatter of energies or means that is modulation */
-#define BETWEEN 0.5             /* the largest correlation with the cycles between two swells */
 #define SLOWEST 512             /* the most cycles in a swell */
 #define ROBUST 8                /* the fewest cycles whose scatter is found from the median deviation */
-#define LATER 8.0               /* cycles behind which a signal must still be like itself */
-#define FEWEST 16               /* the fewest cycles that show modulation */
+#define MANY 16                 /* cycles: fewer show no modulation; a decay that is slower does not count */
 #define PULLED 16               /* a hum pulls the lag by less than one part in so many */
 enum { PARTS = 16 };            /* cycles that may be taken for one, at most */
-enum { LAGS = 3 };              /* lags over 2, 4 and 8 cycles */
+enum { LAGS = 3 };              /* lags over 2, 4 and 8 cycles, so long a signal must be like itself */
 
 typedef struct view {           /* of the signal: all n samples, or averages of some */
     const double *x;
@@ -265,7 +260,7 @@ fades(const cycle *c, size_t n, double least)
     }
     double vt = tt - t * t / m, vy = yy - y * y / m, cov = ty - t * y / m;
     double rate = vt > 0 ? fabs(cov / vt) : 0;
-    return m >= 4 && rate * QUICK > 1 && rate * m > log(FADE) && cov * cov > STRAIGHT * vt * vy;
+    return m >= 4 && rate * MANY > 1 && rate * m > log(FADE) && cov * cov > STRAIGHT * vt * vy;
 }
 
 /* Does a member of the cycles repeat itself some cycles later with a correlation of more than like, after
@@ -277,11 +272,11 @@ repeats(const cycle *c, size_t n, const double *field, double scale, double like
     double least = 1;
     for (size_t i = 0; i < n; i++)
         v[i] = field[i * (sizeof *c / sizeof *field)];
-    if (n < FEWEST || !(sqrt(moments_of(&of, 0, 0, n).a) > DEPTH * scale))
+    if (n < MANY || !(sqrt(moments_of(&of, 0, 0, n).a) > DEPTH * scale))
         return 0;
     for (size_t lag = 1; lag <= n / 2 && lag <= SLOWEST; lag++) {
         double r = correlation(&of, 0, lag, n - lag);
-        if (least < BETWEEN && r > like)
+        if (least < CYCLES_UNLIKE && r > like)
             return 1;
         least = fmin(least, r);
     }
@@ -362,16 +357,16 @@ describe(const cycle *c, size_t n, const double *x, size_t step, cycle *known, d
         if (isnan(c[i].rate))
             continue;
         known[n_known++] = c[i];
-        alike += c[i].likeness > AGREES;
+        alike += c[i].likeness > CYCLES_UNLIKE;
     }
     out->symmetry = n_known > 0 ? median_of(known, n_known, &known->symmetry, v) : 0;
     out->likeness = n_known > 0 ? median_of(known, n_known, &known->likeness, v) : 0;
     if (out->n < 2)
         out->why = "under three cycles of what may repeat are in the record";
-    else if ((double)(out->n - alike) > fmax(SPOILT, BROKEN * (double)out->n) || n_known < 2
+    else if ((double)(out->n - alike) > fmax(SPOILT, PART * (double)out->n) || n_known < 2
              || !(out->likeness >= CYCLES_ALIKE))
         out->why = "no cycle resembles the next one";
-    else if (energy * energy < LASTING * squares || fades(c, n, ACTIVE * energy))
+    else if (energy * energy < PART * squares || fades(c, n, ACTIVE * energy))
         out->why = "it rings once, or sounds in a small part of the record only";
     else if (repeats(c, n, &c->mean, sqrt(energy), CYCLES_ALIKE, v))
         out->why = "what hums or rings repeats sooner than the rest";
@@ -423,7 +418,7 @@ ss_cycles_find(const double *x, size_t n, ss_cycles *out)
         start.value /= (double)parts;
         st = find_at(x, n, start.value, out, &parts);
     } while (st == SS_OK && parts > 1);
-    double later = fmax(1, fmin(LATER, floor(0.25 * (double)n / out->period.value))) * out->period.value;
+    double later = fmax(1, fmin(1 << LAGS, floor(0.25 * (double)n / out->period.value))) * out->period.value;
     if (later + 0.5 < (double)n)        /* not NaN */
         out->lasting = correlation(&(view){ x, n }, 0, (size_t)(later + 0.5), n - (size_t)(later + 0.5));
     return st;

@@ -21,7 +21,7 @@ typedef struct ss_cycles {
 /* The median cycle explains CYCLES_LIKE squared of the variance of the next if nothing else says that the
  * signal repeats; CYCLES_ALIKE squared if each cycle is known to be an event. */
 #define CYCLES_LIKE 0.95
-#define CYCLES_LAST 0.5         /* narrow noise, and ringing behind slips at random times, lasts less */
+#define CYCLES_UNLIKE 0.5         /* narrow noise, and ringing behind slips at random times, lasts less */
 #define CYCLES_ALIKE 0.70
 
 /* Find the cycles of the n samples of x, whose likeness must be at least CYCLES_ALIKE. */

@@ -81,7 +81,7 @@ find_repetition(search *s)
         return st;
     if (!(s->cycles.likeness >= CYCLES_LIKE))
         say(s->out, SS_REPETITION_FREQUENCY, "a cycle does not resemble the next one enough");
-    else if (!(s->cycles.lasting >= CYCLES_LAST))
+    else if (!(s->cycles.lasting >= CYCLES_UNLIKE))
         say(s->out, SS_REPETITION_FREQUENCY, "cycles resemble the next one, but not those some cycles later");
     else
         know(s->out, SS_REPETITION_FREQUENCY, cycle_rate(s));

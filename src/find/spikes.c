@@ -17,10 +17,9 @@
 
 #define DEEPEST 5.0             /* octaves in which the first spike is sought: 100 samples are smooth */
 #define REACH 2.0               /* octaves in which spikes are sought from the first row with a spike on */
-#define CLEAR 2.0               /* the least distance of two spikes, in scales */
+#define NEAR 2.0                /* scales: the least distance of two spikes, and what the fit of a break sees */
 #define DRIFT 0.5               /* the most by which a maximum moves from row to row, in scales */
 #define CONCLUSIVE 6.0          /* the least level of the clearest spike above the threshold [dB] */
-#define FIT 2.0                 /* scales on either side that the fit of a break sees */
 
 typedef struct spike_search {
     row_source *source;
@@ -163,7 +162,7 @@ add_row_spikes(spike_search *s, size_t i)
     size_t before = s->found->n;
     for (size_t k = 0; k < r->n; k++) {
         const peak *p = &r->peak[k];
-        if (!stands_out(s, r, p) || sees_gap(s, r, p->t) || !is_clear(s->found, before, p->t, CLEAR * r->a)
+        if (!stands_out(s, r, p) || sees_gap(s, r, p->t) || !is_clear(s->found, before, p->t, NEAR * r->a)
             || !stands_out(s, next, nearest(next, p->t, DRIFT * next->a)))
             continue;
         ss_status st = add_spike(s, i, p);
@@ -179,7 +178,7 @@ search_rows(spike_search *s, double f, ss_error *err)
 {
     row_source *src = s->source;
     double length = (double)(src->n - 1) / src->rate, shortest = ROW_CENTER / (2 * M_PI * f);
-    double octaves = log2(length / (2 * (sqrt(2) + CLEAR) * shortest));
+    double octaves = log2(length / (2 * (sqrt(2) + NEAR) * shortest));
     if (!(octaves > 0))
         return SS_OK;           /* it is too short to have spikes */
     size_t rows = (size_t)(fmin(octaves, DEEPEST) * ROW_VOICES) + 1, last = rows - 1;
@@ -212,7 +211,7 @@ refined(const spike_search *s, size_t i)
     const ss_spike *spike = &found->spike[i];
     double rate = s->source->rate;
     double a = ROW_CENTER / (2 * M_PI * spike->f) * rate, at = spike->t * rate;
-    double lo = fmax(at - FIT * a, 0), hi = fmin(at + FIT * a, (double)(s->source->n - 1));
+    double lo = fmax(at - NEAR * a, 0), hi = fmin(at + NEAR * a, (double)(s->source->n - 1));
     if (spike->kind == SS_SPIKE_BEND || spike->kind == SS_SPIKE_GLITCH)
         return spike->t;
     if (i > 0)
