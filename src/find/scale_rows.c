@@ -27,7 +27,6 @@
 #define PRECISION 1e-7          /* of a sample, relative to the largest change: weaker spikes do not count */
 #define ACCURACY 1e-10          /* of W: 200 dB */
 #define QUIET 3.0               /* scales from a spike within which it raises the level */
-#define LEAST 0.1               /* the least part of a row from which its noise is found */
 #define TOGETHER 6.0            /* octaves above an octave that share its spectra */
 #define MARGIN 0.25             /* part of the record: octaves with longer margins share nothing */
 
@@ -145,7 +144,7 @@ rms_of(const row_source *source, double middle)
 
 /* The rms of |W| in the n levels, of which one comes every step from t on, and which change places.  It is
  * found from the median of the levels that are farther than QUIET scales from all spikes found so far and
- * out of the reach of gaps, or of all levels if these are less than LEAST of them. */
+ * out of the reach of gaps, or of all levels if there are none. */
 static double
 noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t n, double t,
          double step, double a)
@@ -164,7 +163,7 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
         level[left++] = level[k];
         level[k] = swap;
     }
-    if (all || (double)left < LEAST * (double)n)
+    if (all || left == 0)
         left = n;
     return rms_of(source, ss_levels_middle(level, left));
 }

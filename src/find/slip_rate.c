@@ -8,12 +8,11 @@
 #include "find/search.h"
 #include "signal/gaps.h"
 
-#define JITTER 0.125            /* relative difference of a time from that at which transitions recur */
+#define JITTER 0.125            /* relative difference of a time, or a period, from that at which transitions recur */
 #define MOST 0.75               /* the least part of the transitions that must recur */
 #define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
 #define OVERTONES 0.1           /* part of the power: a cycle with less is a sinusoid */
 #define ALIKE 0.05              /* relative scatter of falls that differ by chance only */
-#define CONFIRMS 0.15           /* relative difference of a period from the time between falls */
 
 /* The number of transitions in a second, by the mean of the times between them.  Times with a gap are left
  * out: it may hide transitions. */
@@ -155,7 +154,7 @@ confirm_repetition(search *s)
 {
     ss_features *out = s->out;
     if (isnan(out->number[SS_REPETITION_FREQUENCY].value)
-        && fabs(out->number[SS_SLIP_RATE].value / cycle_rate(s).value - 1) <= CONFIRMS) {
+        && fabs(out->number[SS_SLIP_RATE].value / cycle_rate(s).value - 1) <= JITTER) {
         know(out, SS_REPETITION_FREQUENCY, cycle_rate(s));
         out->number[SS_REPETITION_FREQUENCY].why = NULL;
     }
@@ -182,7 +181,7 @@ has_offset(const search *s)
 {
     return s->quantity == QUANTITY_UNKNOWN && s->opts->drop == 0
         && !isnan(s->out->number[SS_REPETITION_FREQUENCY].value)
-        && !(fabs(s->out->number[SS_SLIP_RATE].value / cycle_rate(s).value - 1) <= CONFIRMS);
+        && !(fabs(s->out->number[SS_SLIP_RATE].value / cycle_rate(s).value - 1) <= JITTER);
 }
 
 void

@@ -10,7 +10,6 @@
 #define SPIKES 60.0             /* [dB] range of the spikes that are counted in a transition */
 #define APART 6.0               /* [dB] above the next weaker one: such events are no swells of noise */
 #define CLEAR 15.0              /* [dB] range of single events */
-enum { SHORT = 64 };            /* samples: a shorter record has no quiet beside a single event */
 
 static int
 has_strong_event(const ss_spikes *found)
@@ -187,8 +186,6 @@ find_transitions(search *s)
     }
     if (st == SS_OK && out->n == 0 && !s->cycles.modulated)
         st = find_single(s);
-    if (st == SS_OK && out->n == 0 && out->spikes->conclusive && s->n < SHORT)
-        st = find_spiked(s);            /* the record is too short for the others */
     return st;
 }
 
