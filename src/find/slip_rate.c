@@ -8,7 +8,7 @@
 #include "find/search.h"
 #include "signal/gaps.h"
 
-#define JITTER 0.125            /* relative difference of a time, or a period, from that at which transitions recur */
+#define JITTER 0.125            /* relative difference of a time or period from that at which transitions recur */
 #define MOST 0.75               /* the least part of the transitions that must recur */
 #define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
 #define OVERTONES 0.1           /* part of the power: a cycle with less is a sinusoid */
