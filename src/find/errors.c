@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define WHITE 1.2               /* times the variance of white noise: more is coloured, less is chance */
+
 /* The variance of the samples, from the residuals of a fit. */
 static double
 variance_of(const fitter *k, const linear *fit)
@@ -108,7 +110,7 @@ ss_errors_find(fitter *k, ss_value value[2])
         fit_otherwise(k, CUT_START, cut, &total, cut_moved);
         fit_otherwise(k, CUT_END, cut, &total, cut_moved);
         fit_otherwise(k, BENT, cut, &total, bent_moved);
-        double excess = fmax(0, variance_of(k, &total) - k->of->white * k->of->white);
+        double excess = fmax(0, variance_of(k, &total) - WHITE * k->of->white * k->of->white);
         double in_band = excess * 0.5 * (double)total.samples / (double)total.windows, fine = FIT_FINE * k->fit.w;
         ss_value coloured[2];
         errors_of_fit(&total.normal, in_band, coloured);
