@@ -212,9 +212,13 @@ ss_features_find(ss_features **out, const ss_signal *signal, size_t column, cons
     memcpy(x, signal->values + column * n, n * sizeof *x);
     ss_features *found = NULL;
     for (int pass = 0, again = 1; again && st == SS_OK; pass++) {
-        search s = { .signal = signal, .x = x + n, .n = n, .rate = signal->head->rate,
-                     .n_gaps = n_gaps, .gap = gap, .opts = &opts, .rows = &(row_source){ 0 }, .is_second = pass > 0, .is_cleaned = pass > 0,
-                     .quantity = ss_column_quantity(&signal->head->column[column]) };
+        search s = { .signal = signal, .opts = &opts, .n = n, .rate = signal->head->rate };
+        s.x = x + n;
+        s.gap = gap;
+        s.n_gaps = n_gaps;
+        s.rows = &(row_source){ 0 };
+        s.is_second = s.is_cleaned = pass > 0;
+        s.quantity = ss_column_quantity(&signal->head->column[column]);
         ss_features_free(found);
         s.out = found = new_features();
         st = found == NULL ? ss_fail_memory(err, NULL) : n > 0 ? find(&s, x, column, err) : SS_ESCALE;
