@@ -7,6 +7,7 @@
 #include <stickslip.h>
 #include "map/map.h"
 
+#include "signal/welch.h"
 #include "unit.h"
 #include "read_opts.h"
 #include "signal/gaps.h"

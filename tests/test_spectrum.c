@@ -4,6 +4,7 @@
 #include <string.h>
 #include <stickslip.h>
 
+#include "signal/welch.h"
 #include "unit.h"
 
 enum { N = 1 << 16 };

@@ -28,14 +28,6 @@ ss_status ss_spectrum_new(ss_spectrum **out, const double *x, size_t n, double r
                           ss_error *err);
 void ss_spectrum_free(ss_spectrum *spectrum);           /* NULL is allowed */
 
-/* The same for n samples that come in pieces: new, add for each piece, end, free.  It takes 16 bytes for
- * each sample of a segment. */
-typedef struct ss_welch ss_welch;
-ss_status ss_welch_new(ss_welch **out, size_t n, double rate, double resolution, ss_error *err);
-ss_status ss_welch_add(ss_welch *welch, const double *x, size_t n, ss_error *err);
-ss_status ss_welch_end(ss_spectrum **out, ss_welch *welch, ss_error *err);
-void ss_welch_free(ss_welch *welch);                    /* NULL is allowed */
-
 /* Write spectra of columns of one record, which are alike but for their densities, as text: notes of the
  * header, resolution and segments, then a row for each frequency, with a column for each of n
  * columns.  decibels: 1: in dB re 1 unit^2/Hz, - for 0.  SS_EINVAL: the format holds numbers only; SS_EIO. */

@@ -9,6 +9,7 @@
 #include <stickslip/spectrum.h>
 #include "base/error.h"
 #include "signal/header.h"
+#include "signal/welch.h"
 
 #define PANEL 3.4               /* height of one panel [cm] */
 #define BELOW 1.0               /* and below them [cm] */

@@ -6,6 +6,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/fft.h"
+#include "signal/welch.h"
 
 #define BANDWIDTH 1.5           /* of a Hann window, in steps of frequency */
 enum { LEAST = 16 };            /* the shortest segment, in samples */
