@@ -101,6 +101,10 @@ grow_windows(fitter *k, ss_window *core, int *ok)
             is_growing |= ss_window_length(k->window[i]) == longest;
         st = fit_shared(k, COARSE, ok);
     }
+    int lasts = 0;              /* else all cores would be placed in vain */
+    for (size_t i = 0; i < k->n; i += every)
+        lasts |= ss_window_length(ss_sticks_trim(k, k->window[i])) > 0;
+    *ok = *ok && lasts;
     if (every == 1 || st != SS_OK || !*ok)
         return st;
     for (size_t i = 0; i < k->n; i++)
