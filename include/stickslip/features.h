@@ -159,12 +159,12 @@ void ss_features_opts_init(ss_features_opts *opts, size_t size);
  * a, no spike nearer than 12 of its scales, no single event nearer than 6, no fall over a gap;
  * fits end before a gap.  A record that is too short for any scale, or in which nothing happens,
  * has no transitions: SS_OK.  A number is NaN if its error is not reliable, for the reasons that
- * ss-features(1) gives.  opts may be NULL.  The caller frees *out with ss_features_free. */
+ * stickslip-features(7) gives.  opts may be NULL.  The caller frees *out with ss_features_free. */
 ss_status ss_features_find(ss_features **out, const ss_signal *signal, size_t column,
                            const ss_features_opts *opts, ss_error *err);
 void ss_features_free(ss_features *features);           /* NULL is allowed */
 
-/* Write a text of notes and a row for each transition, as ss-features(1) describes.  signal,
+/* Write a text of notes and a row for each transition, as stickslip-features(7) describes.  signal,
  * column and opts are those of ss_features_find.  SS_EINVAL: the format holds numbers only;
  * SS_EIO. */
 ss_status ss_features_write(const ss_features *features, const ss_signal *signal, size_t column,
@@ -179,7 +179,7 @@ ss_status ss_features_write(const ss_features *features, const ss_signal *signal
 ss_status ss_summary_write(const char *file, const ss_features *features, const ss_signal *signal,
                            size_t column, const char *reason, FILE *out, ss_error *err);
 /* Write such a table in any format.  Notes behind it give, for each number, the mean, the scatter
- * between files, the scatter within a file, and the number of files, as ss-features(1) describes.
+ * between files, the scatter within a file, and the number of files, as stickslip-features(7) describes.
  * SS_EINVAL: the format holds numbers only; SS_EDATA: the table has other columns; SS_EIO. */
 ss_status ss_summaries_write(const ss_table *summaries, FILE *out, ss_format format, ss_error *err);
 

@@ -80,7 +80,7 @@ typedef struct ss_ranking {
  * A forced scene is adjusted within the spread, first to the signal's mean cycle and then to the
  * samples of some cycles.  It is then run with white noise of the signal's level and with its
  * gaps, and compared.  Samples near gaps are left out of both, as in ss_features_find.  Noise is
- * the part of the signal that is neither slow nor repeated, see ss-rank(1).
+ * the part of the signal that is neither slow nor repeated, see stickslip-rank(7).
  *
  * A pulled scene needs the spring's force as column.  It is adjusted to the falls of the force;
  * only the residual and the adjustment are compared.  If there are scenes of both kinds, the

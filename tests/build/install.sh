@@ -1,7 +1,10 @@
 # What make install puts somewhere is complete, and make uninstall takes all of it away.
-root="$PWD/a 'root'"
+# From a copy: another PREFIX makes tools again, which other tests run meanwhile.
+mkdir tree
+cp -a "$BUILD"/src "$BUILD"/tools "$BUILD"/bin "$BUILD"/flags "$BUILD"/libdir "$BUILD"/*.* tree
+root="$PWD/a 'root'" tree=$PWD/tree
 make_() {
-    "$MAKE" -s -C "$SRC" BUILD="$BUILD" PREFIX=/usr DESTDIR="$root" "$@" > log 2>&1 || cat log
+    "$MAKE" -s -C "$SRC" BUILD="$tree" PREFIX=/usr DESTDIR="$root" "$@" > log 2>&1 || cat log
 }
 make_ install
 (cd "$root/usr" && find . ! -type d | sort) > files

@@ -26,12 +26,12 @@ done
 mandoc -T lint "$BUILD/stickslip.3"
 mandoc -T utf8 -O width=200 "$BUILD/stickslip.3" | LC_ALL=C sed -e "s/.$(printf '\b')//g" -e 's/^ *//' > "$OLDPWD/page"
 sed 's/^[ 	]*//' "$SRC"/include/stickslip/*.h | grep . | grep -vxF -f "$OLDPWD/page" || true
-# ss-features(1) names each number of the list.
+# stickslip-features(7) names each number of the list.
 printf '#include <stickslip.h>\n#define NUMBER(NAME, name, unit, about, needs, by) @ name\nSS_FEATURE_NUMBER_LIST(NUMBER)\n' |
     $CC -I"$SRC/include" -x c -E -P - | grep -o '@ "[a-z_]*"' | tr -d '@ "' > "$OLDPWD/numbers"
 [ -s "$OLDPWD/numbers" ] || echo "no numbers"
 while read -r name; do
-    cat ./ss-features* | grep -qE "^\\.(Cm|It)( .*)? $name( |\$)" || echo "not in ss-features(1): $name"
+    cat ./stickslip-features.7 | grep -qE "^\\.(Cm|It)( .*)? $name( |\$)" || echo "not in stickslip-features(7): $name"
 done < "$OLDPWD/numbers"
 # What a user reads first is short.
 for bound in README.md:140 CHANGELOG.md:40; do

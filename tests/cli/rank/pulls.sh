@@ -21,7 +21,7 @@ near k/m 5472.3127 < fitted
 near loading 0.007056 < fitted
 near drop 0.03 < fitted
 sed 's/is [0-9.]* times/is ... times/' err
-# friction that falls with speed puts k/m off, as ss-rank(1) says; what the slips leave shows it
+# friction that falls with speed puts k/m off, as stickslip-rank(7) says; what the slips leave shows it
 ss-sim -c t,s -s model=stribeck -s stribeck_velocity=3e-3 pull.scene | ss-noise --snr 40 > falling.tsv
 ss-rank --fit falling.tsv pull.scene 2> err | awk '$1 == "#" && $2 == "k/m" { print "given:", $10, $11 }'
 sed 's/leave [0-9.]* times/leave ... times/' err
