@@ -50,9 +50,12 @@ _stickslip_keys()       # WANTED WORD ...: "key=" of the scenes among the words,
     done | sed -n "s/^\([a-z0-9_]*\) = $wanted.*/\1=/p" | sort -u
 }
 
-_stickslip_words()      # SCENE-OR-NOTHING KEY: what a key may be, if that is no number
+_stickslip_words()      # KEY: what it may be in a shipped scene that has it, if that is no number
 {
-    ss-sim --list "--set=$2=?" -- "$1" 2>&1 < /dev/null | sed -n 's/.* must be one of //p' | tr -d ' ' | tr , '\n'
+    local scene
+    for scene in $(_stickslip_scenes); do
+        ss-sim --list "--set=$1=?" -- "$scene" 2>&1 < /dev/null
+    done | sed -n 's/.* must be one of //p' | tr -d ' ' | tr , '\n' | sort -u
 }
 
 _stickslip_columns()    # WORD ...: of the last file among them
@@ -106,7 +109,7 @@ _stickslip()
         if [[ ${current#"$front"} == *=* ]]; then
             option=${current#"$front"}
             option=${option%%=*}
-            list=$(_stickslip_words "$(_stickslip_scenes | sed q)" "$option")
+            list=$(_stickslip_words "$option")
             front=$front$option=
         else
             list=$(_stickslip_keys "$([[ $takes == K=* ]] && echo '[-0-9.]')" "${words[@]:1}")
