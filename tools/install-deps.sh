@@ -11,22 +11,22 @@ report=${INSTALL_DEPS:-1}
 # A want is named by what it is, and each system has its own name for the package.
 # shellcheck disable=SC2034  # used through eval
 {
-others='python arb sndfile sox h5dump clang mandoc shellcheck locales'
+others='python arb sndfile sox h5dump clang mandoc shellcheck locales zsh'
 wants="compiler pkgconfig gsl fftw3 hdf5 cmocka gnuplot $others"
 debian='gcc:libc6-dev pkg-config libgsl-dev libfftw3-dev libhdf5-dev libcmocka-dev gnuplot-nox
     python3-numpy:python3-h5py:python3-xarray:python3-h5netcdf libflint-arb-dev|libflint-dev
-    sndfile-programs sox hdf5-tools clang:libclang-rt-dev mandoc shellcheck locales'
+    sndfile-programs sox hdf5-tools clang:libclang-rt-dev mandoc shellcheck locales zsh'
 fedora='gcc pkgconf-pkg-config gsl-devel fftw-devel hdf5-devel libcmocka-devel gnuplot
     python3-numpy:python3-h5py:python3-xarray:python3-h5netcdf flint-devel
-    libsndfile-utils sox hdf5 clang:compiler-rt mandoc ShellCheck glibc-locale-source'
+    libsndfile-utils sox hdf5 clang:compiler-rt mandoc ShellCheck glibc-locale-source zsh'
 arch='gcc pkgconf gsl fftw hdf5 cmocka gnuplot
     python-numpy:python-h5py:python-xarray:python-h5netcdf flint
-    libsndfile sox hdf5 clang:compiler-rt mandoc shellcheck glibc'
+    libsndfile sox hdf5 clang:compiler-rt mandoc shellcheck glibc zsh'
 homebrew='gcc pkgconf gsl fftw hdf5 cmocka gnuplot
-    numpy:h5py flint libsndfile sox hdf5 llvm mandoc shellcheck gettext'
+    numpy:h5py flint libsndfile sox hdf5 llvm mandoc shellcheck gettext zsh'
 unknown='C11-compiler pkg-config GSL FFTW3 HDF5(with-hl) CMocka gnuplot(with-cairo-terminals)
     Python(with-NumPy-h5py-xarray-h5netcdf) FLINT(with-Arb) sndfile-convert
-    sox h5dump clang(with-libFuzzer) mandoc shellcheck localedef(with-de_DE)'
+    sox h5dump clang(with-libFuzzer) mandoc shellcheck localedef(with-de_DE) zsh'
 }
 
 : "${CC:=cc}" "${PKG_CONFIG:=pkg-config}"
@@ -70,7 +70,7 @@ have() {
                     clang -x c -fsanitize=fuzzer -o /dev/null - ;;
     locales)    locale -a | grep -q -i '^de_DE.utf' ||
                     { command -v localedef && test -e /usr/share/i18n/locales/de_DE; } ;;
-    sox | h5dump | mandoc | shellcheck) command -v "$1" ;;
+    sox | h5dump | mandoc | shellcheck | zsh) command -v "$1" ;;
     *)          "$PKG_CONFIG" --exists "$1" ;;
     esac > /dev/null 2>&1
 }
