@@ -158,7 +158,7 @@ find(signal_rows *s, const char *dataset, const ss_read_opts *opts)
     s->base.length = s->n;
     s->piece = piece_rows(s, all);
     s->value = ss_columns_new(all, s->piece);
-    s->raw = malloc((s->piece * columns + 1) * sizeof *s->raw);
+    s->raw = malloc((s->piece * (columns > 0 ? columns : 1) + 1) * sizeof *s->raw);     /* times: one */
     return s->value != NULL && s->raw != NULL ? SS_OK : SS_ENOMEM;
 }
 
