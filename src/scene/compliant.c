@@ -4,7 +4,7 @@
  * begins with y = Y_m sgn(v before) + x - X_s and f = K_y y + c y'.  It lasts until f exceeds f_s.
  * The state in a microstick is y, not x: in a stiff contact Y_m is far smaller than x, and x - X_s
  * would lose most of its digits. */
-#include "scene/model.h"
+#include "scene/models.h"
 
 enum { STIFFNESS, DAMPING, RELEASE };           /* K_y, c, and the force that ends a microstick */
 enum { SPRING, TOTAL };                         /* K_y |y|, as the paper writes; or |K_y y + c v| */
@@ -276,7 +276,7 @@ move(state *m, const double d[D_MOST])
 
 static const struct variation variation = { free_differences, cross, move };
 
-const ss_model ss_compliant_model = {
+MODEL(compliant) = {
     .name = "compliant",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,

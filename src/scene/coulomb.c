@@ -1,10 +1,10 @@
 /* coulomb.c -- f = f_k sgn(v) in slip; true stick (stick.c). */
 #include <string.h>
-#include "scene/model.h"
+#include "scene/models.h"
 
 static const scene_key keys[] = { KEY_STATIC_FRICTION };
 
-const ss_model ss_coulomb_model = {
+MODEL(coulomb) = {
     .name = "coulomb",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .dim = 2, .linear = 1,

@@ -1,22 +1,14 @@
-/* models.c -- the friction models: one line each. */
+/* models.c -- the friction models by their places in the list and by their names. */
 #include <string.h>
-#include "scene/model.h"
+#include "scene/models.h"
 
-#define MODELS(model) \
-    model(ss_coulomb_model) \
-    model(ss_state_variable_model) \
-    model(ss_compliant_model) \
-    model(ss_stribeck_model)
-
-#define DECLARE(name) extern const ss_model name;
-#define POINT_TO(name) &name,
-MODELS(DECLARE)
-static const ss_model *const list[] = { MODELS(POINT_TO) };
+#define POINT_TO(name) &ss_##name##_model,
+static const ss_model *const list[MODELS] = { MODEL_LIST(POINT_TO) };
 
 const ss_model *
 ss_model_at(size_t i)
 {
-    return i < sizeof list / sizeof *list ? list[i] : NULL;
+    return i < MODELS ? list[i] : NULL;
 }
 
 const ss_model *

@@ -1,6 +1,6 @@
 /* state_variable.c -- f = theta, which relaxes towards f_k tanh(alpha v) at the rate gamma (or,
  * as the paper prints it, towards tanh(alpha v) at the rate gamma f_k).  Smooth: no events. */
-#include "scene/model.h"
+#include "scene/models.h"
 
 #include <string.h>
 
@@ -313,7 +313,7 @@ move(state *m, const double d[D_MOST])
 
 static const struct variation variation = { .free = all_free, .move = move };
 
-const ss_model ss_state_variable_model = {
+MODEL(state_variable) = {
     .name = "state-variable",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,

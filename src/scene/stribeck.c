@@ -1,6 +1,6 @@
 /* stribeck.c -- friction that falls with speed, f = sgn(v) (f_k + (f_s - f_k) / (1 + |v| / v_s)) in
  * slip; true stick (stick.c). */
-#include "scene/model.h"
+#include "scene/models.h"
 
 enum { SPEED };                 /* v_s */
 
@@ -132,7 +132,7 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
         s->f = friction_at(m, q[1]);
 }
 
-const ss_model ss_stribeck_model = {
+MODEL(stribeck) = {
     .name = "stribeck",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,

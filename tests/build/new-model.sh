@@ -1,17 +1,19 @@
-# A friction model is a file and a line: a copy of state_variable.c under another name, with a key that
-# no model has, listed in models.c, is all that is compiled anew: no header changes.  Every tool then works with it as it does with the
+# A friction model is a file and a row: a copy of state_variable.c under another name, with a key that
+# no model has, and its row in the list of models.h; no other header changes.  Every tool then works with it as it does with the
 # original, or refuses in one clear line.  So it does with a copy of coulomb.c that says neither that
-# it is linear nor its higher derivatives.
-sed -e 's/ss_state_variable_model/ss_copied_model/' -e 's/"state-variable"/"copied"/' -e 's/"alpha"/"front_slope"/' \
-    "$SRC/src/scene/state_variable.c" > copied.c
-# shellcheck disable=SC1003  # a backslash at the end of a line
-sed -e 's/ss_coulomb_model/ss_stepped_model/' -e 's/ss_to_coulomb/ss_to_stepped/' -e 's/"coulomb"/"stepped"/' -e 's/ \.linear = 1,//' \
-    -e 's/ \.derivatives = ss_linear_derivatives,//' -e 's/ *\.variation = .*//' \
-    "$SRC/src/scene/coulomb.c" > stepped.c
-sed 's/model(ss_compliant_model)/& model(ss_copied_model) model(ss_stepped_model)/' \
-    "$SRC/src/scene/models.c" > models.c
+# it is linear nor its higher derivatives.  Without its row it does not compile.
+sed -e 's/MODEL(state_variable)/MODEL(copied)/' -e 's/ss_state_variable_model/ss_copied_model/' \
+    -e 's/"state-variable"/"copied"/' -e 's/"alpha"/"front_slope"/' "$SRC/src/scene/state_variable.c" > copied.c
+sed -e 's/MODEL(coulomb)/MODEL(stepped)/' -e 's/ss_coulomb_model/ss_stepped_model/' -e 's/ss_to_coulomb/ss_to_stepped/' \
+    -e 's/"coulomb"/"stepped"/' -e 's/ \.linear = 1,//' -e 's/ \.derivatives = ss_linear_derivatives,//' \
+    -e 's/ *\.variation = .*//' "$SRC/src/scene/coulomb.c" > stepped.c
 # shellcheck disable=SC2086  # flags are lists
-$CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -I"$SRC/include" -I"$SRC/src" $INCLUDES -c copied.c stepped.c models.c
+compile() { $CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iown -I"$SRC/include" -I"$SRC/src" $INCLUDES -c "$@"; }
+compile copied.c 2> refused || grep -c 'MODEL_copied' refused
+mkdir -p own/scene
+# shellcheck disable=SC1003  # a backslash at the end of a line
+sed 's/^    row(stribeck)$/    row(stribeck) \\\n    row(copied) \\\n    row(stepped)/' "$SRC/src/scene/models.h" > own/scene/models.h
+compile copied.c stepped.c "$SRC/src/scene/models.c"
 mkdir bin
 common=
 for source in "$SRC"/tools/*.c; do
