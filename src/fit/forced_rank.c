@@ -150,6 +150,33 @@ difference_error(const found *a, const found *b)
     return sqrt(squares);
 }
 
+/* Say so if a scene of another law would explain the signal as the first does, were its rig damped otherwise: a
+ * law is not named for what damping does. */
+static ss_status
+test_damping(ss_ranking *r, const comparison *w, const found *f)
+{
+    const ss_rank_row *first = &r->row[0];
+    ss_status st = SS_OK;
+    for (size_t i = 1; st == SS_OK && r->verdict == SS_NAMED && i < r->n; i++) {
+        const ss_rank_row *other = &r->row[i];
+        const found *of = &f[other->scene];
+        residue damped = of->fit.of_samples;
+        forced_held held[HELD_TERMS];
+        if (other->adjusted.model == first->adjusted.model || damped.compared == 0)
+            continue;
+        st = ss_forced_gains(held, &of->scene, &of->fit, &w->record);
+        const forced_held *by = &held[HELD_DAMPING];
+        damped.left -= by->gain * fmax(damped.left, RESIDUE_QUIET * damped.power) / damped.compared;
+        if (st != SS_OK || !(by->nearer > 0) || !ss_residue_explains(&damped, w->record.noise)
+            || ss_residue_lead(&f[first->scene].fit.of_samples, &damped, w->record.noise) >= RESIDUE_DECISIVE)
+            continue;
+        r->verdict = SS_UNDECIDED;
+        snprintf(r->why, sizeof r->why, "%s friction explains the signal as well as %s friction if the rig's damping "
+                 "is %.2g N s/m", ss_model_name(other->adjusted.model), ss_model_name(first->adjusted.model), by->nearer);
+    }
+    return st;
+}
+
 /* Find the verdict from what the scenes leave: the first is named if it explains the signal, no sinusoid does
  * (the motion of every linear rig), no scene leaves less, and none that leaves as little has another law or
  * is as near. */
@@ -197,7 +224,7 @@ judge(ss_ranking *r, const comparison *w, const found *f)
         if (r->why[0] != '\0')
             r->verdict = SS_UNDECIDED;
     }
-    return st;
+    return st == SS_OK ? test_damping(r, w, f) : st;
 }
 
 /* The key in which two fits of one scene differ most, significantly, and their difference in standard errors;
