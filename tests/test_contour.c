@@ -218,7 +218,7 @@ every_level_has_its_colour(void **state)
     static double level[ROWS * COLUMNS], point[POLYGON_MAX][2];
     static int painted[ROWS * COLUMNS];
     double f[ROWS], step = 5;
-    const script_span span = { 0, 1, 0, 0 };
+    const script_span span = { .from = 0, .to = 1 };
     const contour_map map = { &span, span.from, span.to, ROWS, f, level, 1, LEVELS * step, NAN };
     char *text = NULL;
     size_t size, checked = 0;

@@ -369,7 +369,7 @@ long_labels_have_two_lines_and_smaller_letters(void **state)
         snprintf(line, sizeof line, "; set label 1 \"%s\" at ", row[i].label);
         if (strstr(script, line) == NULL)
             fail_msg("no %s", row[i].label);
-        if ((strstr(script, "noenhanced font ','.(") != NULL) != row[i].smaller)
+        if ((strstr(script, "noenhanced font sprintf(") != NULL) != row[i].smaller)
             fail_msg("%s: letters of the other size", row[i].name);
         free(script);
         ss_signal_free(signal);

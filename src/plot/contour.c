@@ -1,6 +1,6 @@
 /* contour.c -- draw contours of |W| in decibels over time and frequency, below the signal: the
  * script, its axes and the cone of influence. */
-#include "plot/contour_marks.h"
+#include "plot/contour.h"
 #include "plot/style.h"
 
 #include <float.h>
@@ -92,49 +92,25 @@ write_frequency_tics(FILE *out, double lo, double hi)
 
 /* --- the script ---------------------------------------------------------------------------- */
 
+#define ROOM 6.8                /* [ems] for the name of the signal, between "(a)" and "(b)" */
+
 static const char around[] =
     "set multiplot\n"
     "left = 0.175; right = 0.835\n"
     "set lmargin at screen left; set rmargin at screen right\n"
-    "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror out scale 0.6,0.3\n"
-    SCRIPT_TIME_TICS;
-
-#define ROOM 6.8                /* [ems] for the name of the signal, between "(a)" and "(b)" */
+    "set xrange [from:to]; unset key; set border lw 0.8; set tics nomirror out scale 0.6,0.3; set xtics tics\n";
 
 static const char panel_a[] =
-    "set tmargin at screen 0.925; set bmargin at screen 0.72\n"
-    "set label 1 '(a)' at screen 0.01, screen 0.96\n"
-    "set xtics format ''; ";
-
-static const char panel_a_plot[] =
     "set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
     "plot $signal using 1:2 with lines lw 1 lc rgb 'black'\n"
     "unset title; set offsets 0,0,0,0\nunset label 2\n";
 
 static const char panel_b[] =
     "set bmargin at screen bottom; set tmargin at screen top_b\n"
-    "set label 1 '(b)' at screen 0.01, screen top_b + 0.03\n"
-    SCRIPT_TIME_LABELS
     "set logscale y; set yrange [fmin:fmax]\n"
-    "set palette defined (@colours) maxcolors levels\n";
-
-static const char colour_box[] =
+    "set palette defined (@colours) maxcolors levels\n"
     "set cbtics scale 0.4 offset -0.7,0; set cblabel reference noenhanced offset -0.6,0\n"
     "set colorbox user origin screen right + 0.02, screen bottom size screen 0.025, screen top_b - bottom\n";
-
-/* What the script draws. */
-typedef struct drawing {
-    const ss_coefficients *c;
-    const ss_contour_opts *contour;
-    const contour_map *map;
-    script_clock clock;         /* of the signal in panel (a) */
-    script_span span;
-    script_extent drawn;
-    script_label label;         /* of panel (a) */
-    int lines;                  /* 1: there are contours */
-    contour_marks marks;
-    size_t ridge;               /* points */
-} drawing;
 
 /* The colour below the areas; NULL: that of the paper. */
 static const char *
@@ -143,151 +119,21 @@ ground_of(const ss_contour_opts *contour)
     return contour->fill && contour->palette != NULL ? ss_palette_ground(contour->palette) : NULL;
 }
 
-/* A colour is that of a line, or that of the area between two lines. */
-static void
-write_key(FILE *out, const drawing *d)
-{
-    fputs(d->contour->fill ? "set cbrange [-span:0]\n" : "set cbrange [-span - step/2 : -step/2]\n", out);
-    fputs(colour_box, out);
-    if (!isnan(d->map->noise))
-        fputs("set label 3 sprintf('noise at %d dB', noise) at screen 0.99,screen 0.3*bottom right noenhanced"
-              "\n", out);
-}
-
-/* The cone is drawn first, over the colours if there are any, then events, contours and features,
- * so that events lie behind the contours.  Each level has one colour: gnuplot 6.0 loses some lines
- * that have a colour for each point. */
-static ss_status
-write_panel_b(FILE *out, const drawing *d)
-{
-    const ss_contour_opts *contour = d->contour;
-    ss_status st = SS_OK;
-    fputs(contour->signal != NULL ? "bottom = 0.12; top_b = 0.68\n"
-                                  : "bottom = 0.16; top_b = 0.925\n", out);
-    fputs(panel_b, out);
-    write_key(out, d);
-    write_frequency_tics(out, d->map->f[0], d->map->f[d->map->rows - 1]);
-    if (contour->signal == NULL)
-        fputs("unset label 1\n", out);
-    if (ground_of(contour) != NULL)
-        fputs("set object rectangle from graph 0,0 to graph 1,1 back fc rgb ground_colour fs solid noborder\n", out);
-    if (contour->fill)
-        st = ss_contour_write_fill(out, d->map, contour->levels);
-    ss_print(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
-            "fs %s noborder lc rgb cone_colour", d->c->n_gaps + 1,
-            contour->fill ? "transparent solid 0.6" : "solid 1");
-    ss_contour_plot_events(out, &d->marks, contour->n_events);
-    if (d->lines && contour->fill)
-        fputs(", \\\n    for [i=1:words(drawn)] $contour index i-1 using 1:2 with lines lw 0.3 "
-              "lc rgb line_colour", out);
-    else if (d->lines)
-        fputs(", \\\n    for [i=1:words(drawn)] $contour index i-1 using 1:2 with lines lw 1 "
-              "lc palette cb -word(drawn,i)*step", out);
-    if (d->ridge > 0)
-        fputs(", \\\n    $ridge using 1:2 with points pt 7 ps 0.2*mark lc rgb ridge_colour", out);
-    ss_contour_plot_features(out, &d->marks);
-    fputs("\nunset multiplot\n", out);
-    return st;
-}
-
-static ss_status
-write_panels(FILE *out, const drawing *d)
-{
-    fputs(around, out);
-    if (d->contour->signal != NULL) {
-        ss_script_write_tics(out, "ytics", d->drawn, 5);
-        fputs(panel_a, out);
-        ss_script_write_side_label(out, 2, &d->label);
-        fputs(panel_a_plot, out);
-    }
-    return write_panel_b(out, d);
-}
-
-static ss_status
-check_scales(const ss_coefficients *c, ss_error *err)
-{
-    for (size_t i = 0; i < c->n_scales; i++) {
-        const ss_scale *s = &c->scale[i];
-        if (!(s->f >= 1e-300 && s->f <= 1e300 && (i == 0 || s->f > s[-1].f)))
-            return ss_fail(err, SS_EINVAL, "scale %zu of %g Hz cannot be drawn", i + 1, s->f);
-        if (s->n == 0 || !(s->b_num / s->b_den > 0))
-            return ss_fail(err, SS_EINVAL, "scale %zu has no translations", i + 1);
-    }
-    return SS_OK;
-}
-
-static ss_status
-check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
-{
-    ss_status st = ss_range_check(contour->levels, ss_contour_levels, "levels", err);
-    if (st == SS_OK)
-        st = ss_range_check(contour->span, ss_contour_spans, "span [dB]", err);
-    if (st != SS_OK)
-        return st;
-    if (contour->noise < 0 || isinf(contour->noise) || !(contour->top >= 0 && contour->top <= DBL_MAX)
-        || !(contour->fmin >= 0) || !(contour->fmax >= 0))
-        return ss_fail(err, SS_EINVAL, "noise, top, fmin or fmax is negative or not finite");
-    if (!isnan(contour->level) && (st = ss_range_check(contour->level, ss_contour_tops, "level [dB]", err)) != SS_OK)
-        return st;
-    if (contour->palette != NULL && !ss_palette_is_known(contour->palette))
-        return ss_fail(err, SS_EINVAL, "no palette '%.40s'", contour->palette);
-    if (contour->signal != NULL && contour->column >= contour->signal->head->n_columns)
-        return ss_fail_column(err, contour->column, contour->signal->head->n_columns);
-    if (c->w == NULL && c->source == NULL)
-        return ss_fail(err, SS_EINVAL, "no coefficients, and no source of them");
-    if (c->n_scales < 2)
-        return ss_fail(err, SS_EINVAL, "contours need two scales at least, there are %zu",
-                       c->n_scales);
-    if (contour->signal != NULL) {
-        const ss_signal *s = contour->signal;
-        ss_status status = ss_script_check(s->head->column[contour->column].name,
-                                           s->values + contour->column * s->n, s->n, err);
-        if (status != SS_OK)
-            return status;
-    }
-    return check_scales(c, err);
-}
-
-/* Panel (a) shows the time of (b). */
-static ss_status
-find_signal(drawing *d, const ss_plot_opts *opts, ss_error *err)
-{
-    const ss_signal *signal = d->contour->signal;
-    ss_plot_opts drawn = *opts;
-    drawn.from = d->map->span_of_time->from;
-    drawn.to = d->map->span_of_time->to;
-    ss_status st = ss_script_find_span(&d->span, signal->head, signal->n, &drawn, err);
-    return st == SS_OK ? ss_script_make_clock(&d->clock, signal->head, &d->span, err) : st;
-}
-
-static void
-write_signal(FILE *out, drawing *d)
-{
-    const ss_signal *signal = d->contour->signal;
-    const double *x = signal->values + d->contour->column * signal->n;
-    script_scale scale = ss_script_scale(ss_script_span_extent(x, &d->clock, &d->span));
-    d->drawn = SCRIPT_NO_EXTENT;
-    ss_script_make_label(&d->label, &signal->head->column[d->contour->column], scale, ROOM);
-    ss_script_write_trace(out, "$signal", x, &d->clock, &d->span, scale, &d->drawn);
-}
-
 /* The variables at the top. */
 static void
-write_variables(FILE *out, const drawing *d)
+write_variables(FILE *out, const contour_map *map, const ss_contour_opts *contour)
 {
-    const ss_contour_opts *contour = d->contour;
-    double fmin = d->map->f[0], fmax = d->map->f[d->map->rows - 1];
-    ss_script_write_span(out, d->map->span_of_time);
+    double fmin = map->f[0], fmax = map->f[map->rows - 1];
+    ss_script_write_span(out, map->span_of_time);
     ss_print(out, "levels = %d          # contour lines, computed for this number and span\nspan = ",
             contour->levels);
-    ss_script_write(out, d->map->span, 6,
-                    "           # dB below 0 dB\nstep = 1.0*span/levels\n");
-    if (d->map->top > 0)
-        ss_print(out, "level = %.2f       # dB re 1, the |W| that is 0 dB\n", 20 * log10(d->map->top));
+    ss_script_write(out, map->span, 6, "           # dB below 0 dB\nstep = 1.0*span/levels\n");
+    if (map->top > 0)
+        ss_print(out, "level = %.2f       # dB re 1, the |W| that is 0 dB\n", 20 * log10(map->top));
     fputs(isnan(contour->level) ? "reference = 'level / dB re largest |W|'\n"
                                 : "reference = sprintf('level / dB re |W| of %g dB', level)\n", out);
-    if (!isnan(d->map->noise))
-        ss_print(out, "noise = %g         # dB\n", d->map->noise);
+    if (!isnan(map->noise))
+        ss_print(out, "noise = %g         # dB\n", map->noise);
     fputs("fmin = ", out);
     ss_script_write(out, fmin, ss_contour_decimals(fmin), "    # Hz\nfmax = ");
     ss_script_write(out, fmax, ss_contour_decimals(fmax), "  # Hz\n");
@@ -302,28 +148,109 @@ write_variables(FILE *out, const drawing *d)
         fputs("line_colour = '" LEVEL_COLOUR "'\n", out);
 }
 
-static ss_status
-write_script(FILE *out, drawing *d, const ss_plot_opts *opts, ss_error *err)
+/* Panel (a), of this part of the signal. */
+static void
+write_signal(FILE *out, const ss_contour_opts *contour, const script_span *span)
 {
-    ss_status status = d->contour->signal != NULL ? find_signal(d, opts, err) : SS_OK;
-    if (status == SS_OK)
-        status = ss_script_begin(out, opts, d->contour->signal != NULL ? 8.5 : 6.5, err);
-    if (status != SS_OK)
-        return status;
-    ss_script_write_title(out, opts, d->c->head, NULL);
-    write_variables(out, d);
-    if (d->contour->signal != NULL)
-        write_signal(out, d);
-    write_cone(out, d->c, d->map->span_of_time, (const double[2]){ d->map->f[0], d->map->f[d->map->rows - 1] });
-    d->marks = ss_contour_write_marks(out, d->map, d->contour);
-    if (d->contour->ridge) {
+    const ss_signal *signal = contour->signal;
+    const double *x = signal->values + contour->column * signal->n;
+    script_scale scale = ss_script_scale(ss_script_span_extent(x, span));
+    script_label label;
+    script_extent drawn = ss_script_write_trace(out, "$signal", x, span, scale);
+    ss_script_make_label(&label, &signal->head->column[contour->column], scale, ROOM);
+    ss_script_write_tics(out, "ytics", drawn, 5);
+    fputs("set tmargin at screen 0.925; set bmargin at screen 0.72\n"
+          "set label 1 '(a)' at screen 0.01, screen 0.96\nset xtics format ''; ", out);
+    ss_script_write_side_label(out, 2, &label);
+    fputs(panel_a, out);
+}
+
+/* The cone is drawn first, over the colours if there are any, then events, contours and features,
+ * so that events lie behind the contours.  Each level has one colour: gnuplot 6.0 loses some lines
+ * that have a colour for each point. */
+static ss_status
+write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_contour_opts *contour)
+{
+    int lines;
+    size_t ridge = 0;
+    ss_status st = SS_OK;
+    write_cone(out, c, map->span_of_time, (const double[2]){ map->f[0], map->f[map->rows - 1] });
+    contour_marks marks = ss_contour_write_marks(out, map, contour);
+    if (contour->ridge) {
         fputs("ridge_colour = '" MARK_COLOUR "'\n", out);
-        d->ridge = ss_contour_write_ridge(out, d->map, d->c);
+        ridge = ss_contour_write_ridge(out, map, c);
     }
-    status = ss_contour_write_lines(out, d->map, d->contour->levels, &d->lines);
-    if (status == SS_OK)
-        status = write_panels(out, d);
-    return status == SS_OK ? ss_script_end(out) : status;
+    st = ss_contour_write_lines(out, map, contour->levels, &lines);
+    if (st != SS_OK)
+        return st;
+    fputs(contour->signal != NULL ? "bottom = 0.12; top_b = 0.68\n" : "bottom = 0.16; top_b = 0.925\n", out);
+    ss_script_write_time_labels(out, map->span_of_time);
+    fputs(panel_b, out);
+    fputs(contour->signal != NULL ? "set label 1 '(b)' at screen 0.01, screen top_b + 0.03\n" : "", out);
+    /* A colour is that of a line, or that of the area between two lines. */
+    fputs(contour->fill ? "set cbrange [-span:0]\n" : "set cbrange [-span - step/2 : -step/2]\n", out);
+    if (!isnan(map->noise))
+        fputs("set label 3 sprintf('noise at %d dB', noise) at screen 0.99,screen 0.3*bottom right noenhanced"
+              "\n", out);
+    write_frequency_tics(out, map->f[0], map->f[map->rows - 1]);
+    if (ground_of(contour) != NULL)
+        fputs("set object rectangle from graph 0,0 to graph 1,1 back fc rgb ground_colour fs solid noborder\n", out);
+    if (contour->fill)
+        st = ss_contour_write_fill(out, map, contour->levels);
+    ss_print(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
+            "fs %s noborder lc rgb cone_colour", c->n_gaps + 1,
+            contour->fill ? "transparent solid 0.6" : "solid 1");
+    ss_contour_plot_events(out, &marks, contour->n_events);
+    if (lines)
+        ss_print(out, ", \\\n    for [i=1:words(drawn)] $contour index i-1 using 1:2 with lines %s",
+                 contour->fill ? "lw 0.3 lc rgb line_colour" : "lw 1 lc palette cb -word(drawn,i)*step");
+    if (ridge > 0)
+        fputs(", \\\n    $ridge using 1:2 with points pt 7 ps 0.2*mark lc rgb ridge_colour", out);
+    ss_contour_plot_features(out, &marks);
+    fputs("\nunset multiplot\n", out);
+    return st;
+}
+
+static ss_status
+check_scales(const ss_coefficients *c, ss_error *err)
+{
+    if (c->n_scales < 2)
+        return ss_fail(err, SS_EINVAL, "contours need two scales at least, there are %zu", c->n_scales);
+    for (size_t i = 0; i < c->n_scales; i++) {
+        const ss_scale *s = &c->scale[i];
+        if (!(s->f >= 1e-300 && s->f <= 1e300 && (i == 0 || s->f > s[-1].f)))
+            return ss_fail(err, SS_EINVAL, "scale %zu of %g Hz cannot be drawn", i + 1, s->f);
+        if (s->n == 0 || !(s->b_num / s->b_den > 0))
+            return ss_fail(err, SS_EINVAL, "scale %zu has no translations", i + 1);
+    }
+    return SS_OK;
+}
+
+static ss_status
+check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
+{
+    const ss_signal *signal = contour->signal;
+    ss_status st = ss_range_check(contour->levels, ss_contour_levels, "levels", err);
+    if (st == SS_OK)
+        st = ss_range_check(contour->span, ss_contour_spans, "span [dB]", err);
+    if (st == SS_OK && !isnan(contour->level))
+        st = ss_range_check(contour->level, ss_contour_tops, "level [dB]", err);
+    if (st != SS_OK)
+        return st;
+    if (contour->noise < 0 || isinf(contour->noise) || !(contour->top >= 0 && contour->top <= DBL_MAX)
+        || !(contour->fmin >= 0) || !(contour->fmax >= 0))
+        return ss_fail(err, SS_EINVAL, "noise, top, fmin or fmax is negative or not finite");
+    if (contour->palette != NULL && !ss_palette_is_known(contour->palette))
+        return ss_fail(err, SS_EINVAL, "no palette '%.40s'", contour->palette);
+    if (signal != NULL && contour->column >= signal->head->n_columns)
+        return ss_fail_column(err, contour->column, signal->head->n_columns);
+    if (c->w == NULL && c->source == NULL)
+        return ss_fail(err, SS_EINVAL, "no coefficients, and no source of them");
+    st = check_scales(c, err);
+    if (st == SS_OK && signal != NULL)
+        st = ss_script_check(signal->head->column[contour->column].name,
+                             signal->values + contour->column * signal->n, signal->n, err);
+    return st == SS_OK ? ss_contour_check_marks(contour, err) : st;
 }
 
 ss_status
@@ -332,25 +259,40 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
 {
     if (out == NULL || c == NULL)
         return SS_FAIL_NULL(err);
-    script_span span;
+    script_span span, of_signal = { .gap = NULL };
     ss_plot_opts own;
     ss_contour_opts own_contour;
     contour_map map = { .rows = 0 };
-    drawing d = { .c = c, .contour = &own_contour, .map = &map };
-    ss_status status = ss_script_take(&own, opts, err);
-    if (status == SS_OK)
-        status = ss_options_take(&own_contour, sizeof own_contour, &defaults, contour, err);
-    if (status == SS_OK)
-        status = check(c, &own_contour, err);
-    if (status == SS_OK)
-        status = ss_contour_check_marks(&own_contour, err);
-    if (status == SS_OK)
-        status = ss_script_find_span(&span, c->head, c->n, &own, err);
-    if (status == SS_OK)
-        status = ss_contour_map(&map, c, &own_contour, &span, err);
-    if (status == SS_OK)
-        status = write_script(out, &d, &own, err);
+    ss_status st = ss_script_take(&own, opts, err);
+    if (st == SS_OK)
+        st = ss_options_take(&own_contour, sizeof own_contour, &defaults, contour, err);
+    if (st == SS_OK)
+        st = check(c, &own_contour, err);
+    if (st == SS_OK)
+        st = ss_script_find_span(&span, c->head, c->n, &own, err);
+    if (st == SS_OK)
+        st = ss_contour_map(&map, c, &own_contour, &span, err);
+    const ss_signal *signal = st == SS_OK ? own_contour.signal : NULL;
+    if (signal != NULL) {                       /* panel (a) shows the time of (b) */
+        own.from = span.from;
+        own.to = span.to;
+        st = ss_script_find_span(&of_signal, signal->head, signal->n, &own, err);
+        if (st == SS_OK)
+            st = ss_script_find_gaps(&of_signal, signal->head, err);
+    }
+    if (st == SS_OK)
+        st = ss_script_begin(out, &own, signal != NULL ? 8.5 : 6.5, err);
+    if (st == SS_OK) {
+        ss_script_write_title(out, &own, c->head, NULL);
+        write_variables(out, &map, &own_contour);
+        fputs(around, out);
+        if (signal != NULL)
+            write_signal(out, &own_contour, &of_signal);
+        st = write_map(out, &map, c, &own_contour);
+    }
+    if (st == SS_OK)
+        st = ss_script_end(out);
     ss_contour_map_free(&map);
-    free(d.clock.gap);
-    return status;
+    free(of_signal.gap);
+    return st;
 }

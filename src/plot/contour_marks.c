@@ -1,7 +1,7 @@
 /* contour_marks.c -- draw events and features over the contours.  Those outside the map become
  * arrows at its border, one arrow for all of a kind that lie beyond the same place of the border.
  */
-#include "plot/contour_marks.h"
+#include "plot/contour.h"
 #include "plot/style.h"
 
 #include <math.h>

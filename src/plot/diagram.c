@@ -62,9 +62,10 @@ write_points(FILE *out, const double *x, script_scale of_x, const double *y, scr
     }
 }
 
-/* Write panel i, between two heights of the picture, as parts of it. */
+/* Write panel i, between two heights [cm] of the picture of a height. */
 static void
-write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, size_t n, double bottom, double top)
+write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, size_t n, double bottom, double top,
+            double height)
 {
     const double *x = column[0].value, *y = column[i].value;
     script_extent e = ss_script_extent(y, n);
@@ -73,10 +74,11 @@ write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, si
     int line = is_line(x, y, n), steps = line && are_whole(y, n);
     ss_print(out, "$panel%zu << EOD\n", i);
     write_points(out, x, of_x, y, of_y, n, e);
-    ss_print(out, "EOD\nset bmargin at screen %.4f; set tmargin at screen %.4f\nunset label 1; ", bottom, top);
+    fputs("EOD\n", out);
+    ss_script_write_margins(out, bottom, top, height);
+    fputs("unset label 1; ", out);
     ss_script_write_side_label(out, 1, &label);
-    ss_script_write_tics(out, "ytics", (script_extent){ ss_script_scaled(e.lo, of_y), ss_script_scaled(e.hi, of_y) },
-                         i == 1 ? 6 : 4);
+    ss_script_write_tics(out, "ytics", ss_script_scaled_extent(e, of_y), i == 1 ? 6 : 4);
     if (steps)
         ss_print(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, $panel%zu using 1:2 with points "
                 "pt 7 ps 4*size lc rgb colour\nunset title\n", i, i);
@@ -98,7 +100,7 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     double height = TITLE + FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, top = height - TITLE;
     script_scale of_x = log ? ss_script_power(0) : ss_map_scale(x);
     script_label x_label = ss_map_label(column[0].label, of_x, INFINITY);
-    x = (script_extent){ ss_script_scaled(x.lo, of_x), ss_script_scaled(x.hi, of_x) };
+    x = ss_script_scaled_extent(x, of_x);
     ss_status st = ss_script_begin(out, &titled, height, err);
     if (st != SS_OK)
         return st;
@@ -118,7 +120,7 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
             if (log)
                 ss_script_write_decades(out, "x", x.lo, x.hi);
         }
-        write_panel(out, column, of_x, i, t->n, (top - tall) / height, top / height);
+        write_panel(out, column, of_x, i, t->n, top - tall, top, height);
         top -= tall + GAP;
     }
     fputs("unset multiplot\n", out);

@@ -264,8 +264,7 @@ write_map(FILE *out, const drawn *d, const map_grid *g, const regions *r, size_t
     ss_script_write_x_label(out, &x_label, "0,0.4");
     ss_script_write_side_label(out, 1, &y_label);
     fputs("line_colour = '#222222'; curve_colour = '" VERMILION "'; missing_colour = '#bbbbbb'\n"
-          "fine = ',' . (exists('font') ? sprintf('%.1f', 0.8*word(substr(font, 6, 9), 1)) : "
-          "'8')\n", out);
+          "fine = sprintf(',%.1f', 0.8*letters)\n", out);
     st = write_data(out, d, g, r, line, opts, err);
     if (st != SS_OK)
         return st;

@@ -21,7 +21,7 @@ ss_map_label(const ss_column *column, script_scale scale, double room)
 {
     script_label label;
     ss_script_make_label(&label, column, scale, room);
-    for (size_t i = 0; i < strlen(column->name) && i < label.n; i++)
+    for (size_t i = 0; i < strlen(column->name) && label.text[i] != '\0'; i++)
         label.text[i] = label.text[i] == '_' ? ' ' : label.text[i];
     return label;
 }

@@ -1,19 +1,15 @@
 /* script.c -- the parts that all gnuplot scripts have: terminal and size, numbers that are the same in
- * every locale, text that gnuplot draws and never runs, and lines with no more points than the picture
- * has columns of pixels.
+ * every locale, and text that gnuplot draws and never runs.
  *
  * A picture on paper is 8.5 cm wide, as a journal's column is, with letters of 6 points. */
 #include "plot/script.h"
 
 #include <ctype.h>
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "base/options.h"
 #include "base/utf8.h"
-#include "signal/gaps.h"
 
 #define WIDTH 8.5               /* [cm] */
 #define PIXELS_PER_CM 118.11    /* 300 dots per inch */
@@ -92,27 +88,36 @@ is_drawable(const char *text, size_t at, size_t n)
 }
 
 /* Text between double quotes: a control character becomes a blank, an invalid byte U+FFFD. */
-void
-ss_script_write_text(FILE *out, const char *text, size_t n)
+static void
+quote(FILE *out, const char *text, int in_lines)
 {
     int escaped = 0;
-    for (size_t i = 0, length; i < n; i += length > 0 ? length : 1) {
+    putc('"', out);
+    for (size_t i = 0, n = strlen(text), length; i < n; i += length > 0 ? length : 1) {
         length = ss_utf8_length(text + i);
-        if (length == 0)
+        if (in_lines && text[i] == '\n') {
+            fputs("\\n", out);
+            escaped = 0;
+        } else if (length == 0) {
             escaped = write_bytes(out, "\xef\xbf\xbd", 3, escaped);
-        else if (is_drawable(text, i, length))
-            escaped = write_bytes(out, text + i, length, escaped);
-        else
-            escaped = write_bytes(out, " ", 1, escaped);
+        } else {
+            int drawable = is_drawable(text, i, length);
+            escaped = write_bytes(out, drawable ? text + i : " ", drawable ? length : 1, escaped);
+        }
     }
+    putc('"', out);
 }
 
 void
 ss_script_quote(FILE *out, const char *text)
 {
-    putc('"', out);
-    ss_script_write_text(out, text, strlen(text));
-    putc('"', out);
+    quote(out, text, 0);
+}
+
+void
+ss_script_quote_lines(FILE *out, const char *text)
+{
+    quote(out, text, 1);
 }
 
 ss_status
@@ -130,37 +135,6 @@ ss_script_check(const char *column, const double *x, size_t n, ss_error *err)
     return SS_OK;
 }
 
-int
-ss_script_exponent(const double *x, size_t n)
-{
-    double largest = 0;
-    for (size_t i = 0; i < n; i++)
-        largest = fmax(largest, fabs(x[i]));
-    if (largest == 0 || (largest >= 0.1 && largest < 10000))
-        return 0;
-    return 3 * (int)floor((log10(largest) + 1) / 3);
-}
-
-double
-ss_script_step(double range, int intervals, int *decimals)
-{
-    double power = pow(10, floor(log10(range / intervals))), share = range / intervals / power;
-    *decimals = power < 1 ? (int)round(-log10(power)) : 0;
-    return (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10) * power;
-}
-
-void
-ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int intervals)
-{
-    int decimals = ss_script_decimals(0), same = !(drawn.lo < drawn.hi);
-    double step = same ? 0 : ss_script_step(drawn.hi - drawn.lo, intervals, &decimals);
-    ss_print(out, "set %s %s", axis, same ? "(" : "");
-    ss_script_write(out, same ? drawn.lo : step, decimals, same ? ")\n" : "\n");
-}
-
-#define TIC_LETTERS 5           /* of a tic's label, which the margin has room for */
-#define TIC_INTERVALS 5
-
 script_extent
 ss_script_extent(const double *x, size_t n)
 {
@@ -176,27 +150,47 @@ ss_script_scaled(double x, script_scale scale)
     return (x - scale.offset) / scale.unit;
 }
 
+script_extent
+ss_script_scaled_extent(script_extent e, script_scale scale)
+{
+    return (script_extent){ ss_script_scaled(e.lo, scale), ss_script_scaled(e.hi, scale) };
+}
+
+double
+ss_script_step(double range, double intervals, int *decimals)
+{
+    double power = pow(10, floor(log10(range / intervals))), share = range / intervals / power;
+    *decimals = power < 1 ? (int)round(-log10(power)) : 0;
+    return (share <= 1.001 ? 1 : share <= 2.001 ? 2 : share <= 5.001 ? 5 : 10) * power;
+}
+
 script_scale
 ss_script_power(int exponent)
 {
     return (script_scale){ 0, pow(10, exponent), exponent };
 }
 
-void
-ss_script_widen(script_extent *drawn, script_extent of_values, script_scale scale)
+/* The power of ten, a multiple of 3, by which values are divided to be short to read. */
+static script_scale
+short_scale(double lo, double hi)
 {
-    drawn->lo = fmin(drawn->lo, ss_script_scaled(of_values.lo, scale));
-    drawn->hi = fmax(drawn->hi, ss_script_scaled(of_values.hi, scale));
+    double largest = fmax(fabs(lo), fabs(hi));
+    if (!(largest > 0) || isinf(largest) || (largest >= 0.1 && largest < 10000))
+        return ss_script_power(0);
+    return ss_script_power(3 * (int)floor((log10(largest) + 1) / 3));
 }
+
+#define TIC_LETTERS 5           /* of a tic's label, which the margin has room for */
+#define TIC_INTERVALS 5
 
 /* Are labels of values from lo to hi longer than TIC_LETTERS? */
 static int
-is_long(double lo, double hi)
+is_long(script_extent e)
 {
     int decimals;
-    double largest = fmax(fabs(lo), fabs(hi));
-    ss_script_step(hi - lo, TIC_INTERVALS, &decimals);
-    return 1 + (int)fmax(0, floor(log10(largest))) + (lo < 0) + decimals + (decimals > 0) > TIC_LETTERS;
+    double largest = fmax(fabs(e.lo), fabs(e.hi));
+    ss_script_step(e.hi - e.lo, TIC_INTERVALS, &decimals);
+    return 1 + (int)fmax(0, floor(log10(largest))) + (e.lo < 0) + decimals + (decimals > 0) > TIC_LETTERS;
 }
 
 /* The offset is the middle of the values, or somewhat less, rounded to a power of ten above their range: so
@@ -204,52 +198,54 @@ is_long(double lo, double hi)
 script_scale
 ss_script_scale(script_extent e)
 {
-    script_scale scale = ss_script_power(ss_script_exponent((double[]){ e.lo, e.hi }, 2));
+    script_scale scale = short_scale(e.lo, e.hi);
     double power = ceil(log10(e.hi - e.lo));
-    if (!(e.lo < e.hi) || fabs(power) > 290 || !is_long(ss_script_scaled(e.lo, scale), ss_script_scaled(e.hi, scale)))
+    if (!(e.lo < e.hi) || fabs(power) > 290 || !is_long(ss_script_scaled_extent(e, scale)))
         return scale;
     double middle = e.lo + 0.49 * (e.hi - e.lo), unit = pow(10, fabs(power));
     double offset = power > 0 ? round(middle / unit) * unit : round(middle * unit) / unit;
-    scale = ss_script_power(ss_script_exponent((double[]){ e.lo - offset, e.hi - offset }, 2));
+    scale = short_scale(e.lo - offset, e.hi - offset);
     scale.offset = offset;
     return scale;
 }
 
 /* --- top and end --------------------------------------------------------------------------- */
 
-/* gnuplot's points do not grow with the resolution of a picture as letters do. */
-static const char *
-size_of_marks(const char *format)
-{
-    return format == NULL ? "1" : strcmp(format, "png") == 0 ? "2.4" : "0.8";
-}
+/* What each format has: gnuplot's points do not grow with the resolution of a picture as letters do. */
+static const struct format {
+    const char *name, *terminal;
+    double per_cm;              /* of the unit of its size */
+    const char *unit;
+    int letters;                /* [points] */
+    const char *lines;          /* and other options of the terminal */
+    const char *mark;
+} formats[] = {
+    { "png", "pngcairo", PIXELS_PER_CM, "", 24, "2", "2.4" },
+    { "svg", "svg", PIXELS_PER_CM, "", 31, "2 background 'white'", "0.8" },
+    { "pdf", "pdfcairo", 1, " cm", 6, "0.6 fontscale 1", "0.8" },
+    { "eps", "epscairo", 1, " cm", 6, "0.6 fontscale 1", "0.8" },
+};
 
-/* The terminal of a format, or NULL. */
-static const char *
-terminal(const char *format)
+static const struct format *
+find_format(const char *name)
 {
-    static const char *const name[][2] = {
-        { "png", "pngcairo" }, { "svg", "svg" }, { "pdf", "pdfcairo" }, { "eps", "epscairo" } };
-    for (size_t i = 0; i < sizeof name / sizeof *name; i++)
-        if (strcmp(format, name[i][0]) == 0)
-            return name[i][1];
+    for (size_t i = 0; name != NULL && i < sizeof formats / sizeof *formats; i++)
+        if (strcmp(name, formats[i].name) == 0)
+            return &formats[i];
     return NULL;
 }
 
 static void
-write_terminal(FILE *out, const char *format, const char *output, double width, double height)
+write_terminal(FILE *out, const struct format *f, const char *output, double width, double height)
 {
-    int print = strcmp(format, "pdf") == 0 || strcmp(format, "eps") == 0;
-    double per_cm = print ? 1 : PIXELS_PER_CM;
-    const char *unit = print ? " cm" : "";
-    fputs("width = ", out);
-    ss_script_write(out, print ? width : round(width * per_cm), 3, print ? "        # cm\n" : "\n");
-    fputs("height = ", out);
-    ss_script_write(out, print ? height : round(height * per_cm), 3, print ? "        # cm\n" : "\n");
-    ss_print(out, "font = 'Sans,%s'\n", print ? "6" : strcmp(format, "svg") == 0 ? "31" : "24");
-    ss_print(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s%s\n",
-            terminal(format), unit, unit, print ? "0.6" : "2",
-            print ? " fontscale 1" : strcmp(format, "svg") == 0 ? " background 'white'" : "");
+    const double size[2] = { width * f->per_cm, height * f->per_cm };
+    for (int i = 0; i < 2; i++) {
+        fputs(i == 0 ? "width = " : "height = ", out);
+        ss_script_write(out, f->per_cm == 1 ? size[i] : round(size[i]), 3, f->per_cm == 1 ? "        # cm\n" : "\n");
+    }
+    ss_print(out, "letters = %d\nfont = sprintf('Sans,%%g', letters)\n", f->letters);
+    ss_print(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s\n", f->terminal, f->unit,
+             f->unit, f->lines);
     if (output != NULL) {
         /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
         ss_print(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
@@ -261,31 +257,27 @@ write_terminal(FILE *out, const char *format, const char *output, double width, 
 ss_status
 ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *err)
 {
-    const char *format = opts->format, *dot;
-    if (format == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
-        format = dot + 1;
-    if ((format != NULL || opts->output != NULL) && (format == NULL || terminal(format) == NULL))
-        return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'",
-                       format != NULL ? format : opts->output);
+    const char *name = opts->format, *dot;
+    if (name == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
+        name = dot + 1;
+    const struct format *format = find_format(name);
+    if ((name != NULL || opts->output != NULL) && format == NULL)
+        return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'", name != NULL ? name : opts->output);
     double scale = opts->style == SS_SCREEN ? SCREEN : 1;
     fputs("# Made by libstickslip " SS_VERSION " for gnuplot 5.2 or later: gnuplot -p FILE\n", out);
     if (format != NULL)
         write_terminal(out, format, opts->output, scale * WIDTH, scale * height);
     else
         ss_print(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
-                "linewidth 0.5; set output 'figure.pdf'\n", scale * WIDTH, scale * height);
-    ss_print(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n", size_of_marks(format));
+                "linewidth 0.5; set output 'figure.pdf'\nletters = 10\n", scale * WIDTH, scale * height);
+    ss_print(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n", format != NULL ? format->mark : "1");
     return SS_OK;
 }
 
 void
-ss_script_write_span(FILE *out, const script_span *span)
+ss_script_write_margins(FILE *out, double bottom, double top, double height)
 {
-    int decimals = ss_script_decimals(span->to - span->from);
-    fputs("from = ", out);
-    ss_script_write(out, span->from, decimals, "         # s\n");
-    fputs("to = ", out);
-    ss_script_write(out, span->to, decimals, "           # s\n");
+    ss_print(out, "set bmargin at screen %.5f; set tmargin at screen %.5f\n", bottom / height, top / height);
 }
 
 ss_status
@@ -293,125 +285,4 @@ ss_script_end(FILE *out)
 {
     fputs("unset output\n", out);
     return ferror(out) || fflush(out) != 0 ? SS_EIO : SS_OK;
-}
-
-/* --- time ---------------------------------------------------------------------------------- */
-
-ss_status
-ss_script_find_span(script_span *span, const ss_header *head, size_t n, const ss_plot_opts *opts,
-                    ss_error *err)
-{
-    double end = head->start + (double)n / head->rate, rate = head->rate;
-    span->from = isnan(opts->from) ? head->start : opts->from;
-    span->to = isnan(opts->to) ? end : opts->to;
-    double lo = floor((span->from - head->start) * rate), hi = ceil((span->to - head->start) * rate);
-    if (!(fmax(fabs(span->from), fabs(span->to)) <= LARGEST))
-        return ss_fail(err, SS_EINVAL, "time from %g s to %g s cannot be drawn", span->from, span->to);
-    if (!(span->from < span->to) || !(hi >= 0 && lo < (double)n)) {
-        char text[4][SS_NUMBER_MAX];
-        const double t[4] = { span->from, span->to, head->start, end };
-        for (int i = 0; i < 4; i++)
-            ss_number_format(text[i], t[i]);
-        return ss_fail(err, SS_EINVAL, "nothing to draw from %s s to %s s; the record goes from "
-                       "%s s to %s s", text[0], text[1], text[2], text[3]);
-    }
-    span->first = lo > 0 ? (size_t)lo : 0;
-    span->n = (hi < (double)n ? (size_t)hi + 1 : n) - span->first;
-    return SS_OK;
-}
-
-ss_status
-ss_script_make_clock(script_clock *clock, const ss_header *head, const script_span *span, ss_error *err)
-{
-    size_t i = span->first;
-    *clock = (script_clock){ .start = head->start, .rate = head->rate };
-    if (ss_header_gaps(&clock->gap, &clock->n_gaps, head, NULL) != SS_OK)
-        return ss_fail_memory(err, NULL);
-    while (i < span->first + span->n && ss_script_is_missing(clock, i))
-        i++;
-    if (i < span->first + span->n)
-        return SS_OK;
-    free(clock->gap);
-    clock->gap = NULL;
-    return ss_fail(err, SS_EINVAL, "nothing to draw: all samples from %.9g s to %.9g s are missing", span->from,
-                   span->to);
-}
-
-/* A quarter of an interval after the sample: times of gaps are rounded. */
-int
-ss_script_is_missing(const script_clock *clock, size_t i)
-{
-    double t = clock->start + ((double)i + 0.25) / clock->rate;
-    return clock->n_gaps > 0 && ss_gaps_near(clock->gap, clock->n_gaps, t, 0);
-}
-
-script_extent
-ss_script_span_extent(const double *x, const script_clock *clock, const script_span *span)
-{
-    script_extent e = SCRIPT_NO_EXTENT;
-    for (size_t i = span->first; i < span->first + span->n; i++)
-        if (!ss_script_is_missing(clock, i))
-            ss_script_include(&e, x[i]);
-    return e;
-}
-
-/* A trace while it is written. */
-typedef struct trace {
-    FILE *out;
-    const double *x;
-    const script_clock *clock;
-    script_scale scale;
-    int decimals[2];
-    int broken;                 /* the last line written is empty */
-} trace;
-
-static void
-write_sample(trace *t, size_t i)
-{
-    t->broken = 0;
-    ss_script_write(t->out, t->clock->start + (double)i / t->clock->rate, t->decimals[0], " ");
-    ss_script_write(t->out, ss_script_scaled(t->x[i], t->scale), t->decimals[1], "\n");
-}
-
-/* The smallest and the largest of the samples from i to before end, in their order; an empty line if
- * all are missing. */
-static void
-write_column(trace *t, size_t i, size_t end)
-{
-    while (i < end && ss_script_is_missing(t->clock, i))
-        i++;
-    size_t min = i, max = i;
-    if (i == end && !t->broken) {
-        putc('\n', t->out);
-        t->broken = 1;
-    }
-    for (; i < end; i++) {
-        if (ss_script_is_missing(t->clock, i))
-            continue;
-        min = t->x[i] < t->x[min] ? i : min;
-        max = t->x[i] > t->x[max] ? i : max;
-    }
-    if (min < end)
-        write_sample(t, min < max ? min : max);
-    if (min != max)
-        write_sample(t, min < max ? max : min);
-}
-
-void
-ss_script_write_trace(FILE *out, const char *name, const double *x, const script_clock *clock,
-                      const script_span *span, script_scale scale, script_extent *drawn)
-{
-    trace t = { .out = out, .x = x, .clock = clock, .scale = scale };
-    script_extent e = ss_script_span_extent(x, clock, span);
-    ss_script_widen(drawn, e, scale);
-    t.decimals[0] = ss_script_decimals(span->to - span->from);
-    t.decimals[1] = ss_script_decimals((e.hi - e.lo) / scale.unit);
-    size_t columns = span->n > 2 * SCRIPT_COLUMNS ? SCRIPT_COLUMNS : span->n;
-    ss_print(out, "%s << EOD\n", name);
-    for (size_t c = 0, i = span->first; c < columns; c++) {
-        size_t end = span->first + (size_t)((double)span->n * (double)(c + 1) / (double)columns);
-        write_column(&t, i, end);
-        i = end;
-    }
-    fputs("EOD\n", out);
 }

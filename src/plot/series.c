@@ -225,12 +225,12 @@ add_point(canvas *v, const double at[2])
         cell[i] = range > 0 ? (at[i] - v->extent[i].lo) / range * (CELLS - 1) : 0;
     }
     if (!v->goes_on) {
+        memcpy(v->before, cell, sizeof cell);
         memcpy(v->last, cell, sizeof cell);
         v->is_kept = v->was_new = 0;
     } else if (fabs(cell[0] - v->last[0]) <= 1 && fabs(cell[1] - v->last[1]) <= 1) {
         return SS_OK;
     }
-    memcpy(v->before, v->goes_on ? v->before : cell, sizeof cell);
     ss_status st = add_part(v, cell);
     memcpy(v->before, v->last, sizeof cell);
     memcpy(v->last, cell, sizeof cell);
@@ -247,7 +247,7 @@ ordinate(const series *s)
 
 /* Reduce all rows; the points that are left are on a clock of their own. */
 static ss_status
-read_long_path(ss_signal **out, series *s, canvas *v, const script_clock *clock, ss_error *err)
+read_long_path(ss_signal **out, series *s, canvas *v, const script_span *all, ss_error *err)
 {
     ss_header *head = NULL;
     char *text = NULL;
@@ -259,7 +259,7 @@ read_long_path(ss_signal **out, series *s, canvas *v, const script_clock *clock,
     while (st == SS_OK && n > 0) {
         st = ss_series_next(s, &n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++)
-            if (ss_script_is_missing(clock, s->at + i))
+            if (ss_script_is_missing(all, s->at + i))
                 v->goes_on = 0;
             else
                 st = add_point(v, (const double[2]){ s->value[i], ordinate(s)[i] });
@@ -306,15 +306,14 @@ static ss_status
 read_path(ss_signal **out, series *s, const ss_plot_opts *opts, ss_error *err)
 {
     canvas v = { .extent = { SCRIPT_NO_EXTENT, SCRIPT_NO_EXTENT } };
-    script_clock clock = { .start = s->head->start, .rate = s->head->rate };
-    script_span span;
-    ss_status st = ss_header_gaps(&clock.gap, &clock.n_gaps, s->head, NULL);
+    script_span span, all = { .start = s->head->start, .rate = s->head->rate };
+    ss_status st = ss_header_gaps(&all.gap, &all.n_gaps, s->head, NULL);
     if (st == SS_OK)
         st = ss_series_rewind(s, err);
     for (size_t n = 1; st == SS_OK && n > 0;) {
         st = ss_series_next(s, &n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++)
-            if (!ss_script_is_missing(&clock, s->at + i)) {
+            if (!ss_script_is_missing(&all, s->at + i)) {
                 ss_script_include(&v.extent[0], s->value[i]);
                 ss_script_include(&v.extent[1], ordinate(s)[i]);
             }
@@ -328,9 +327,9 @@ read_path(ss_signal **out, series *s, const ss_plot_opts *opts, ss_error *err)
     if (st == SS_OK)
         st = ss_series_rewind(s, err);
     if (st == SS_OK)
-        st = any && span.n > PATH_KEPT ? read_long_path(out, s, &v, &clock, err)
+        st = any && span.n > PATH_KEPT ? read_long_path(out, s, &v, &all, err)
             : read_short_path(out, s, span.n, err);
-    free(clock.gap);
+    free(all.gap);
     return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }
 

@@ -15,13 +15,6 @@
 #define BELOW 1.0               /* and below them [cm] */
 #define ROOM 12.0               /* for the label of a panel [ems] */
 
-static const char layout[] =
-    "set multiplot\n"
-    "set lmargin at screen 0.2; set rmargin at screen 0.95\n"
-    "set logscale x; set xrange [from:to]; set format x ''\n"
-    "set tics nomirror out scale 0.6; set border lw 0.8; unset key\n"
-    "set grid xtics lc rgb '" GRID_COLOUR "' lt 1\n";
-
 static void
 label_of(script_label *label, const ss_column *column, int decibels)
 {
@@ -54,42 +47,6 @@ write_densities(FILE *out, size_t panel, const ss_spectrum *s, int decibels)
             write_density(out, s, low < high ? high : low, decibels);
     }
     fputs("EOD\n", out);
-}
-
-/* The smallest and the largest density above 0. */
-static script_extent
-extent_of(const ss_spectrum *s)
-{
-    script_extent e = SCRIPT_NO_EXTENT;
-    for (size_t k = 1; k < s->n; k++)
-        if (s->density[k] > 0)
-            e = (script_extent){ fmin(e.lo, s->density[k]), fmax(e.hi, s->density[k]) };
-    return e;
-}
-
-/* One panel of n; the lowest has the labels of frequency. */
-static void
-plot_panel(FILE *out, const ss_spectrum *s, const script_label *label, size_t i, size_t n, int decibels)
-{
-    script_extent e = extent_of(s);
-    int any = e.lo <= e.hi;
-    if (!decibels)
-        ss_script_write_decade_range(out, e.lo, e.hi);
-    if (i == n) {
-        fputs("set format x '%g'; set xlabel sprintf('frequency / Hz (resolution %.3g Hz)', resolution) "
-              "noenhanced offset 0,0.5\n", out);
-        ss_script_write_decades(out, "x", s->step, (double)(s->n - 1) * s->step);
-    }
-    ss_print(out, "set tmargin at screen top - %zu*panel; set bmargin at screen top - %zu*panel + "
-            "0.08*panel*(%zu)\nunset label 1; ", i - 1, i, (size_t)(i < n));
-    ss_script_write_side_label(out, 1, label);
-    if (any)
-        ss_print(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i);
-    else
-        fputs("set label 2 '0 at all frequencies' at graph 0.5,0.5 center; set yrange [0.1:1]; set ytics (0)\n"
-              "plot NaN; set yrange [*:*]; set ytics autofreq; unset label 2\n", out);
-    if (i == 1)
-        fputs("unset title\n", out);
 }
 
 /* --- a signal of any length ----------------------------------------------------------------- */
@@ -139,6 +96,17 @@ ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[
 
 /* --- the script ----------------------------------------------------------------------------- */
 
+/* The smallest and the largest density above 0. */
+static script_extent
+extent_of(const ss_spectrum *s)
+{
+    script_extent e = SCRIPT_NO_EXTENT;
+    for (size_t k = 1; k < s->n; k++)
+        if (s->density[k] > 0)
+            ss_script_include(&e, s->density[k]);
+    return e;
+}
+
 ss_status
 ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t n, ss_spectrum *const spectrum[],
                  const ss_plot_opts *given, ss_error *err)
@@ -149,13 +117,11 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
     ss_status st = ss_script_take(&own, given, err);
     if (st != SS_OK)
         return st;
-    int decibels = own.decibels;
     if (n == 0)
         return ss_fail(err, SS_EINVAL, "no columns to draw");
-    double title = ss_script_title_height(opts, head), height = title + BELOW + PANEL * (double)n;
-    double font = 1;
-    script_label label;
+    double title = ss_script_title_height(opts, head), height = title + BELOW + PANEL * (double)n, font = 1;
     const ss_spectrum *s = spectrum[0];
+    script_label label;
     st = ss_script_begin(out, opts, height, err);
     if (st != SS_OK)
         return st;
@@ -163,19 +129,37 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
     ss_print(out, "from = %.7g         # Hz\nto = %.7g           # Hz\nresolution = %.6g    # Hz, %zu segments\n",
             s->step, (double)(s->n - 1) * s->step, s->resolution, s->segments);
     fputs("colour = '" BLUE "'\n", out);
-    for (size_t i = 0; i < n; i++)
-        write_densities(out, i + 1, spectrum[i], decibels);
-    ss_print(out, "bottom = %.4f; top = %.4f; panel = (top - bottom)/%zu\n", BELOW / height, 1 - title / height, n);
-    fputs(layout, out);
-    fputs(decibels ? "" : "set logscale y\n", out);
     for (size_t i = 0; i < n; i++) {
-        label_of(&label, &head->column[column[i]], decibels);
-        font = fmin(font, label.font);
+        write_densities(out, i + 1, spectrum[i], own.decibels);
+        label_of(&label, &head->column[column[i]], own.decibels);
+        font = fmin(font, label.font);          /* one for all panels */
     }
-    for (size_t i = 1; i <= n; i++) {
-        label_of(&label, &head->column[column[i - 1]], decibels);
-        label.font = font;                      /* one for all panels */
-        plot_panel(out, spectrum[i - 1], &label, i, n, decibels);
+    ss_print(out, "set multiplot; set lmargin at screen 0.2; set rmargin at screen 0.95%s\n",
+             own.decibels ? "" : "; set logscale y");
+    fputs("set logscale x; set xrange [from:to]; set format x ''\n"
+          "set tics nomirror out scale 0.6; set border lw 0.8; unset key\n"
+          "set grid xtics lc rgb '" GRID_COLOUR "' lt 1\n", out);
+    for (size_t i = 0; i < n; i++) {
+        script_extent e = extent_of(spectrum[i]);
+        double top = height - title - PANEL * (double)i;
+        if (!own.decibels)
+            ss_script_write_decade_range(out, e.lo, e.hi);
+        if (i + 1 == n) {
+            fputs("set format x '%g'; set xlabel sprintf('frequency / Hz (resolution %.3g Hz)', resolution) "
+                  "noenhanced offset 0,0.5\n", out);
+            ss_script_write_decades(out, "x", s->step, (double)(s->n - 1) * s->step);
+        }
+        ss_script_write_margins(out, top - PANEL * (i + 1 < n ? 0.92 : 1), top, height);
+        label_of(&label, &head->column[column[i]], own.decibels);
+        label.font = font;
+        fputs("unset label 1; ", out);
+        ss_script_write_side_label(out, 1, &label);
+        if (e.lo <= e.hi)
+            ss_print(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i + 1);
+        else
+            fputs("set label 2 '0 at all frequencies' at graph 0.5,0.5 center; set yrange [0.1:1]; set ytics (0)\n"
+                  "plot NaN; set yrange [*:*]; set ytics autofreq; unset label 2\n", out);
+        fputs(i == 0 ? "unset title\n" : "", out);
     }
     fputs("unset multiplot\n", out);
     return ss_script_end(out);

@@ -180,7 +180,7 @@ skip_block(const char *text)
 static char *
 outline(const char *text)
 {
-    static const char block[] = "<< EOD\n", font[] = " font ','.(exists";
+    static const char block[] = "<< EOD\n", font[] = " font sprintf(";
     static const char ours[] = "colours = \"0 '#7ad151', ";     /* the palette, quotes in a string */
     char *bare = NULL;
     size_t length = 0;

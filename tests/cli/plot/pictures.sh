@@ -31,17 +31,16 @@ grep -c 'time / s' dumb
 ss-contour run.h5 -o again.gp
 cmp contour.gp again.gp
 
-# Times are told apart and stand apart: tics of spans short and late, by gnuplot itself; 34 letters fit.
-ss-plot -c x run.tsv | grep '^tic(\|^every(\|^wide(\|^letters' > tics
+# Times are told apart and stand apart: tics of spans short and late, with their letters; 34 fit.
 while read -r from to; do
-    printf 'from = %s; to = %s\n' "$from" "$to"
-    cat tics
-    echo 'n = letters < 5 ? 6.0 : 34.0/(letters + 1); print every(n), letters'
-done > tics.gp <<'SPANS'
+    printf 'time (s),x\n%s,1\n%s,2\n' "$from" "$to" > span.csv
+    ss-plot --from "$from" --to "$to" span.csv | sed -n 's/^tics = \([^ ]*\).*/\1/p' |
+        awk -v to="$to" '{ for (k = int(to / $1 + 1e-6) - 1; k <= to / $1 + 1e-6; k++)
+                if (length(sprintf("%.12g", $1 * k)) > n) n = length(sprintf("%.12g", $1 * k)); print $1, n }'
+done <<'SPANS'
 0 3
 0 10
 91.1813 91.38128
 1 1.0001
 1000000 1000000.01
 SPANS
-gnuplot tics.gp 2>&1

@@ -1,0 +1,286 @@
+/* axes.c -- titles, labels of axes, and tics: names, units and superscripts as text that fits its room in the
+ * picture. */
+#include "plot/script.h"
+#include "signal/header.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DECADES 8               /* powers of ten that stand at an axis, at most */
+#define TITLE_ROOM 34.0         /* [ems] */
+#define SMALL 0.6               /* letters too small to read */
+#define TWO_LINES 0.8           /* letters of two lines, which leave tics their room */
+#define THREE_LINES 0.7         /* and of a title's three, which have the height of two */
+
+enum { LABEL_MAX = sizeof ((script_label *)0)->text - sizeof "…" };
+
+/* --- text ----------------------------------------------------------------------------------- */
+
+/* Append to the text, which is full when it has LABEL_MAX bytes. */
+static void
+add(script_label *l, const char *format, ...)
+{
+    size_t n = strlen(l->text);
+    va_list list;
+    va_start(list, format);
+    vsnprintf(l->text + n, LABEL_MAX + 1 - n, format, list);
+    va_end(list);
+}
+
+static int
+is_full(const script_label *l)
+{
+    return strlen(l->text) == LABEL_MAX;
+}
+
+/* A text that is full ends with a whole character and an ellipsis. */
+static void
+mark_cut(script_label *l)
+{
+    size_t n = strlen(l->text);
+    if (!is_full(l))
+        return;
+    while (n > 1 && (l->text[n - 1] & 0xc0) == 0x80)
+        n--;
+    memcpy(l->text + n - 1, "…", sizeof "…");
+}
+
+static void
+add_superscript(script_label *l, int exponent)
+{
+    static const char *const digit[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
+    char text[16];
+    snprintf(text, sizeof text, "%d", exponent);
+    for (const char *c = text; *c != '\0'; c++)
+        add(l, "%s", *c == '-' ? "⁻" : digit[*c - '0']);
+}
+
+/* A text without line ends of its own, its ^2 and ^3 raised if it is a unit. */
+static void
+add_text(script_label *l, const char *text, int is_unit)
+{
+    for (; *text != '\0' && !is_full(l); text++)
+        if (is_unit && *text == '^' && (text[1] == '2' || text[1] == '3') && !isdigit((unsigned char)text[2])
+            && text[2] != '.')
+            add_superscript(l, *++text - '0');
+        else
+            add(l, "%c", *text == '\n' ? ' ' : *text);
+}
+
+/* The approximate width of the wider line, in ems of a sans serif; non-ASCII characters are superscripts. */
+static double
+width_of(const char *text)
+{
+    double widest = 0, width = 0;
+    for (; *text != '\0'; text++) {
+        unsigned byte = (unsigned char)*text & 0xc0;
+        if (*text == '\n')
+            width = 0;
+        else if (byte == 0xc0)
+            width += 0.4;
+        else if (byte != 0x80)
+            width += strchr("fijlrtI /|.,:;!'()[]-", *text) != NULL ? 0.35 : strchr("mwMW@%", *text) != NULL ? 0.95 : 0.6;
+        widest = fmax(widest, width);
+    }
+    return widest;
+}
+
+/* Break the text behind the blank or _ nearest to its middle, if it has one. */
+static void
+break_text(script_label *l)
+{
+    long best = 0, n = (long)strlen(l->text);
+    for (long i = 1; i < n; i++)
+        if (strchr(" _", l->text[i - 1]) != NULL && labs(2 * i - n) < labs(2 * best - n))
+            best = i;
+    if (best == 0 || n + 2 > (long)sizeof l->text)
+        return;
+    memmove(l->text + best + 1, l->text + best, (size_t)(n - best) + 1);
+    l->text[best] = '\n';
+}
+
+/* --- labels --------------------------------------------------------------------------------- */
+
+/* The length of a column's name without the unit at its end: "slip_mm_s" of mm/s, "accel_g" of g. */
+static size_t
+name_length(const ss_column *column)
+{
+    const char *name = column->name, *unit = column->unit;
+    size_t n = strlen(name);
+    for (size_t i = strlen(unit), at = n; *unit != '\0' && at > 1; at--) {
+        while (i > 0 && unit[i - 1] == '^')
+            i--;
+        if (i == 0)
+            return name[at - 1] == '_' ? at - 1 : n;
+        if (name[at - 1] != unit[i - 1] && !(name[at - 1] == '_' && strchr("/ *", unit[i - 1]) != NULL))
+            break;
+        i--;
+    }
+    if (*unit != '\0')
+        ss_unit_of_name(name, &n);              /* that of the file, before another was given */
+    return n;
+}
+
+/* "name", or "name − offset unit". */
+static script_label
+quantity_of(const ss_column *column, double offset)
+{
+    script_label l = { .text = "" };
+    char number[SS_NUMBER_MAX];
+    add_text(&l, column->name, 0);
+    if (!is_full(&l))
+        l.text[name_length(column)] = '\0';
+    if (offset == 0)
+        return l;
+    ss_number_format(number, fabs(offset));
+    add(&l, "%s%s%s", offset < 0 ? " + " : " − ", number, column->unit[0] != '\0' ? " " : "");
+    add_text(&l, column->unit, 1);
+    return l;
+}
+
+/* "10^-3 unit". */
+static script_label
+unit_of(const ss_column *column, int exponent)
+{
+    script_label l = { .text = "" };
+    if (exponent != 0) {
+        add(&l, "10");
+        add_superscript(&l, exponent);
+        add(&l, column->unit[0] != '\0' ? " " : "");
+    }
+    add_text(&l, column->unit, 1);
+    return l;
+}
+
+void
+ss_script_make_label(script_label *l, const ss_column *column, script_scale scale, double room)
+{
+    const script_label name = quantity_of(column, scale.offset), unit = unit_of(column, scale.exponent);
+    int is_square = strchr(column->unit, '(') != NULL;          /* brackets go round round ones */
+    const char *open = is_square ? "[" : "(", *close = is_square ? "]" : ")";
+    int is_sole = column->unit[0] == '\0' || (scale.exponent == 0 && strpbrk(column->unit, "/ *") == NULL);
+    *l = (script_label){ .text = "" };
+    add(l, scale.offset != 0 ? "(%s)" : "%s", name.text);
+    if (unit.text[0] != '\0')
+        add(l, " / %s%s%s", is_sole ? "" : open, unit.text, is_sole ? "" : close);
+    mark_cut(l);
+    script_label broken = *l, two = { .text = "" };
+    if (width_of(l->text) > room && unit.text[0] != '\0' && !is_full(&name)) {
+        add(&two, "%s\n%s%s%s", name.text, open, unit.text, close);
+        mark_cut(&two);
+        *l = two;
+    }
+    if (width_of(l->text) * SMALL > room) {
+        break_text(&broken);
+        *l = width_of(broken.text) < width_of(l->text) ? broken : *l;
+    }
+    l->font = fmin(room / width_of(l->text), strchr(l->text, '\n') != NULL ? TWO_LINES : 1);
+}
+
+/* Write the label as a string, and behind it what is between, and its size. */
+static void
+write_label(FILE *out, const script_label *l, const char *between)
+{
+    ss_script_quote_lines(out, l->text);
+    ss_print(out, "%s", between);
+    if (l->font < 1)
+        ss_print(out, " font sprintf(',%%.1f', %.2f*letters)", l->font);
+    putc('\n', out);
+}
+
+void
+ss_script_write_x_label(FILE *out, const script_label *l, const char *offset)
+{
+    char between[64];
+    snprintf(between, sizeof between, " noenhanced offset %s", offset);
+    fputs("set xlabel ", out);
+    write_label(out, l, between);
+}
+
+void
+ss_script_write_side_label(FILE *out, int n, const script_label *l)
+{
+    ss_print(out, "set label %d ", n);
+    write_label(out, l, strchr(l->text, '\n') != NULL ? " at screen 0.0135,graph 0.5 center rotate noenhanced"
+                : " at screen 0.03,graph 0.5 center rotate noenhanced");
+}
+
+static const char *
+title_of(const ss_plot_opts *opts, const ss_header *head)
+{
+    const char *title = opts->title;
+    if (title == NULL && head != NULL)
+        title = ss_header_find_note(head, "scene");
+    if (title == NULL && head != NULL)
+        title = ss_header_find_note(head, "model");
+    return title != NULL ? title : "";
+}
+
+double
+ss_script_title_height(const ss_plot_opts *opts, const ss_header *head)
+{
+    return title_of(opts, head)[0] != '\0' ? 0.6 : 0.15;
+}
+
+void
+ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head, const script_label *lines)
+{
+    script_label l = { .text = "" }, all = l;
+    add_text(&l, title_of(opts, head), 0);
+    mark_cut(&l);
+    double width = width_of(l.text);
+    if (width > TITLE_ROOM)
+        break_text(&l);
+    int is_broken = strchr(l.text, '\n') != NULL;
+    all.font = fmin(TITLE_ROOM / width_of(l.text), !is_broken ? 1 : lines == NULL ? TWO_LINES : THREE_LINES);
+    add(&all, "%s%s%s%s", l.text, lines != NULL && l.text[0] != '\0' ? "\n" : "", lines != NULL ? "lines: " : "",
+        lines != NULL ? lines->text : "");
+    mark_cut(&all);
+    fputs("set title ", out);
+    write_label(out, &all, " noenhanced offset 0,-0.5");
+}
+
+/* --- tics ----------------------------------------------------------------------------------- */
+
+void
+ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int intervals)
+{
+    int decimals = ss_script_decimals(0), same = !(drawn.lo < drawn.hi);
+    double step = same ? 0 : ss_script_step(drawn.hi - drawn.lo, intervals, &decimals);
+    ss_print(out, "set %s %s", axis, same ? "(" : "");
+    ss_script_write(out, same ? drawn.lo : step, decimals, same ? ")\n" : "\n");
+}
+
+void
+ss_script_write_decades(FILE *out, const char *axis, double lo, double hi)
+{
+    int first = (int)ceil(log10(lo) - 1e-9), last = (int)floor(log10(hi) + 1e-9);
+    int every = 1 + (last - first) / DECADES;
+    if (last <= first || (lo >= 1e-3 && hi <= 1e5))
+        return;
+    ss_print(out, "set %stics (", axis);
+    for (int i = first - 1; i <= last; i++) {
+        script_label l = { .text = "" };
+        if (i % every == 0) {
+            add(&l, "10");
+            add_superscript(&l, i);
+        }
+        ss_print(out, "'%s' 1e%d", l.text, i);
+        for (int j = 2; j < 10 && every == 1; j++)
+            ss_print(out, ", '' %de%d 1", j, i);
+        fputs(i < last ? ", " : ")\n", out);
+    }
+}
+
+void
+ss_script_write_decade_range(FILE *out, double lo, double hi)
+{
+    if (lo > hi)
+        return;
+    int first = (int)floor(log10(lo)), last = (int)floor(log10(hi)) + 1;
+    ss_print(out, "set yrange [1e%d:1e%d]; set ytics autofreq\n", first, last);
+    ss_script_write_decades(out, "y", pow(10, first), pow(10, last));
+}
