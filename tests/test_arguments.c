@@ -7,6 +7,7 @@
 #include <stickslip.h>
 #include "map/map.h"
 
+#include "signal/wave.h"
 #include "signal/welch.h"
 #include "unit.h"
 #include "read_opts.h"
@@ -174,7 +175,10 @@ headers_and_samples_refuse_null(void **state)
     assert_refused(ss_signal_resample(NULL, NULL, 1, NULL), NULL);
     assert_refused(ss_signal_resample(&signal, NULL, 1, NULL), NULL);
     assert_refused(ss_wave_new(NULL, SS_SINE, &ss_wave_defaults, &e), &e);
-    assert_refused(ss_wave_new(&signal, SS_SINE, NULL, &e), &e);
+    ss_wave_opts wave;
+    ss_wave_opts_init(&wave, sizeof wave);
+    wave.size = 1;
+    assert_int_equal(ss_wave_new(&signal, SS_SINE, &wave, &e), SS_EINVAL);
     assert_refused(ss_noise_add_once(NULL, 1, 1, 1, NULL), NULL);
     assert_refused(ss_noise_new(NULL, 1, NULL), NULL);
     assert_int_equal(ss_noise_new(&noise, 1, NULL), SS_OK);
@@ -638,12 +642,12 @@ plots_refuse_null(void **state)
     assert_refused(ss_plot_spectrum(out, &head, y, 1, NULL, &opts, &e), &e);
     assert_int_equal(ss_plot_spectrum(out, &head, y, 1, &spectrum, &none, &e), SS_EINVAL);
     assert_int_equal(ss_plot_spectrum(out, &head, y, 0, &spectrum, &opts, &e), SS_EINVAL);
-    assert_refused(ss_spectra_write(NULL, &head, y, 1, 0, out, SS_TSV, &e), &e);
-    assert_refused(ss_spectra_write(&spectrum, NULL, y, 1, 0, out, SS_TSV, &e), &e);
-    assert_refused(ss_spectra_write(&spectrum, &head, NULL, 1, 0, out, SS_TSV, &e), &e);
-    assert_refused(ss_spectra_write(&spectrum, &head, y, 1, 0, NULL, SS_TSV, &e), &e);
-    assert_int_equal(ss_spectra_write(&spectrum, &head, y, 1, 0, out, SS_AU, &e), SS_EINVAL);
-    assert_int_equal(ss_spectra_write(&spectrum, &head, y, 0, 0, out, SS_TSV, &e), SS_EINVAL);
+    assert_refused(ss_spectra_write(NULL, &head, y, 1, out, SS_TSV, &e), &e);
+    assert_refused(ss_spectra_write(&spectrum, NULL, y, 1, out, SS_TSV, &e), &e);
+    assert_refused(ss_spectra_write(&spectrum, &head, NULL, 1, out, SS_TSV, &e), &e);
+    assert_refused(ss_spectra_write(&spectrum, &head, y, 1, NULL, SS_TSV, &e), &e);
+    assert_int_equal(ss_spectra_write(&spectrum, &head, y, 1, out, SS_AU, &e), SS_EINVAL);
+    assert_int_equal(ss_spectra_write(&spectrum, &head, y, 0, out, SS_TSV, &e), SS_EINVAL);
     assert_refused(ss_overview_new(NULL, &head, 0, &ss_morlet_defaults, &e), &e);
     assert_refused(ss_overview_new(&overview, NULL, 0, &ss_morlet_defaults, &e), &e);
     assert_int_equal(ss_overview_new(&overview, &head, 0, NULL, &e), SS_EINVAL);     /* no fmin */

@@ -7,6 +7,7 @@
 #include <stickslip.h>
 #include "map/map.h"
 #include "plot/contour.h"
+#include "signal/wave.h"
 #include "contour_script.h"
 #include "shipped.h"
 #include "unit.h"

@@ -16,6 +16,7 @@
 
 #include "find/drops.h"
 #include "find/events.h"
+#include "signal/wave.h"
 #include "store_samples.h"
 #include "unit.h"
 #include "read_opts.h"

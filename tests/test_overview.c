@@ -6,6 +6,7 @@
 #include <stickslip.h>
 #include "map/map.h"
 
+#include "signal/wave.h"
 #include "unit.h"
 
 /* Noise, with a drop to half in the middle, far from 0, so that the ends are high. */

@@ -2,6 +2,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include "signal/wave.h"
 #include "signal_text.h"
 #include "read_opts.h"
 #include "signal/gaps.h"

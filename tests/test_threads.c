@@ -6,6 +6,7 @@
 #include <stickslip.h>
 #include "map/map.h"
 
+#include "signal/wave.h"
 #include "unit.h"
 
 enum { THREADS = 2, ROUNDS = 5 };

@@ -1,6 +1,7 @@
 /* test_waves.c -- benchmark signals, noise and the digits of a converter. */
 #include <float.h>
 #include <math.h>
+#include "signal/wave.h"
 #include "signal_text.h"
 
 /* --- benchmark signals --------------------------------------------------------------------- */
@@ -29,7 +30,7 @@ sine_does_not_drift(void **state)
 static void
 chirp_has_the_phase_of_a_linear_sweep(void **state)
 {
-    ss_wave_opts o = { .rate = 100, .duration = 2, .amplitude = 3, .frequency = 5,
+    ss_wave_opts o = { .size = sizeof o, .rate = 100, .duration = 2, .amplitude = 3, .frequency = 5,
                        .frequency_end = 25 };
     ss_signal *s = wave(SS_CHIRP, o);
     (void)state;
@@ -45,7 +46,7 @@ static void
 ringdown_decays_by_its_damping_ratio(void **state)
 {
     const double zeta = 0.1, ratio = exp(-2 * M_PI * zeta / sqrt(1 - zeta * zeta));
-    ss_wave_opts o = { .rate = 1000, .duration = 1, .amplitude = 2, .frequency = 20, .damping = zeta,
+    ss_wave_opts o = { .size = sizeof o, .rate = 1000, .duration = 1, .amplitude = 2, .frequency = 20, .damping = zeta,
                        .at = 0.1 };
     ss_signal *s = wave(SS_RINGDOWN, o);
     (void)state;
@@ -58,7 +59,7 @@ ringdown_decays_by_its_damping_ratio(void **state)
 static void
 impulse_and_step_are_where_they_should_be(void **state)
 {
-    ss_wave_opts o = { .rate = 10, .duration = 1, .amplitude = 3, .at = 0.34 };
+    ss_wave_opts o = { .size = sizeof o, .rate = 10, .duration = 1, .amplitude = 3, .at = 0.34 };
     ss_signal *impulse = wave(SS_IMPULSE, o), *step = wave(SS_STEP, o);
     (void)state;
     assert_int_equal(step->n, 10);
@@ -122,7 +123,7 @@ static void
 noise_has_the_ratio_asked_for(void **state)
 {
     enum { N = 100000 };
-    ss_wave_opts o = { .rate = N / 10., .duration = 10, .amplitude = 3, .frequency = 7 };
+    ss_wave_opts o = { .size = sizeof o, .rate = N / 10., .duration = 10, .amplitude = 3, .frequency = 7 };
     ss_signal *clean = wave(SS_SINE, o), *noisy = wave(SS_SINE, o);
     (void)state;
     for (size_t i = 0; i < N; i++)

@@ -292,8 +292,10 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
               d.head->n_columns);
     ss_overlay *overlay = tool_read_overlay(features, SS_KIND_FEATURES);
     opts->features = overlay;
+    for (size_t i = 0; d.spectrum && i < d.n; i++)
+        d.density[i]->decibels = opts->decibels;
     if (d.kind >= TOOL_STREAM)
-        tool_check(ss_spectra_write(d.density, d.head, d.column, d.n, opts->decibels, tool_output(output),
+        tool_check(ss_spectra_write(d.density, d.head, d.column, d.n, tool_output(output),
                                     tool_stream(d.kind), &err), &err);
     else
         tool_draw(output, opts, write_script, &d);

@@ -62,9 +62,10 @@ main(int argc, char *argv[])
     const ss_range any = { -DBL_MAX, DBL_MAX }, times = { -1e12, 1e12 }, frequencies = { 0, 1e100 };
     const ss_range seeds = { 0, 0x7fffffff }, rates = { DBL_MIN, DBL_MAX }, durations = { 0, 1e12 };
     const ss_range damping_ratios = { 0, 1 - DBL_EPSILON / 2 };
-    ss_wave_opts opts = ss_wave_defaults;
+    ss_wave_opts opts;
     const char *output = NULL;
     tool_kind kind = TOOL_TSV;
+    ss_wave_opts_init(&opts, sizeof opts);
     int seed = (int)opts.seed;
     ss_signal *signal;
     ss_error err = { 0 };

@@ -231,6 +231,7 @@ typedef enum ss_wave {
 } ss_wave;
 
 typedef struct ss_wave_opts {
+    size_t size;                /* set by ss_wave_opts_init */
     double rate;                /* [Hz] 1e-300 ... 1e300 */
     double duration;            /* [s] >= 0: round(duration * rate) samples */
     double amplitude;           /* A */
@@ -240,10 +241,12 @@ typedef struct ss_wave_opts {
     double at;                  /* [s] */
     unsigned long seed;         /* noise only; the same seed gives the same noise */
 } ss_wave_opts;
-extern const ss_wave_opts ss_wave_defaults;     /* 2000 Hz, 10 s, A = 1, f = 10, seed 1 */
+/* 2000 Hz, 10 s, A = 1, f = 10, seed 1. */
+void ss_wave_opts_init(ss_wave_opts *opts, size_t size);
 
 /* Make a benchmark signal with one column, a, without a unit.  Phases are exact to 1e-15 cycles in
- * a record of any length.  SS_ERANGE: a value or a phase is larger than a double can hold. */
+ * a record of any length.  SS_ERANGE: a value or a phase is larger than a double can hold.
+ * opts may be NULL. */
 ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err);
 
 /* Add Gaussian white noise of standard deviation rms >= 0 to the n values of x.  The same seed

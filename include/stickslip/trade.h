@@ -134,7 +134,7 @@ void ss_models_opts_init(ss_models_opts *opts, size_t size);
 
 /* Compare a scene with each simpler scene that it contains (ss_scene_simpler), and with its own
  * periodic state at the same phase (ss_steady_find).  Each is run in closed form if it has one,
- * else by ss_sim_method_for at 1e-12, and transformed with ss_morlet_defaults.  A simpler scene
+ * else by ss_sim_method_for at 1e-12, and transformed with the default options.  A simpler scene
  * that cannot be run has a row with the reason.  A record without usable scales has no map.  Times
  * are measured as by ss_trade_measure.  opts may be NULL.  The caller frees *out with
  * ss_models_free.  SS_STOP; other errors are those of ss_sim_run. */

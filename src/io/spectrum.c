@@ -9,8 +9,9 @@
 /* Write the densities at one frequency. */
 static void
 write_row(struct rows *rows, ss_spectrum *const spectrum[], size_t k, const ss_column column[],
-          const size_t index[], size_t n, int decibels)
+          const size_t index[], size_t n)
 {
+    const int decibels = spectrum[0]->decibels;
     char unit[DENSITY_UNIT];
     ss_rows_number(rows, "frequency", "Hz", (double)k * spectrum[0]->step);
     for (size_t i = 0; i < n; i++) {
@@ -24,7 +25,7 @@ write_row(struct rows *rows, ss_spectrum *const spectrum[], size_t k, const ss_c
 
 ss_status
 ss_spectra_write(ss_spectrum *const spectrum[], const ss_header *head, const size_t column[], size_t n,
-                 int decibels, FILE *out, ss_format format, ss_error *err)
+                 FILE *out, ss_format format, ss_error *err)
 {
     static const char *const own[] = { "resolution", "segments", NULL };
     char resolution[SS_NUMBER_MAX];
@@ -39,8 +40,8 @@ ss_spectra_write(ss_spectrum *const spectrum[], const ss_header *head, const siz
     ss_rows_notes(&rows, head, own);
     ss_rows_note(&rows, "resolution: %s Hz", ss_number_text(resolution, spectrum[0]->resolution));
     ss_rows_note(&rows, "segments: %zu", spectrum[0]->segments);
-    write_row(&rows, spectrum, 0, head->column, column, n, decibels);          /* the names */
+    write_row(&rows, spectrum, 0, head->column, column, n);          /* the names */
     for (size_t k = 0; k < spectrum[0]->n; k++)
-        write_row(&rows, spectrum, k, head->column, column, n, decibels);
+        write_row(&rows, spectrum, k, head->column, column, n);
     return ss_rows_finish(&rows, err);
 }

@@ -6,14 +6,21 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <stickslip/signal.h>
 #include "base/error.h"
+#include "base/options.h"
 #include "signal/header.h"
+#include "signal/wave.h"
 
 const ss_wave_opts ss_wave_defaults = {
-    .rate = 2000, .duration = 10, .amplitude = 1, .frequency = 10, .frequency_end = 100,
+    .size = sizeof(ss_wave_opts), .rate = 2000, .duration = 10, .amplitude = 1, .frequency = 10, .frequency_end = 100,
     .damping = 0.05, .at = 0, .seed = 1
 };
+
+void
+ss_wave_opts_init(ss_wave_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &ss_wave_defaults, sizeof ss_wave_defaults);
+}
 
 struct twofold {
     double hi, lo;              /* hi + lo, |lo| <= ulp(hi) / 2 or so */
@@ -109,12 +116,16 @@ refuse_opts(ss_wave wave, const ss_wave_opts *o)
 }
 
 ss_status
-ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err)
+ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *given, ss_error *err)
 {
-    if (out == NULL || opts == NULL)
+    ss_wave_opts own;
+    const ss_wave_opts *opts = &own;
+    if (out == NULL)
         return SS_FAIL_NULL(err);
-    const char *wrong = refuse_opts(wave, opts);
     *out = NULL;
+    if (ss_options_take(&own, sizeof own, &ss_wave_defaults, given, err) != SS_OK)
+        return SS_EINVAL;
+    const char *wrong = refuse_opts(wave, opts);
     if (wrong != NULL)
         return ss_fail(err, SS_EINVAL, "%s", wrong);
     ss_header *head = NULL;

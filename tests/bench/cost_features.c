@@ -5,6 +5,7 @@
  * CPU seconds, the least of ROUNDS in which both take turns. */
 #include <gsl/gsl_errno.h>
 #include "map/map.h"
+#include "signal/wave.h"
 #include "bench.h"
 
 enum { ROUNDS = 2, SAMPLES = 1000000, SECONDS = 60 };
