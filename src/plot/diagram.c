@@ -4,7 +4,6 @@
  * points (a bifurcation diagram), else as a line.  Counts have no values between two: they are drawn as steps
  * and points. */
 #include "plot/map.h"
-#include "plot/script.h"
 #include "plot/style.h"
 
 #include <math.h>
@@ -107,11 +106,9 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     ss_script_write_title(out, &titled, NULL, NULL);
     ss_print(out, "colour = '" BLUE "'; size = 0.1\nset multiplot\nunset key; set tics nomirror out scale 0.6\n"
             "set border lw 0.8; set lmargin at screen 0.175; set rmargin at screen 0.965\n"
-            "set xrange [%.9g:%.9g]%s; set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n"
-            "set grid xtics lc rgb '" GRID_COLOUR "' lt 1; set xtics format ''\n", log ? x.lo * (1 - 1e-8) : x.lo,
-            log ? x.hi * (1 + 1e-8) : x.hi, log ? "; set logscale x" : "");
-    if (!log)
-        ss_map_write_x_tics(out, x);
+            "set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n"
+            "set grid xtics lc rgb '" GRID_COLOUR "' lt 1; set xtics format ''\n");
+    ss_map_write_range(out, 'x', x, log, 9);
     for (size_t i = 1; i < n_columns; i++) {
         double tall = i == 1 ? FIRST : NEXT;
         if (i + 1 == n_columns) {
@@ -139,17 +136,16 @@ ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, co
         return st;
     if (n < 2 || n > COLUMNS_MAX)
         return ss_fail(err, SS_EINVAL, "a diagram shows 1 ... %d columns", COLUMNS_MAX - 1);
-    map_column column[COLUMNS_MAX] = { { NULL, NULL } };
+    map_column column[COLUMNS_MAX];
+    st = ss_map_read_columns(column, n, t, drawn, err);
     for (size_t i = 0; st == SS_OK && i < n; i++) {
-        st = ss_map_read_column(&column[i], t, drawn[i], err);
-        script_extent e = st == SS_OK ? ss_script_extent(column[i].value, t->n) : (script_extent){ 0, 1 };
+        script_extent e = ss_script_extent(column[i].value, t->n);
         if (!(e.lo <= e.hi) || (i == 0 && !(e.lo < e.hi)))
             st = ss_fail(err, SS_EINVAL, "%s has %s", column[i].label->name,
                          i == 0 ? "one value only" : "no value to draw");
     }
     if (st == SS_OK)
         st = write_diagram(out, t, column, n, &own, err);
-    for (size_t i = 0; i < COLUMNS_MAX; i++)
-        free(column[i].value);
+    ss_map_free_columns(column, n);
     return st;
 }

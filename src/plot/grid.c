@@ -1,0 +1,221 @@
+/* grid.c -- the rows of a table as the points of a grid over two of its columns, and the axes of maps and
+ * diagrams. */
+#include "plot/map.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/sort.h"
+
+/* --- columns -------------------------------------------------------------------------------- */
+
+/* Read a cell: a number, "-" for an unknown value, or "aperiodic". */
+static ss_status
+read_cell(double *x, const char *cell, const char *column, size_t row, ss_error *err)
+{
+    char *end;
+    *x = ss_number_parse(cell, &end);
+    if (strcmp(cell, "-") == 0)
+        *x = NAN;
+    else if (strcmp(cell, "aperiodic") == 0)
+        *x = 0;
+    else if (end == cell || *end != '\0' || !isfinite(*x))
+        return ss_fail(err, SS_EDATA, "row %zu, column %s: '%.40s' is not a finite number", row + 1, column,
+                       cell);
+    return isnan(*x) || fabs(*x) < 1 ? SS_OK : ss_script_check(column, x, 1, err);
+}
+
+ss_status
+ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size_t index[], ss_error *err)
+{
+    ss_status st = SS_OK;
+    memset(column, 0, n * sizeof *column);
+    for (size_t k = 0; st == SS_OK && k < n; k++) {
+        size_t c = index[k];
+        if (c >= t->n_columns)
+            return ss_fail_column(err, c, t->n_columns);
+        column[k] = (map_column){ &t->column[c], malloc((t->n + 1) * sizeof *column[k].value) };
+        if (column[k].value == NULL)
+            return ss_fail_memory(err, NULL);
+        for (size_t i = 0; st == SS_OK && i < t->n; i++)
+            st = read_cell(&column[k].value[i], t->cell[i * t->n_columns + c], t->column[c].name, i, err);
+    }
+    return st;
+}
+
+void
+ss_map_free_columns(map_column column[], size_t n)
+{
+    for (size_t k = 0; k < n; k++)
+        free(column[k].value);
+}
+
+/* --- the grid ------------------------------------------------------------------------------- */
+
+/* Returns 1 if the ratios of neighbouring values vary less than their differences. */
+static int
+is_log(const map_axis *a)
+{
+    script_extent d = SCRIPT_NO_EXTENT, r = SCRIPT_NO_EXTENT;
+    for (size_t i = 1; i < a->n; i++) {
+        ss_script_include(&d, a->value[i] - a->value[i - 1]);
+        ss_script_include(&r, log(a->value[i] / a->value[i - 1]));
+    }
+    return a->n > 2 && a->value[0] > 0 && isfinite(a->value[a->n - 1] / a->value[0])
+        && d.hi > d.lo * (1 + 1e-6) && r.hi / r.lo < d.hi / d.lo;
+}
+
+static ss_status
+make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
+{
+    size_t found = 0;
+    a->value = malloc((n + 1) * sizeof *a->value);
+    if (a->value == NULL)
+        return ss_fail_memory(err, NULL);
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(column->value[i]))
+            a->value[found++] = column->value[i];
+    qsort(a->value, found, sizeof *a->value, ss_ascending);
+    for (size_t i = 0; i < found; i++)
+        if (a->n == 0 || a->value[i] != a->value[a->n - 1])
+            a->value[a->n++] = a->value[i];
+    if (a->n < 2)
+        return ss_fail(err, SS_EINVAL, "a map needs two values of %s at least", column->label->name);
+    double lo = a->value[0], hi = a->value[a->n - 1];
+    a->log = is_log(a);
+    a->scale = a->log ? ss_script_power(0) : ss_map_scale((script_extent){ lo, hi });
+    a->digits = 6 + (int)fmax(0, floor(log10(fmax(fabs(lo), fabs(hi)) / (hi - lo))));
+    return SS_OK;
+}
+
+/* The index of x among the values; x is one of them. */
+static size_t
+find(const map_axis *a, double x)
+{
+    const double *at = bsearch(&x, a->value, a->n, sizeof x, ss_ascending);
+    return (size_t)(at - a->value);
+}
+
+/* Find the row of each point; SIZE_MAX: there is none. */
+static ss_status
+find_rows(size_t *row, const map_grid *g, const map_column axis[2], size_t n, ss_error *err)
+{
+    for (size_t k = 0; k < g->x.n * g->y.n; k++)
+        row[k] = SIZE_MAX;
+    for (size_t i = 0; i < n; i++) {
+        double x = axis[0].value[i], y = axis[1].value[i];
+        if (!isfinite(x) || !isfinite(y))
+            continue;
+        size_t k = find(&g->y, y) * g->x.n + find(&g->x, x);
+        if (row[k] != SIZE_MAX)
+            return ss_fail(err, SS_EINVAL, "two rows with the same %s and %s: choose among them "
+                           "first", axis[0].label->name, axis[1].label->name);
+        row[k] = i;
+    }
+    return SS_OK;
+}
+
+ss_status
+ss_map_make_grid(map_grid *g, map_column column[], size_t n_columns, size_t n, ss_error *err)
+{
+    *g = (map_grid){ .x = { .n = 0 } };
+    ss_status st = make_axis(&g->x, &column[0], n, err);
+    if (st == SS_OK)
+        st = make_axis(&g->y, &column[1], n, err);
+    if (st != SS_OK)
+        return st;
+    size_t points = g->x.n * g->y.n, *row;
+    if (g->x.n > SIZE_MAX / sizeof *row / g->y.n || points > 16 * n + 100)
+        return ss_fail(err, SS_EINVAL, "the rows are no grid: %zu values of %s, %zu of %s in %zu "
+                       "rows", g->x.n, column[0].label->name, g->y.n, column[1].label->name, n);
+    row = malloc(points * sizeof *row);
+    st = row != NULL ? find_rows(row, g, column, n, err) : ss_fail_memory(err, NULL);
+    for (size_t c = 2; st == SS_OK && c < n_columns; c++) {
+        double *of_row = column[c].value, *value = malloc(points * sizeof *value);
+        for (size_t k = 0; value != NULL && k < points; k++)
+            value[k] = row[k] == SIZE_MAX ? NAN : of_row[row[k]];
+        st = value != NULL ? SS_OK : ss_fail_memory(err, NULL);
+        free(of_row);
+        column[c].value = value;
+    }
+    free(row);
+    return st;
+}
+
+void
+ss_map_free_grid(map_grid *g)
+{
+    free(g->x.value);
+    free(g->y.value);
+}
+
+double
+ss_map_along(const map_axis *a, double at)
+{
+    size_t i = (size_t)fmin(fmax(at, 0), (double)(a->n - 2));
+    double part = at - (double)i, lo = a->value[i], hi = a->value[i + 1];
+    return a->log ? lo * pow(hi / lo, part) : lo + part * (hi - lo);
+}
+
+void
+ss_map_write_coordinate(FILE *out, const map_axis *a, double x, char behind)
+{
+    ss_print(out, "%.*g%c", a->digits, ss_script_scaled(x, a->scale), behind);
+}
+
+/* --- title and axes ------------------------------------------------------------------------- */
+
+#define TICS_WIDE 24            /* letters of all tics below a map together, if they are long */
+
+ss_plot_opts
+ss_map_titled(const ss_plot_opts *opts, const ss_table *t)
+{
+    ss_plot_opts titled = *opts;
+    const char *scene = ss_table_note(t, "scene");
+    if (titled.title == NULL)
+        titled.title = scene != NULL ? scene : "";
+    return titled;
+}
+
+script_label
+ss_map_label(const ss_column *column, script_scale scale, double room)
+{
+    script_label label;
+    ss_script_make_label(&label, column, scale, room);
+    for (size_t i = 0; i < strlen(column->name) && label.text[i] != '\0'; i++)
+        label.text[i] = label.text[i] == '_' ? ' ' : label.text[i];
+    return label;
+}
+
+script_scale
+ss_map_scale(script_extent e)
+{
+    script_scale scale = ss_script_scale(e);
+    return scale.offset != 0 ? scale : ss_script_power(0);
+}
+
+/* gnuplot sets tics at powers of ten, or at some ten equally spaced values. */
+int
+ss_map_letters(script_extent e, int log)
+{
+    double step = pow(10, floor(log10(e.hi - e.lo)));
+    double first = log ? pow(10, ceil(log10(e.lo))) : step * ceil(10 * e.lo / step) / 10;
+    double last = log ? pow(10, floor(log10(e.hi))) : step * floor(10 * e.hi / step) / 10;
+    return (int)fmax(snprintf(NULL, 0, "%g", first), snprintf(NULL, 0, "%g", last));
+}
+
+/* gnuplot leaves out a tic at the very end of a logarithmic axis where rounding puts it beyond. */
+void
+ss_map_write_range(FILE *out, char axis, script_extent e, int log, int digits)
+{
+    const char name[] = { axis, '\0' };
+    int letters = ss_map_letters(e, log);
+    if (log)
+        ss_print(out, "set %srange [%.9g:%.9g]; set logscale %s\n", name, e.lo * (1 - 1e-8), e.hi * (1 + 1e-8), name);
+    else
+        ss_print(out, "set %srange [%.*g:%.*g]\n", name, digits, e.lo, digits, e.hi);
+    if (!log && axis == 'x' && letters > 4)
+        ss_script_write_tics(out, "xtics", e, (int)fmax(1, TICS_WIDE / letters));
+}
