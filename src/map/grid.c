@@ -11,6 +11,7 @@
  * (fft/blocks.c).  m B_0 <= STEPS_REPEAT keeps 2^p below twice the reach of the wavelet; steps above
  * B_0 = 1 are few and stay exact.  The grid follows from options, rate and j alone. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/options.h"
@@ -103,18 +104,17 @@ refuse(range use, size_t n, double rate, const ss_morlet_opts *opts, ss_error *e
 {
     double low = n > 0 ? label(use.hi, opts) : 0, high = label(use.lo, opts);
     int by_fmax = opts->fmax > 0 && (opts->fmax > high || opts->fmax < low || !(opts->fmin > 0));
-    if (n == 0 && opts->octaves)
-        return ss_fail(err, SS_ESCALE, "samples at %g Hz resolve scales up to %.6g Hz within accuracy %g, not octaves "
-                       "%g to %g", rate, high, opts->accuracy, opts->m0, opts->m1);
-    if (n == 0)
-        return ss_fail(err, SS_ESCALE, "samples at %g Hz resolve scales up to %.6g Hz within accuracy %g, not %s %g Hz",
-                       rate, high, opts->accuracy, by_fmax ? "fmax" : "fmin", by_fmax ? opts->fmax : opts->fmin);
+    char samples[32] = "", from[40] = "up", asked[64];
+    if (n > 0) {
+        snprintf(samples, sizeof samples, "%zu ", n);
+        snprintf(from, sizeof from, "from %.6g", low);
+    }
     if (opts->octaves)
-        return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz within accuracy "
-                       "%g, not octaves %g to %g", n, rate, low, high, opts->accuracy, opts->m0, opts->m1);
-    return ss_fail(err, SS_ESCALE, "%zu samples at %g Hz resolve scales from %.6g to %.6g Hz within accuracy %g, "
-                   "not %s %g Hz", n, rate, low, high, opts->accuracy, by_fmax ? "fmax" : "fmin",
-                   by_fmax ? opts->fmax : opts->fmin);
+        snprintf(asked, sizeof asked, "octaves %g to %g", opts->m0, opts->m1);
+    else
+        snprintf(asked, sizeof asked, "%s %g Hz", by_fmax ? "fmax" : "fmin", by_fmax ? opts->fmax : opts->fmin);
+    return ss_fail(err, SS_ESCALE, "%ssamples at %g Hz resolve scales %s to %.6g Hz within accuracy %g, not %s",
+                   samples, rate, from, high, opts->accuracy, asked);
 }
 
 static ss_status

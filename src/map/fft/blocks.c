@@ -42,7 +42,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include "map/fft/blocks.h"
-#include "map/fft/plan.h"
 #include "map/fft/stage.h"
 
 #define CUT 8.66
@@ -60,6 +59,45 @@ enum {
     LONGEST_WINDOW = 1 << 18,
     ALIGN = 8                   /* doubles; FFTW's plans are for arrays that begin at multiples */
 };
+
+/* --- the terms of the spectrum that a scale consists of ------------------------------------------- */
+
+typedef struct band {
+    double h, h_low;                /* v_k = k h - omega_c */
+    ptrdiff_t lo, mid, hi;          /* k */
+} band;
+
+/* The distance from omega_c to either end of a band that has |v| <= reach.  The admissible wavelet has
+ * a hump about v = -omega_c, which must be inside, too. */
+static double
+half_band(double center, double second, double reach)
+{
+    return second > 0 && reach > center ? center + sqrt(reach * reach - center * center) : reach;
+}
+
+/* The terms |v| <= half of a circle of so many samples.  h in two parts: k h is needed to the last
+ * bit where k is large. */
+static band
+band_around(double center, double half, double a, double rate, double points)
+{
+    const double two_pi = 6.2831853071795865, two_pi_low = 2.4492935982947064e-16;
+    double p = a * rate, p_low = fma(a, rate, -p);
+    double s = two_pi * p, s_low = fma(two_pi, p, -s) + two_pi * p_low + two_pi_low * p;
+    band b = { .h = s / points };
+    b.h_low = (fma(-b.h, points, s) + s_low) / points;
+    b.lo = (ptrdiff_t)ceil((center - half) / b.h);
+    b.mid = (ptrdiff_t)rint(center / b.h);
+    b.hi = (ptrdiff_t)floor((center + half) / b.h);
+    return b;
+}
+
+/* Cycles a point that the band reaches from its middle with L points. */
+static double
+edge_of(const band *b, size_t length)
+{
+    double most = (double)(b->hi - b->mid > b->mid - b->lo ? b->hi - b->mid : b->mid - b->lo);
+    return most / (double)length;
+}
 
 /* --- which scales, in what windows ------------------------------------------------------------ */
 
@@ -367,7 +405,7 @@ ss_blocks_free(struct blocks *b)
 {
     if (b == NULL)
         return;
-    ss_blocks_plans_free(b);
+    ss_plans_free(b->plans);
     for (size_t i = 0; i < b->n_scales; i++)
         if (b->scale[i].owner)
             free(b->scale[i].weight);

@@ -3,116 +3,92 @@
  * Levels with windows of one length share their plans, and so do scales with as many points. */
 #include <fftw3.h>
 #include <pthread.h>
-#include "map/fft/plan.h"
+#include <stdlib.h>
+#include "base/fft.h"
 #include "map/fft/stage.h"
 
-static ss_status
-plan_stage(struct blocks *b, size_t l, double *v, unsigned how)
-{
-    stage *st = &b->stage[l];
-    int n = (int)st->length;
-    double *to = v + st->stride;
-    const stage *same = l > 0 && st[-1].length == st->length ? st - 1 : NULL;
-    st->forward = same != NULL ? same->forward
-        : fftw_plan_dft_r2c_1d(n, v, (fftw_complex *)to, how);
-    st->back = same != NULL ? same->back
-        : fftw_plan_dft_c2r_1d(n / 2, (fftw_complex *)to, v, how);
-    return st->forward != NULL && st->back != NULL ? SS_OK : SS_ENOMEM;
-}
+typedef enum plan_kind { FROM_REAL, TO_REAL, INVERSE } plan_kind;
 
+struct shared_plan {
+    plan_kind kind;
+    size_t n;
+    fftw_plan plan;
+    shared_plan *next;
+};
+
+/* The plan of a kind and length, from the list, or made for these arrays.  The caller holds ss_fftw_planner.
+ * NULL: no memory. */
 static fftw_plan
-inverse_of(const struct blocks *b, size_t i, double *v, unsigned how)
+plan_of(shared_plan **plans, plan_kind kind, size_t n, double *from, double *to, unsigned how)
 {
-    const block_scale *r = &b->scale[i];
-    for (size_t j = i + 1; j < b->n_scales; j++)
-        if (b->scale[j].level >= 0 && b->scale[j].points == r->points)
-            return b->scale[j].inverse;
-    return fftw_plan_dft_1d((int)r->points, (fftw_complex *)v,
-                            (fftw_complex *)(v + 2 * (b->longest + DENSE_MARGIN)), FFTW_BACKWARD,
-                            how);
+    for (const shared_plan *p = *plans; p != NULL; p = p->next)
+        if (p->kind == kind && p->n == n)
+            return p->plan;
+    shared_plan *p = malloc(sizeof *p);
+    if (p == NULL)
+        return NULL;
+    *p = (shared_plan){ .kind = kind, .n = n, .next = *plans };
+    *plans = p;
+    p->plan = kind == FROM_REAL ? fftw_plan_dft_r2c_1d((int)n, from, (fftw_complex *)to, how)
+        : kind == TO_REAL ? fftw_plan_dft_c2r_1d((int)n, (fftw_complex *)from, to, how)
+        : fftw_plan_dft_1d((int)n, (fftw_complex *)from, (fftw_complex *)to, FFTW_BACKWARD, how);
+    return p->plan;
 }
 
-/* Make all plans.  The caller holds ss_fftw_planner. */
-static ss_status
-plan_all(struct blocks *b, double *v, unsigned how)
+void
+ss_plans_free(shared_plan *plans)
 {
-    ss_status st = SS_OK;
-    for (size_t l = 0; st == SS_OK && l < b->levels; l++)
-        st = plan_stage(b, l, v, how);
-    for (size_t i = b->n_scales; st == SS_OK && i-- > 0;) {
-        block_scale *r = &b->scale[i];
-        if (r->level < 0)
-            continue;
-        r->inverse = inverse_of(b, i, v, how);
-        st = r->inverse != NULL ? SS_OK : SS_ENOMEM;
+    pthread_mutex_lock(&ss_fftw_planner);
+    for (shared_plan *next; plans != NULL; plans = next) {
+        next = plans->next;
+        if (plans->plan != NULL)
+            fftw_destroy_plan(plans->plan);
+        free(plans);
     }
-    return st;
+    pthread_mutex_unlock(&ss_fftw_planner);
 }
 
 ss_status
 ss_blocks_plans_make(struct blocks *b, ss_planner planner, size_t room)
 {
+    static const unsigned flag[] = { FFTW_ESTIMATE, FFTW_MEASURE, FFTW_PATIENT };
+    unsigned how = flag[planner];
     for (size_t l = 0; l < b->levels; l++)
         room = 2 * b->stage[l].stride > room ? 2 * b->stage[l].stride : room;
     double *v = fftw_malloc(room * sizeof *v);
     if (v == NULL)
         return SS_ENOMEM;
+    int made = 1;
+    double *points = v + 2 * (b->longest + DENSE_MARGIN);
     pthread_mutex_lock(&ss_fftw_planner);
-    ss_status st = plan_all(b, v, flag_of(planner));
+    for (size_t l = 0; made && l < b->levels; l++) {
+        stage *st = &b->stage[l];
+        st->forward = plan_of(&b->plans, FROM_REAL, st->length, v, v + st->stride, how);
+        st->back = plan_of(&b->plans, TO_REAL, st->length / 2, v + st->stride, v, how);
+        made = st->forward != NULL && st->back != NULL;
+    }
+    for (size_t i = b->n_scales; made && i-- > 0;)
+        if (b->scale[i].level >= 0) {
+            b->scale[i].inverse = plan_of(&b->plans, INVERSE, b->scale[i].points, v, points, how);
+            made = b->scale[i].inverse != NULL;
+        }
     pthread_mutex_unlock(&ss_fftw_planner);
     fftw_free(v);
-    return st;
-}
-
-void
-ss_blocks_plans_free(struct blocks *b)
-{
-    pthread_mutex_lock(&ss_fftw_planner);
-    for (size_t i = 0; i < b->n_scales; i++) {
-        fftw_plan p = b->scale[i].inverse;
-        for (size_t j = i + 1; p != NULL && j < b->n_scales; j++)
-            if (b->scale[j].inverse == p)
-                b->scale[j].inverse = NULL;
-        if (p != NULL)
-            fftw_destroy_plan(p);
-    }
-    for (size_t l = 0; l < b->levels; l++) {
-        if (l > 0 && b->stage[l].forward == b->stage[l - 1].forward)
-            continue;
-        if (b->stage[l].forward != NULL)
-            fftw_destroy_plan(b->stage[l].forward);
-        if (b->stage[l].back != NULL)
-            fftw_destroy_plan(b->stage[l].back);
-    }
-    pthread_mutex_unlock(&ss_fftw_planner);
+    return made ? SS_OK : SS_ENOMEM;
 }
 
 ss_status
 ss_sums_plans_make(struct block_sums *s)
 {
-    ss_status status = SS_OK;
+    int made = 1;
     pthread_mutex_lock(&ss_fftw_planner);
-    for (size_t l = 0; status == SS_OK && l < s->b->levels; l++) {
-        const stage *st = &s->b->stage[l];
-        int n = (int)st->length;
-        fftw_complex *terms = (fftw_complex *)(s->v + st->stride), *half = terms + st->stride / 2;
-        s->half[l] = fftw_plan_dft_r2c_1d(n / 2, s->v, half, FFTW_ESTIMATE);
-        s->back[l] = fftw_plan_dft_c2r_1d(n, terms, s->v, FFTW_ESTIMATE);
-        status = s->half[l] != NULL && s->back[l] != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t l = 0; made && l < s->b->levels; l++) {
+        size_t n = s->b->stage[l].length, stride = s->b->stage[l].stride;
+        double *terms = s->v + stride, *half = terms + stride;
+        s->half[l] = plan_of(&s->plans, FROM_REAL, n / 2, s->v, half, FFTW_ESTIMATE);
+        s->back[l] = plan_of(&s->plans, TO_REAL, n, terms, s->v, FFTW_ESTIMATE);
+        made = s->half[l] != NULL && s->back[l] != NULL;
     }
     pthread_mutex_unlock(&ss_fftw_planner);
-    return status;
-}
-
-void
-ss_sums_plans_free(struct block_sums *s)
-{
-    pthread_mutex_lock(&ss_fftw_planner);
-    for (size_t l = 0; l < s->b->levels; l++) {
-        if (s->half[l] != NULL)
-            fftw_destroy_plan(s->half[l]);
-        if (s->back[l] != NULL)
-            fftw_destroy_plan(s->back[l]);
-    }
-    pthread_mutex_unlock(&ss_fftw_planner);
+    return made ? SS_OK : SS_ENOMEM;
 }

@@ -10,6 +10,9 @@
 
 enum { LEVELS = BLOCK_LEVELS };
 
+/* A list of plans, one of each kind and length; plans.c owns them. */
+typedef struct shared_plan shared_plan;
+
 /* A level of n samples, margin more on either side. */
 typedef struct stage {
     size_t n, length, overlap, hop, windows;        /* window i begins at sample (i - 1) hop */
@@ -45,12 +48,11 @@ struct blocks {
     size_t n_places;
     block_scale *scale;
     stage stage[LEVELS];
+    shared_plan *plans;
 };
 
-/* plans.c: make the plans of all levels and scales that are used here, for a scratch of so many doubles; free
- * them, made or not. */
+/* plans.c: make the plans of all levels and scales that are used here, for a scratch of so many doubles. */
 ss_status ss_blocks_plans_make(struct blocks *b, ss_planner planner, size_t room);
-void ss_blocks_plans_free(struct blocks *b);
 
 /* The adjoint of the transform: for each window a sum over coefficients in place of its spectrum. */
 struct block_sums {
@@ -58,12 +60,13 @@ struct block_sums {
     double *level[LEVELS];                  /* of levels in use, from window 0 on */
     columns *places[2 * LEVELS];            /* as in blocks */
     fftw_plan half[LEVELS], back[LEVELS];   /* from L/2 samples, and to L samples */
+    shared_plan *plans;
     double *v;                              /* a window's samples, its spectrum, half a spectrum */
 };
 
-/* The same for its plans. */
+/* The same for its plans.  Free all plans of either. */
 ss_status ss_sums_plans_make(struct block_sums *s);
-void ss_sums_plans_free(struct block_sums *s);
+void ss_plans_free(shared_plan *plans);
 
 /* Windows that hold n samples' coefficients. */
 static inline size_t

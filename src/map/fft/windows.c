@@ -1,17 +1,82 @@
-/* windows.c -- the spectra of all windows of a record, and the adjoint: a record from such spectra.
+/* windows.c -- the spectra of all windows of a record, or of a stream as it goes on, and the adjoint: a
+ * record from such spectra.
  *
  * blocks.c says what a window is, and how large the error.  Window i of a level begins at its sample
  * (i - 1) hop, and window 0 makes only samples before the record's first, which the next level has. */
 #include <fftw3.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/pool.h"
 #include "base/versions.h"
 #include "map/fft/blocks.h"
 #include "map/fft/stage.h"
-#include "map/fft/window.h"
 
 enum { WORTH_A_THREAD = 8 };    /* windows */
+
+/* --- a window: its samples, its spectrum, and the samples of the next level ----------------------- */
+
+/* Samples lo ... hi - 1 of a level, of which x[0] is sample lo; all others are 0. */
+typedef struct samples {
+    double *x;
+    ptrdiff_t lo, hi;
+} samples;
+
+/* to[i] becomes sample first + i. */
+static void
+copy_samples(const samples *s, ptrdiff_t first, size_t n, double *to)
+{
+    ptrdiff_t end = first + (ptrdiff_t)n;
+    ptrdiff_t lo = first > s->lo ? first : s->lo, hi = end < s->hi ? end : s->hi;
+    if (lo >= hi)
+        lo = hi = end;
+    memset(to, 0, (size_t)(lo - first) * sizeof *to);
+    if (hi > lo)
+        memcpy(to + (lo - first), s->x + (lo - s->lo), (size_t)(hi - lo) * sizeof *to);
+    memset(to + (hi - first), 0, (size_t)(end - hi) * sizeof *to);
+}
+
+/* The terms of a window.  Its samples follow at x[overlap/2]; before them x has the overlap/2 samples that
+ * precede the window.  v has room for a window. */
+static void
+transform(const stage *st, const double *x, double *v, double *terms)
+{
+    size_t before = st->overlap / 2;
+    memcpy(v, x + before, (st->length - before) * sizeof *v);
+    memcpy(v + st->length - before, x, before * sizeof *v);
+    fftw_execute_dft_r2c(st->forward, v, (fftw_complex *)terms);
+}
+
+/* The terms k <= L/4 of the same window on the next level, from those on this one. */
+VERSIONS static void
+filter_terms(const stage *st, const double *restrict x, double *restrict y)
+{
+    size_t half = st->length / 4;
+    const double *f = st->filter, *g = f + half + 1, *z = x + st->length;
+    for (size_t k = 0; k <= half; k++) {
+        y[2 * k] = f[k] * x[2 * k] + g[k] * *(z - 2 * k);
+        y[2 * k + 1] = f[k] * x[2 * k + 1] - g[k] * *(z - 2 * k + 1);
+    }
+}
+
+/* The hop/2 samples of the next level that a window determines; to[0] becomes the first.  spare has room
+ * for a window. */
+static void
+decimate(const stage *st, const double *terms, double *spare, double *to)
+{
+    filter_terms(st, terms, spare);
+    fftw_execute_dft_c2r(st->back, (fftw_complex *)spare, to);
+}
+
+/* The doubles needed for a window of any level: its samples, its spectrum and the next level's samples. */
+static size_t
+window_room(const struct blocks *b)
+{
+    size_t most = 0;
+    for (size_t l = 0; l < b->levels; l++)
+        most = b->stage[l].stride > most ? b->stage[l].stride : most;
+    return 3 * most;
+}
 
 /* --- a whole record --------------------------------------------------------------------------- */
 
@@ -31,8 +96,8 @@ one_window(const task *t, size_t i)
     ptrdiff_t first = ((ptrdiff_t)i - 1) * (ptrdiff_t)st->hop;
     double *terms = t->spectra != NULL ? t->spectra + i * st->stride : t->v + st->stride;
     double *spare = t->v + 2 * st->stride;
-    ss_window_copy(t->from, first - (ptrdiff_t)(st->overlap / 2), st->length, spare);
-    ss_window_transform(st, spare, t->v, terms);
+    copy_samples(t->from, first - (ptrdiff_t)(st->overlap / 2), st->length, spare);
+    transform(st, spare, t->v, terms);
     if (t->next == NULL)
         return;
     samples made = { spare, first / 2, (first + (ptrdiff_t)st->hop) / 2 };
@@ -40,8 +105,8 @@ one_window(const task *t, size_t i)
     ptrdiff_t hi = made.hi < t->next->hi ? made.hi : t->next->hi;
     if (lo >= hi)
         return;
-    ss_window_decimate(st, terms, t->v, spare);
-    ss_window_copy(&made, lo, (size_t)(hi - lo), t->next->x + (lo - t->next->lo));
+    decimate(st, terms, t->v, spare);
+    copy_samples(&made, lo, (size_t)(hi - lo), t->next->x + (lo - t->next->lo));
 }
 
 static void
@@ -95,7 +160,7 @@ ss_status
 ss_blocks_forward(const struct blocks *b, const record *rec, size_t threads, spectra *out)
 {
     samples now = { rec->x, 0, (ptrdiff_t)rec->n }, next = { 0 };
-    size_t room = ss_window_room(b);
+    size_t room = window_room(b);
     double *v = fftw_malloc(threads * room * sizeof *v);
     ss_status st = v != NULL ? SS_OK : SS_ENOMEM;
     for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
@@ -121,6 +186,173 @@ ss_morlet_spectra_free(spectra *s)
 {
     for (size_t l = 0; l < LEVELS; l++)
         fftw_free(s->level[l]);
+}
+
+/* --- a stream: one window of each level, which is computed when it is full ------------------------ */
+
+/* The next window of a level, which samples fill. */
+typedef struct filling {
+    double *made;               /* samples of the next level from the last window; x follows in memory */
+    double *x;                  /* the overlap/2 samples before the window, then the window's */
+    size_t have, window;        /* samples in x; the number of the window */
+    ptrdiff_t end;              /* samples from here on are 0 */
+} filling;
+
+struct cascade {
+    const struct blocks *b;
+    double *v;                  /* window_room doubles */
+    filling level[LEVELS];
+};
+
+static cascade *
+empty_cascade(const struct blocks *b)
+{
+    cascade *c = calloc(1, sizeof *c);
+    if (c == NULL)
+        return NULL;
+    c->b = b;
+    int failed = (c->v = fftw_malloc(window_room(b) * sizeof *c->v)) == NULL;
+    for (size_t l = 0; l < b->levels; l++) {
+        filling *f = &c->level[l];
+        f->made = fftw_malloc((b->stage[l].stride / 2 + b->stage[l].length) * sizeof *f->made);
+        failed |= f->made == NULL;
+        f->x = f->made + b->stage[l].stride / 2;
+        f->end = PTRDIFF_MAX;
+    }
+    if (!failed)
+        return c;
+    ss_cascade_free(c);
+    return NULL;
+}
+
+/* Every level begins with zeros: those samples of window 0 that precede the first from the level before. */
+cascade *
+ss_cascade_new(const struct blocks *b)
+{
+    cascade *c = empty_cascade(b);
+    for (size_t l = 0; c != NULL && l < b->levels; l++) {
+        const stage *st = &b->stage[l];
+        filling *f = &c->level[l];
+        f->have = st->hop + st->overlap / 2 - (l > 0 ? st[-1].hop / 2 : 0);
+        memset(f->x, 0, f->have * sizeof *f->x);
+    }
+    return c;
+}
+
+static cascade *
+copy_of(const cascade *c)
+{
+    cascade *to = empty_cascade(c->b);
+    for (size_t l = 0; to != NULL && l < c->b->levels; l++) {
+        filling *f = &to->level[l];
+        f->have = c->level[l].have;
+        f->window = c->level[l].window;
+        memcpy(f->x, c->level[l].x, f->have * sizeof *f->x);
+    }
+    return to;
+}
+
+void
+ss_cascade_free(cascade *c)
+{
+    if (c == NULL)
+        return;
+    for (size_t l = 0; l < c->b->levels; l++)
+        fftw_free(c->level[l].made);
+    fftw_free(c->v);
+    free(c);
+}
+
+static ss_status append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user);
+
+/* Transform a full window, and begin the next one with its last samples. */
+static ss_status
+finish_window(cascade *c, size_t l, window_sink *sink, void *user)
+{
+    const stage *st = &c->b->stage[l];
+    filling *f = &c->level[l];
+    double *terms = c->v + st->stride;
+    transform(st, f->x, c->v, terms);
+    ss_status status = st->used ? sink(l, f->window, terms, user) : SS_OK;
+    memmove(f->x, f->x + st->hop, st->overlap * sizeof *f->x);
+    f->have = st->overlap;
+    f->window++;
+    if (status != SS_OK || l + 1 == c->b->levels)
+        return status;
+    decimate(st, terms, c->v, f->made);
+    return append(c, l + 1, f->made, st->hop / 2, sink, user);
+}
+
+/* Append samples to a level, except the first; samples before the margin are 0. */
+static ss_status
+append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user)
+{
+    const stage *st = &c->b->stage[l];
+    filling *f = &c->level[l];
+    ss_status status = SS_OK;
+    while (status == SS_OK && n > 0) {
+        size_t left = st->length - f->have, part = n < left ? n : left;
+        ptrdiff_t at = ((ptrdiff_t)f->window - 1) * (ptrdiff_t)st->hop
+            - (ptrdiff_t)(st->overlap / 2) + (ptrdiff_t)f->have;
+        ptrdiff_t end = at + (ptrdiff_t)part, lo = -(ptrdiff_t)st->margin;
+        lo = lo < at ? at : lo < end ? lo : end;
+        samples from = { x + (lo - at), lo, end < f->end ? end : f->end };
+        copy_samples(&from, at, part, f->x + f->have);
+        x += part;
+        n -= part;
+        f->have += part;
+        status = f->have == st->length ? finish_window(c, l, sink, user) : SS_OK;
+    }
+    return status;
+}
+
+size_t
+ss_cascade_room(const cascade *c)
+{
+    return c->b->stage[0].length - c->level[0].have;
+}
+
+void
+ss_cascade_divide(cascade *c, int exponent, double most)
+{
+    for (size_t l = 0; l < c->b->levels; l++)
+        ss_morlet_divide(c->level[l].x, c->level[l].have, exponent, most);
+}
+
+void
+ss_cascade_append(cascade *c, const double *x, size_t n)
+{
+    memcpy(c->level[0].x + c->level[0].have, x, n * sizeof *x);
+    c->level[0].have += n;
+}
+
+ss_status
+ss_cascade_run(cascade *c, window_sink *sink, void *user)
+{
+    return ss_cascade_room(c) == 0 ? finish_window(c, 0, sink, user) : SS_OK;
+}
+
+ss_status
+ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
+{
+    const struct blocks *b = now->b;
+    cascade *c = copy_of(now);
+    ss_status st = c != NULL ? SS_OK : SS_ENOMEM;
+    size_t windows[LEVELS] = { 0 };
+    for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
+        const stage *s = &b->stage[l];
+        windows[l] = 1 + windows_for(s, n + 2 * s->margin);
+        c->level[l].end = (ptrdiff_t)(n + (l > 0 ? s->margin : 0));
+        n = n / 2 + 1;
+    }
+    for (size_t l = 0; st == SS_OK && l < b->levels; l++)
+        while (st == SS_OK && c->level[l].window < windows[l]) {
+            filling *f = &c->level[l];
+            memset(f->x + f->have, 0, (b->stage[l].length - f->have) * sizeof *f->x);
+            st = finish_window(c, l, sink, user);
+        }
+    ss_cascade_free(c);
+    return st;
 }
 
 /* --- the adjoint ------------------------------------------------------------------------------ */
@@ -164,7 +396,7 @@ sums_window(const block_sums *s, size_t l, size_t i, const samples *next, const 
     else
         memset(terms, 0, st->stride * sizeof *terms);
     if (next != NULL) {
-        ss_window_copy(next, first / 2, made, v);
+        copy_samples(next, first / 2, made, v);
         memset(v + made, 0, (st->length / 2 - made) * sizeof *v);
         fftw_execute_dft_r2c(s->half[l], v, (fftw_complex *)half);
         unfilter_terms(st, half, terms);
@@ -201,7 +433,7 @@ ss_block_sums_new(const struct blocks *b)
     if (s == NULL)
         return NULL;
     s->b = b;
-    int failed = (s->v = fftw_malloc(ss_window_room(b) * sizeof *s->v)) == NULL;
+    int failed = (s->v = fftw_malloc(window_room(b) * sizeof *s->v)) == NULL;
     for (size_t l = 0; !failed && l < b->levels; l++) {
         size_t room = b->stage[l].windows * b->stage[l].stride * sizeof(double);
         if (b->stage[l].used)
@@ -222,7 +454,7 @@ ss_block_sums_free(block_sums *s)
 {
     if (s == NULL)
         return;
-    ss_sums_plans_free(s);
+    ss_plans_free(s->plans);
     for (size_t l = 0; l < s->b->levels; l++)
         fftw_free(s->level[l]);
     for (size_t i = 0; i < s->b->n_places; i++)
