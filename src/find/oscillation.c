@@ -134,6 +134,8 @@ judge(const search *s, const ringdown *r, double f, size_t cycles)
         return "jumps or kinks lie in what was fitted: the sticks last under 2 periods";
     if (!(r->all[1].value > 0))
         return "what recurs does not decay";
+    if (r->is_line && !(r->all[1].value > SIGMAS * r->all[1].error))
+        return "what recurs is not shown to decay, and its phase is that of a steady line: it hums";
     if (!(w.error < w.value / PRECISE))
         return "the transitions do not agree on a frequency";
     if (is_spring(s, r->all))

@@ -14,3 +14,6 @@ for f in 43.7 46.2 51.2; do
 done
 ss-sim -s settle=10 -s duration=4 compliant-light | ss-noise --snr 40 | hum 45.07 .025 | ss-features --mass 2.42 > found
 awk '$2 == "total_stiffness:" || $2 == "damping_ratio:" { print $2, $3 } $2 == "about_ringing:"' found
+# a true stick does not ring: what hums in it neither decays nor starts anew with the slips
+ss-sim coulomb | ss-noise --snr 50 --seed 3 | hum 55 .3 | ss-features |
+    awk '$2 == "transition_frequency:" { print $2, $3 } $2 == "about_ringing:"'
