@@ -52,7 +52,7 @@ survey(filling *f, size_t i, const double *level)
             continue;
         f->outside = fmax(f->outside, here);
         if (f->noise != NULL)
-            ss_noise_level_add(f->noise, &f->c->scale[i], i, &(double){ here * here }, k, 1);
+            ss_noise_level_add(f->noise, &f->c->scale[i], i, &here, k, 1);
     }
     return 1;
 }

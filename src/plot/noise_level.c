@@ -145,12 +145,12 @@ ss_noise_level_step(const ss_scale *scale)
 }
 
 void
-ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const double *power, size_t first, size_t n)
+ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const double *level, size_t first, size_t n)
 {
     uint64_t *count = noise->count + i * BINS;
     size_t step = ss_noise_level_step(scale);
     for (size_t k = (step - first % step) % step; k < n; k += step) {
-        size_t bin = bin_of(power[k]);
+        size_t bin = bin_of(level[k] * level[k]);
         count[bin] += step;
         noise->level[i * PART + noise->levels[i]++] = (double)bin;
         if (noise->levels[i] < PART)

@@ -30,15 +30,14 @@ struct ss_overview {
 
 /* --- levels -------------------------------------------------------------------------------- */
 
-/* Add n levels, or their squares, to a row of levels.  Returns the largest level. */
+/* Add n levels to a row of levels.  Returns the largest. */
 VERSIONS static double
-add_levels(extremes *r, const double *level, size_t n, int squares)
+add_levels(extremes *r, const double *level, size_t n)
 {
     double all = 0;
     for (size_t k = 0, m, i; k < n; k += m) {
         m = ss_extremes_next(r, n - k, &i);
         double most = largest_of(level + k, m);
-        most = squares ? sqrt(most) : most;
         r->most[i] = r->n == i << r->order || most > r->most[i] ? most : r->most[i];
         all = most > all ? most : all;
         r->n += m;
@@ -49,28 +48,6 @@ add_levels(extremes *r, const double *level, size_t n, int squares)
 /* --- as coefficients come ------------------------------------------------------------------ */
 
 enum { PIECE = 512 };           /* coefficients at a time, which stay in the cache */
-
-/* |W|^2; returns the largest. */
-VERSIONS static double
-square(double *restrict level, const double *restrict w, size_t n)
-{
-    for (size_t k = 0; k < n; k++)
-        level[k] = w[2 * k] * w[2 * k] + w[2 * k + 1] * w[2 * k + 1];
-    return largest_of(level, n);
-}
-
-/* Compute |W|^2 and return 1.  If the largest square overflows or underflows, compute |W|, which
- * takes longer, and return 0. */
-static int
-find_levels(double *level, const double *w, size_t n)
-{
-    double most = square(level, w, n);
-    if (most > 1e-280 && most < 1e280)
-        return 1;
-    for (size_t k = 0; k < n; k++)
-        level[k] = hypot(w[2 * k], w[2 * k + 1]);
-    return 0;
-}
 
 /* Is a translation in the cone of influence? */
 static int
@@ -92,16 +69,13 @@ are_inside(const ss_overview *o, const ss_scale *scale, size_t first, size_t las
 /* Add the levels of n translations from first on, which lie all in the cone of influence or all
  * outside. */
 static void
-add_stretch(ss_overview *o, const ss_scale *scale, size_t first, size_t n, double *level, int squares,
-            int edge)
+add_stretch(ss_overview *o, const ss_scale *scale, size_t first, size_t n, const double *level, int edge)
 {
     size_t i = (size_t)(scale - ss_stream_grid(o->stream)->scale);
-    double most = add_levels(&o->scale[i], level, n, squares);
+    double most = add_levels(&o->scale[i], level, n);
     if (edge)
         return;
     o->top = most > o->top ? most : o->top;
-    for (size_t k = 0; !squares && k < n; k++)
-        level[k] *= level[k];
     ss_noise_level_add(o->noise, scale, i, level, first, n);
 }
 
@@ -113,11 +87,11 @@ add_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t 
     double level[PIECE];
     for (size_t at = 0, m; at < n; at += m) {
         m = n - at < PIECE ? n - at : PIECE;
-        int squares = find_levels(level, w + 2 * at, m);
+        ss_map_give(&(ss_map_part){ .level = level }, 0, m, w + 2 * at);
         int inside = are_inside(o, scale, first + at, first + at + m - 1, samples);
         size_t stretch = inside ? m : 1;
         for (size_t k = 0; k < m; k += stretch)
-            add_stretch(o, scale, first + at + k, stretch, level + k, squares,
+            add_stretch(o, scale, first + at + k, stretch, level + k,
                         !inside && is_edge(o, scale, first + at + k, samples));
     }
     return 0;
