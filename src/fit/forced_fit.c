@@ -417,7 +417,7 @@ begin(fitting *w, forced_fit *m, forced *c, const rank_record *r)
     for (size_t i = 0; i < FORCED_UNKNOWNS; i++)
         for (size_t k = 0; k < FORCED_UNKNOWNS; k++)
             m->covariance[i][k] = NAN;
-    *w = (fitting){ .c = c, .r = r, .wide = 1, 
+    *w = (fitting){ .c = c, .r = r, .wide = 1,
                     .motion = malloc(((3 + FORCED_MOVED) * r->n + 1) * sizeof(double)) };
     w->clear = w->motion + r->n;
     w->weight = w->clear + r->n;
