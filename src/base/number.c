@@ -349,6 +349,16 @@ ss_print_text(char *text, size_t size, const char *format, va_list args)
     return n;
 }
 
+int
+ss_print_to(char *text, size_t size, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    int n = ss_print_text(text, size, format, args);
+    va_end(args);
+    return n;
+}
+
 static double
 strtod_in_c(const char *text)
 {

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <stickslip/sim.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "fit/forced.h"
 #include "fit/samples.h"
 #include "scene/model.h"
@@ -248,10 +249,10 @@ judge_held(ss_fit *fit, const fitting *w)
     if (!(of[most].gain > REFUTED))
         return SS_OK;
     if (most == HELD_DAMPING)
-        snprintf(fit->why, sizeof fit->why, "the scene's damping is not that of the rig, which may be %.3g",
+        ss_print_to(fit->why, sizeof fit->why, "the scene's damping is not that of the rig, which may be %.3g",
                  of[most].nearer);
     else if (most == HELD_STATIC)
-        snprintf(fit->why, sizeof fit->why, "the scene's static_friction is not that of the rig, which may "
+        ss_print_to(fit->why, sizeof fit->why, "the scene's static_friction is not that of the rig, which may "
                  "be %.4g times friction", of[most].nearer);
     else
         snprintf(fit->why, sizeof fit->why, "the sensor seems to lag behind the motion: its bandwidth is "
@@ -271,20 +272,20 @@ judge(ss_fit *fit, const fitting *w)
     if (of->compared == 0)
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
     else if (!ss_residue_explains(of, w->record.noise))
-        snprintf(fit->why, sizeof fit->why, "the best compliant scene leaves %.3g %% of the signal, "
+        ss_print_to(fit->why, sizeof fit->why, "the best compliant scene leaves %.3g %% of the signal, "
                  "%.3g times the noise", 100 * fit->residual_started,
                  sqrt(ss_residue_excess(of, w->record.noise)));
     else if ((w->rival - of->left) * of->compared < RESIDUE_DECISIVE * of->left)
-        snprintf(fit->why, sizeof fit->why, "scenes with other parameters leave as little of the "
+        ss_print_to(fit->why, sizeof fit->why, "scenes with other parameters leave as little of the "
                  "signal, %.3g %%", 100 * fit->residual_started);
     else if (periods < SHORT)
-        snprintf(fit->why, sizeof fit->why, "the longest stick lasts %.2g periods of the contact's "
+        ss_print_to(fit->why, sizeof fit->why, "the longest stick lasts %.2g periods of the contact's "
                  "oscillation: less than %g shows no stiffness", periods, SHORT);
     else if (vague != NULL && isinf(error))
-        snprintf(fit->why, sizeof fit->why, "%s = %.3g is at an end of the range searched", vague,
+        ss_print_to(fit->why, sizeof fit->why, "%s = %.3g is at an end of the range searched", vague,
                  value);
     else if (vague != NULL)
-        snprintf(fit->why, sizeof fit->why, "%s = %.3g +- %.2g: the signal does not tell it", vague,
+        ss_print_to(fit->why, sizeof fit->why, "%s = %.3g +- %.2g: the signal does not tell it", vague,
                  value, error);
     else
         st = judge_held(fit, w);

@@ -15,6 +15,7 @@
 #include <string.h>
 #include <stickslip/sim.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "fit/forced.h"
 #include "fit/observation.h"
 #include "signal/gaps.h"
@@ -171,7 +172,7 @@ test_damping(ss_ranking *r, const comparison *w, const found *f)
             || ss_residue_lead(&f[first->scene].fit.of_samples, &damped, w->record.noise) >= RESIDUE_DECISIVE)
             continue;
         r->verdict = SS_UNDECIDED;
-        snprintf(r->why, sizeof r->why, "%s friction explains the signal as well as %s friction if the rig's damping "
+        ss_print_to(r->why, sizeof r->why, "%s friction explains the signal as well as %s friction if the rig's damping "
                  "is %.2g N s/m", ss_model_name(other->adjusted.model), ss_model_name(first->adjusted.model), by->nearer);
     }
     return st;
@@ -196,13 +197,13 @@ judge(ss_ranking *r, const comparison *w, const found *f)
     ss_status st = ss_record_sinusoid(&w->record, f[first->scene].fit.scene.base_frequency, &sinusoid.left);
     if (explain == 0) {
         r->verdict = SS_NONE_FITS;
-        snprintf(r->why, sizeof r->why, "each leaves at least %.3g %% of the signal's power, "
+        ss_print_to(r->why, sizeof r->why, "each leaves at least %.3g %% of the signal's power, "
                  "%.3g times the noise", 100 * best->left / best->power, ss_residue_excess(best, noise));
     } else if (ss_residue_explains(&sinusoid, noise)) {
         snprintf(r->why, sizeof r->why, "a sinusoid explains the signal as well: it shows no "
                  "transitions");
     } else if (ss_residue_lead(best, own, noise) > RESIDUE_DECISIVE) {
-        snprintf(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the signal's "
+        ss_print_to(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the signal's "
                  "power, and another, which leaves %.3g %%, shows other transitions",
                  100 * own->left / own->power, 100 * best->left / best->power);
     } else {
@@ -266,11 +267,11 @@ fit_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
         return st;
     size_t key = contradicted_key(&named->fit, &m, scene.n, &errors);
     if (!ss_residue_explains(&m.of_samples, record.noise))
-        snprintf(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
+        ss_print_to(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
                  "leaves %.3g %% of that, %.3g times the noise", model, first, other,
                  100 * m.of_samples.left / m.of_samples.power, ss_residue_excess(&m.of_samples, record.noise));
     else if (key < scene.n && record.noise > record.steps)      /* errors are those of white noise */
-        snprintf(r->why, sizeof r->why, "%s friction explains column %s and column %s, but with %s "
+        ss_print_to(r->why, sizeof r->why, "%s friction explains column %s and column %s, but with %s "
                  "%.2g %% apart, %.2g standard errors", model, first, other,
                  ss_forced_key_name(&scene, key), 100 * fabs(expm1(m.u[key] - named->fit.u[key])), errors);
     return SS_OK;

@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "base/progress.h"
 #include "fit/pulled.h"
 #include "fit/column.h"
@@ -153,11 +154,11 @@ judge(ss_pull *p, const pulled_fit *fit)
         snprintf(p->why, sizeof p->why, "the scene does not stick and slip, or not within the steps of "
                  "a fit");
     else if (p->left > 1 - EXPLAINED && !p->explains) {
-        snprintf(p->why, sizeof p->why, "the best such scene leaves %.3g %% of the power of the falls, "
+        ss_print_to(p->why, sizeof p->why, "the best such scene leaves %.3g %% of the power of the falls, "
                  "%.3g times the noise", 100 * p->left, p->excess);
         p->verdict = SS_NONE_FITS;
     } else if (i < p->n_keys)
-        snprintf(p->why, sizeof p->why, "%s = %.3g +- %.2g: the falls do not tell it", p->key[i].name,
+        ss_print_to(p->why, sizeof p->why, "%s = %.3g +- %.2g: the falls do not tell it", p->key[i].name,
                  p->key[i].found.value, p->key[i].found.error);
     else
         p->verdict = SS_NAMED;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "base/progress.h"
 #include "fit/order.h"
 #include "fit/pulled.h"
@@ -156,10 +157,10 @@ refuse(ss_ranking *r, const trial *t, double noise)
     if (!best->fit.slips)
         snprintf(r->why, sizeof r->why, "none of the scenes sticks and slips");
     else if (!best->explains)
-        snprintf(r->why, sizeof r->why, "within the spread each scene leaves at least %.3g %% of the power of "
+        ss_print_to(r->why, sizeof r->why, "within the spread each scene leaves at least %.3g %% of the power of "
                  "the falls, %.3g times the noise", 100 * of->left / of->power, ss_residue_excess(of, noise));
     else
-        snprintf(r->why, sizeof r->why, "%s friction explains the falls, but the scene would need %.3g "
+        ss_print_to(r->why, sizeof r->why, "%s friction explains the falls, but the scene would need %.3g "
                  "times its %s", ss_model_name(best->fit.scene.model), exp(best->most), best->most_name);
 }
 
@@ -176,7 +177,7 @@ name_scene(ss_ranking *r, const trial *t, double noise)
             snprintf(r->why, sizeof r->why, "the contact of a scene with %s friction rings from slip to slip, "
                      "and has many fits: whether it explains the falls is not known", model);
         else if (t[i].fit.unfinished && !t[i].explains)
-            snprintf(r->why, sizeof r->why, "a scene with %s friction is too stiff: it takes more than %.0e "
+            ss_print_to(r->why, sizeof r->why, "a scene with %s friction is too stiff: it takes more than %.0e "
                      "integration steps to be adjusted", model, PULLED_BUDGET);
         if (r->why[0] != '\0')
             return n;

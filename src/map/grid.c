@@ -14,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "base/options.h"
 #include "base/range.h"
 #include "map/plan.h"
@@ -107,12 +108,12 @@ refuse(range use, size_t n, double rate, const ss_morlet_opts *opts, ss_error *e
     char samples[32] = "", from[40] = "up", asked[64];
     if (n > 0) {
         snprintf(samples, sizeof samples, "%zu ", n);
-        snprintf(from, sizeof from, "from %.6g", low);
+        ss_print_to(from, sizeof from, "from %.6g", low);
     }
     if (opts->octaves)
-        snprintf(asked, sizeof asked, "octaves %g to %g", opts->m0, opts->m1);
+        ss_print_to(asked, sizeof asked, "octaves %g to %g", opts->m0, opts->m1);
     else
-        snprintf(asked, sizeof asked, "%s %g Hz", by_fmax ? "fmax" : "fmin", by_fmax ? opts->fmax : opts->fmin);
+        ss_print_to(asked, sizeof asked, "%s %g Hz", by_fmax ? "fmax" : "fmin", by_fmax ? opts->fmax : opts->fmin);
     return ss_fail(err, SS_ESCALE, "%ssamples at %g Hz resolve scales %s to %.6g Hz within accuracy %g, not %s",
                    samples, rate, from, high, opts->accuracy, asked);
 }

@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "base/options.h"
 #include "base/progress.h"
 #include "base/range.h"
@@ -234,7 +235,7 @@ over_budget(const sampler *r, const engine *e, double cap, ss_error *err)
     if (r->opts->max_steps > 0)
         snprintf(budget, sizeof budget, "step budget of %lu", r->opts->max_steps);
     else
-        snprintf(budget, sizeof budget, "budget of %.2g right-hand sides (max_steps would set another)",
+        ss_print_to(budget, sizeof budget, "budget of %.2g right-hand sides (max_steps would set another)",
                  r->work);
     if (e->h < cap / 2)
         return ss_fail(err, SS_EBUDGET, "%s used up at t = %.9g s of %.9g s, %s "

@@ -46,6 +46,8 @@ ss-features -c a run.tsv
 ss-cat run.tsv
 ss-cat --format csv --resample 1500 run.tsv
 ss-rank -q run.tsv compliant-light compliant-heavy
+ss-rank --fit -q -s mass=2 other.tsv coulomb || :
+ss-rank -q -c a other.tsv coulomb state-variable
 ss-noise --snr 20 --bits 8 --range .1 run.tsv
 ss-morlet -c a --fmin 60 run.tsv
 ss-sim --set duration=.5 coulomb

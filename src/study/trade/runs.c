@@ -5,6 +5,7 @@
  * there is a closed form, it is one of the two.  The other simulates a mass that is larger by its
  * last bit, because two methods that round alike may agree on digits that the scene does not
  * determine. */
+#include "base/number.h"
 #include "study/trade/runs.h"
 
 #include <float.h>
@@ -253,7 +254,7 @@ ss_trade_refer(run *ref, run *other, const probe *p, const char *method[2], unsi
         st = ss_trade_run(ref, p, method[0], ss_trade_tolerance[i], max_steps, err);
         if (st == SS_OK)
             st = ss_trade_run(other, &nudged, method[1], ss_trade_tolerance[i], max_steps, err);
-        snprintf(text, 64, "%s and %s at tol %g", method[0], method[1], ss_trade_tolerance[i]);
+        ss_print_to(text, 64, "%s and %s at tol %g", method[0], method[1], ss_trade_tolerance[i]);
     }
     other->p = p;
     return st;
