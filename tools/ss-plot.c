@@ -244,14 +244,14 @@ read_over(const drawing *d, const char *path, const char *folder, ss_plot_opts *
     ss_plot_opts own = *opts;
     ss_reader *reader = open_signal(path, &reading, opts->xy);
     const ss_header *over = ss_reader_header(reader);
-    const ss_column *drawn = d->head->column;
     size_t of[2] = { 0, 1 };
     if (opts->xy) {
-        int x = ss_header_column(over, drawn[d->column[0]].name), y = ss_header_column(over, drawn[d->column[1]].name);
+        const char *x_name = d->head->column[d->column[0]].name, *y_name = d->head->column[d->column[1]].name;
+        int x = ss_header_column(over, x_name), y = ss_header_column(over, y_name);
         if (x >= 0 && y >= 0)
             of[0] = (size_t)x, of[1] = (size_t)y;
         else if (over->n_columns < 2)
-            tool_die("one column cannot be drawn over %s and %s", drawn[d->column[0]].name, drawn[d->column[1]].name);
+            tool_die("one column cannot be drawn over %s and %s", x_name, y_name);
     }
     own.from += over->start - d->head->start;
     own.to += over->start - d->head->start;
@@ -283,11 +283,12 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
     opts->over_name = over != NULL ? file_name(over) : NULL;
     if (over != NULL)
         opts->over = other = read_over(&d, over, reading->folder, opts);
-    if (d.spectrum)
-        tool_check(ss_plot_spectra(d.density = tool_room(NULL, d.n, sizeof *d.density), reader, d.column, d.n, opts,
-                                   &err), &err);
-    else
+    if (d.spectrum) {
+        d.density = tool_room(NULL, d.n, sizeof *d.density);
+        tool_check(ss_plot_spectra(d.density, reader, d.column, d.n, opts, &err), &err);
+    } else {
         read_columns(&d, reader, opts);
+    }
     tool_note("%s: %zu sample%s, columns: %zu", tool_input_name(path), opts->rows, tool_s(opts->rows),
               d.head->n_columns);
     ss_overlay *overlay = tool_read_overlay(features, SS_KIND_FEATURES);

@@ -108,9 +108,9 @@ extern const char *const ss_palettes[];
  * Noise: outside the cone of influence, Gaussian noise has |W| above a value with the probability
  * exp(-|W|^2/s^2).  A scale is noise if the ratios of its 10, 25 and 50 % quantiles are those of
  * this law within 1 dB, in a record of at least 100 lengths of its wavelet, and if |W| neither changes
- * slowly nor repeats.  s comes from the 25 % quantile.  It is right within 0.5 dB if all is noise, and up to 2 dB too high if events last for
- * 30 % of the time.  If such scales make an octave or more, noise begins at sqrt(ln N) times the s
- * that nine of ten of them do not exceed.  This is about the largest of N independent |W|, as many
+ * slowly nor repeats.  s comes from the 25 % quantile.  It is right within 0.5 dB if all is noise, and up
+ * to 2 dB too high if events last for 30 % of the time.  If such scales make an octave or more, noise
+ * begins at sqrt(ln N) times the s that nine of ten of them do not exceed.  This is about the largest of N independent |W|, as many
  * as the map has.
  *
  * A ridge point is a maximum of |W| over the scales at one time.  It lies outside the cone, 3 dB

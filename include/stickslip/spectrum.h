@@ -22,9 +22,9 @@ typedef struct ss_spectrum {
 } ss_spectrum;
 
 /* Estimate the spectrum of n >= 16 samples.  The segments are the longest whose bandwidth is at
- * least resolution [Hz]; with 0 there are at least seven, of at most 2^22 samples.  SS_EINVAL: a sample is not finite, or
- * the resolution is not within 1.5 rate / n ... 1.5 rate / 16; SS_ERANGE: a density is not finite.
- */
+ * least resolution [Hz]; with 0 there are at least seven, of at most 2^22 samples.  SS_EINVAL: a sample is
+ * not finite, or the resolution is not within 1.5 rate / n ... 1.5 rate / 16; SS_ERANGE: a density is not
+ * finite. */
 ss_status ss_spectrum_new(ss_spectrum **out, const double *x, size_t n, double rate, double resolution,
                           ss_error *err);
 void ss_spectrum_free(ss_spectrum *spectrum);           /* NULL is allowed */

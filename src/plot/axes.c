@@ -82,7 +82,8 @@ width_of(const char *text)
         else if (byte == 0xc0)
             width += 0.4;
         else if (byte != 0x80)
-            width += strchr("fijlrtI /|.,:;!'()[]-", *text) != NULL ? 0.35 : strchr("mwMW@%", *text) != NULL ? 0.95 : 0.6;
+            width += strchr("fijlrtI /|.,:;!'()[]-", *text) != NULL ? 0.35
+                : strchr("mwMW@%", *text) != NULL ? 0.95 : 0.6;
         widest = fmax(widest, width);
     }
     return widest;

@@ -80,10 +80,11 @@ write_frequency_tics(FILE *out, double lo, double hi)
             double f = e < 0 ? i / (fine * pow(10, -e)) : i * pow(10, e) / fine;
             int major = dense || i == 1 || (!sparse && (i == 2 || i == 5));
             char text[SS_NUMBER_MAX], at[SS_NUMBER_MAX];
+            double power = pow(10, abs(e - exponent));
             if (f < lo || f > hi)
                 continue;
             ss_number_format(at, f);
-            ss_number_format(text, e < exponent ? i / (fine * pow(10, exponent - e)) : i * pow(10, e - exponent) / fine);
+            ss_number_format(text, e < exponent ? i / (fine * power) : i * power / fine);
             ss_print(out, "%s'%s' %s %d", between, major ? text : "", at, !major);
             between = ", ";
         }
@@ -194,7 +195,8 @@ write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_
               "\n", out);
     write_frequency_tics(out, map->f[0], map->f[map->rows - 1]);
     if (ground_of(contour) != NULL)
-        fputs("set object rectangle from graph 0,0 to graph 1,1 back fc rgb ground_colour fs solid noborder\n", out);
+        fputs("set object rectangle from graph 0,0 to graph 1,1 back fc rgb ground_colour fs solid noborder\n",
+              out);
     if (contour->fill)
         st = ss_contour_write_fill(out, map, contour->levels);
     ss_print(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "

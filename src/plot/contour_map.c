@@ -92,7 +92,8 @@ fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
 static void
 set_levels(contour_map *map, const filling *f)
 {
-    double max = !isnan(f->contour->level) ? pow(10, f->contour->level / 20) : f->contour->top > 0 ? f->contour->top : f->outside >= 0 ? f->outside : f->anywhere;
+    double max = !isnan(f->contour->level) ? pow(10, f->contour->level / 20)
+        : f->contour->top > 0 ? f->contour->top : f->outside >= 0 ? f->outside : f->anywhere;
     double noise = f->noise != NULL ? ss_noise_level(f->noise, f->c->scale) : f->contour->noise;
     for (size_t i = 0; i < map->rows * (CONTOUR_COLUMNS + 1); i++)
         map->level[i] = max > 0 && map->level[i] > 0

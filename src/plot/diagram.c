@@ -79,8 +79,8 @@ write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, si
     ss_script_write_side_label(out, 1, &label);
     ss_script_write_tics(out, "ytics", ss_script_scaled_extent(e, of_y), i == 1 ? 6 : 4);
     if (steps)
-        ss_print(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, $panel%zu using 1:2 with points "
-                "pt 7 ps 4*size lc rgb colour\nunset title\n", i, i);
+        ss_print(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, "
+                "$panel%zu using 1:2 with points pt 7 ps 4*size lc rgb colour\nunset title\n", i, i);
     else
         ss_print(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
                 line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '" ZERO_COLOUR "' lw 0.7, " : "", i,

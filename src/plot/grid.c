@@ -28,7 +28,8 @@ read_cell(double *x, const char *cell, const char *column, size_t row, ss_error 
 }
 
 ss_status
-ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size_t index[], ss_error *err)
+ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size_t index[],
+                    ss_error *err)
 {
     ss_status st = SS_OK;
     memset(column, 0, n * sizeof *column);
@@ -213,7 +214,8 @@ ss_map_write_range(FILE *out, char axis, script_extent e, int log, int digits)
     const char name[] = { axis, '\0' };
     int letters = ss_map_letters(e, log);
     if (log)
-        ss_print(out, "set %srange [%.9g:%.9g]; set logscale %s\n", name, e.lo * (1 - 1e-8), e.hi * (1 + 1e-8), name);
+        ss_print(out, "set %srange [%.9g:%.9g]; set logscale %s\n", name, e.lo * (1 - 1e-8), e.hi * (1 + 1e-8),
+                 name);
     else
         ss_print(out, "set %srange [%.*g:%.*g]\n", name, digits, e.lo, digits, e.hi);
     if (!log && axis == 'x' && letters > 4)

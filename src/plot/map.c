@@ -101,7 +101,8 @@ choose_forms(drawn *d, ss_error *err)
     for (size_t k = 0; k < points; k++)
         d->missing |= isnan(z[k]);
     /* Lines do not show where a part of the time is 1 or 0, so these two become regions. */
-    for (double end = 0; d->n == 3 && d->lines == 2 && is_measure(&d->column[2], SS_STICK_FRACTION) && end <= 1; end++)
+    int is_share = d->n == 3 && d->lines == 2 && is_measure(&d->column[2], SS_STICK_FRACTION);
+    for (double end = 0; is_share && end <= 1; end++)
         if (has(z, points, end)) {
             d->regions = 2;
             d->value[d->n_values++] = end;
@@ -251,7 +252,8 @@ write_map(FILE *out, const drawn *d, const ss_plot_opts *opts, ss_error *err)
     ss_print(out, "set lmargin at screen %g; set rmargin at screen %s; set tmargin at screen %s; "
             "set bmargin at screen 0.14\n",
             0.14 + 0.025 * fmax(0, ss_map_letters(range_of(&d->g.y), d->g.y.log) - 3),
-            d->n_values > 0 || d->missing ? "0.835" : "0.965", d->lines > 0 && opts->title[0] != '\0' ? "0.88" : "0.92");
+            d->n_values > 0 || d->missing ? "0.835" : "0.965",
+            d->lines > 0 && opts->title[0] != '\0' ? "0.88" : "0.92");
     write_axis(out, 'x', &d->g.x);
     write_axis(out, 'y', &d->g.y);
     fputs("set tics nomirror out scale 0.6; set border lw 0.8 front\n"

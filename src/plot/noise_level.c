@@ -145,7 +145,8 @@ ss_noise_level_step(const ss_scale *scale)
 }
 
 void
-ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const double *level, size_t first, size_t n)
+ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const double *level, size_t first,
+                   size_t n)
 {
     uint64_t *count = noise->count + i * BINS;
     size_t step = ss_noise_level_step(scale);

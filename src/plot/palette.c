@@ -56,7 +56,8 @@ ss_palette_ground(const char *name)
 void
 ss_palette_write(FILE *out, const char *name, int areas)
 {
-    int i = find(name), lightest = areas ? TENTHS - 1 : TENTHS - 3;     /* a line of the last two is lost on white */
+    int i = find(name);
+    int lightest = areas ? TENTHS - 1 : TENTHS - 3;     /* a line of the last two is lost on white */
     fputs("colours = \"", out);
     for (int k = 0; k <= lightest; k++)
         ss_print(out, "%g '%s'%s", (double)k / lightest, shade[i % PALETTES][i < PALETTES ? lightest - k : k],

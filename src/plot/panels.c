@@ -39,7 +39,8 @@ make_trace(trace *t, const ss_signal *signal, size_t column, const script_span *
 {
     if (column >= signal->head->n_columns)
         return ss_fail_column(err, column, signal->head->n_columns);
-    *t = (trace){ .column = &signal->head->column[column], .x = signal->values + column * signal->n, .span = *span };
+    *t = (trace){ .column = &signal->head->column[column], .x = signal->values + column * signal->n };
+    t->span = *span;
     return ss_script_check(t->column->name, t->x + span->first, span->n, err);
 }
 
@@ -63,7 +64,8 @@ find_over_span(script_span *span, double start, const ss_plot_opts *opts, ss_err
 static void
 write_legend(FILE *out, const ss_plot_opts *opts, const trace *first, const trace *over)
 {
-    fputs("set title offset 0,0.7; set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\nname = ", out);
+    fputs("set title offset 0,0.7; set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\n"
+          "name = ", out);
     ss_script_quote(out, opts->name != NULL ? opts->name : first->column->name);
     fputs("; over_name = ", out);
     ss_script_quote(out, opts->over_name != NULL ? opts->over_name : over->column->name);

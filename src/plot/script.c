@@ -239,13 +239,14 @@ static void
 write_terminal(FILE *out, const struct format *f, const char *output, double width, double height)
 {
     const double size[2] = { width * f->per_cm, height * f->per_cm };
+    int in_cm = f->unit[0] != '\0';
     for (int i = 0; i < 2; i++) {
         fputs(i == 0 ? "width = " : "height = ", out);
-        ss_script_write(out, f->per_cm == 1 ? size[i] : round(size[i]), 3, f->per_cm == 1 ? "        # cm\n" : "\n");
+        ss_script_write(out, in_cm ? size[i] : round(size[i]), 3, in_cm ? "        # cm\n" : "\n");
     }
     ss_print(out, "letters = %d\nfont = sprintf('Sans,%%g', letters)\n", f->letters);
-    ss_print(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s\n", f->terminal, f->unit,
-             f->unit, f->lines);
+    ss_print(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s\n", f->terminal,
+             f->unit, f->unit, f->lines);
     if (output != NULL) {
         /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
         ss_print(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
@@ -262,7 +263,8 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *er
         name = dot + 1;
     const struct format *format = find_format(name);
     if ((name != NULL || opts->output != NULL) && format == NULL)
-        return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'", name != NULL ? name : opts->output);
+        return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'",
+                       name != NULL ? name : opts->output);
     double scale = opts->style == SS_SCREEN ? SCREEN : 1;
     fputs("# Made by libstickslip " SS_VERSION " for gnuplot 5.2 or later: gnuplot -p FILE\n", out);
     if (format != NULL)
@@ -270,7 +272,8 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *er
     else
         ss_print(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
                 "linewidth 0.5; set output 'figure.pdf'\nletters = 10\n", scale * WIDTH, scale * height);
-    ss_print(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n", format != NULL ? format->mark : "1");
+    ss_print(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n",
+             format != NULL ? format->mark : "1");
     return SS_OK;
 }
 
