@@ -250,10 +250,10 @@ judge_held(ss_fit *fit, const fitting *w)
         return SS_OK;
     if (most == HELD_DAMPING)
         ss_print_to(fit->why, sizeof fit->why, "the scene's damping is not that of the rig, which may be %.3g",
-                 of[most].nearer);
+                    of[most].nearer);
     else if (most == HELD_STATIC)
         ss_print_to(fit->why, sizeof fit->why, "the scene's static_friction is not that of the rig, which may "
-                 "be %.4g times friction", of[most].nearer);
+                    "be %.4g times friction", of[most].nearer);
     else
         snprintf(fit->why, sizeof fit->why, "the sensor seems to lag behind the motion: its bandwidth is "
                  "too low to tell the contact");
@@ -273,20 +273,20 @@ judge(ss_fit *fit, const fitting *w)
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
     else if (!ss_residue_explains(of, w->record.noise))
         ss_print_to(fit->why, sizeof fit->why, "the best compliant scene leaves %.3g %% of the signal, "
-                 "%.3g times the noise", 100 * fit->residual_started,
-                 sqrt(ss_residue_excess(of, w->record.noise)));
+                    "%.3g times the noise", 100 * fit->residual_started,
+                    sqrt(ss_residue_excess(of, w->record.noise)));
     else if ((w->rival - of->left) * of->compared < RESIDUE_DECISIVE * of->left)
         ss_print_to(fit->why, sizeof fit->why, "scenes with other parameters leave as little of the "
-                 "signal, %.3g %%", 100 * fit->residual_started);
+                    "signal, %.3g %%", 100 * fit->residual_started);
     else if (periods < SHORT)
         ss_print_to(fit->why, sizeof fit->why, "the longest stick lasts %.2g periods of the contact's "
-                 "oscillation: less than %g shows no stiffness", periods, SHORT);
+                    "oscillation: less than %g shows no stiffness", periods, SHORT);
     else if (vague != NULL && isinf(error))
         ss_print_to(fit->why, sizeof fit->why, "%s = %.3g is at an end of the range searched", vague,
-                 value);
+                    value);
     else if (vague != NULL)
         ss_print_to(fit->why, sizeof fit->why, "%s = %.3g +- %.2g: the signal does not tell it", vague,
-                 value, error);
+                    value, error);
     else
         st = judge_held(fit, w);
     fit->conclusive = fit->why[0] == '\0';

@@ -198,14 +198,14 @@ judge(ss_ranking *r, const comparison *w, const found *f)
     if (explain == 0) {
         r->verdict = SS_NONE_FITS;
         ss_print_to(r->why, sizeof r->why, "each leaves at least %.3g %% of the signal's power, "
-                 "%.3g times the noise", 100 * best->left / best->power, ss_residue_excess(best, noise));
+                    "%.3g times the noise", 100 * best->left / best->power, ss_residue_excess(best, noise));
     } else if (ss_residue_explains(&sinusoid, noise)) {
         snprintf(r->why, sizeof r->why, "a sinusoid explains the signal as well: it shows no "
                  "transitions");
     } else if (ss_residue_lead(best, own, noise) > RESIDUE_DECISIVE) {
         ss_print_to(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the signal's "
-                 "power, and another, which leaves %.3g %%, shows other transitions",
-                 100 * own->left / own->power, 100 * best->left / best->power);
+                    "power, and another, which leaves %.3g %%, shows other transitions",
+                    100 * own->left / own->power, 100 * best->left / best->power);
     } else {
         r->verdict = SS_NAMED;
     }
@@ -268,12 +268,12 @@ fit_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
     size_t key = contradicted_key(&named->fit, &m, scene.n, &errors);
     if (!ss_residue_explains(&m.of_samples, record.noise))
         ss_print_to(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
-                 "leaves %.3g %% of that, %.3g times the noise", model, first, other,
-                 100 * m.of_samples.left / m.of_samples.power, ss_residue_excess(&m.of_samples, record.noise));
+                    "leaves %.3g %% of that, %.3g times the noise", model, first, other,
+                    100 * m.of_samples.left / m.of_samples.power, ss_residue_excess(&m.of_samples, record.noise));
     else if (key < scene.n && record.noise > record.steps)      /* errors are those of white noise */
         ss_print_to(r->why, sizeof r->why, "%s friction explains column %s and column %s, but with %s "
-                 "%.2g %% apart, %.2g standard errors", model, first, other,
-                 ss_forced_key_name(&scene, key), 100 * fabs(expm1(m.u[key] - named->fit.u[key])), errors);
+                    "%.2g %% apart, %.2g standard errors", model, first, other,
+                    ss_forced_key_name(&scene, key), 100 * fabs(expm1(m.u[key] - named->fit.u[key])), errors);
     return SS_OK;
 }
 

@@ -155,11 +155,11 @@ judge(ss_pull *p, const pulled_fit *fit)
                  "a fit");
     else if (p->left > 1 - EXPLAINED && !p->explains) {
         ss_print_to(p->why, sizeof p->why, "the best such scene leaves %.3g %% of the power of the falls, "
-                 "%.3g times the noise", 100 * p->left, p->excess);
+                    "%.3g times the noise", 100 * p->left, p->excess);
         p->verdict = SS_NONE_FITS;
     } else if (i < p->n_keys)
         ss_print_to(p->why, sizeof p->why, "%s = %.3g +- %.2g: the falls do not tell it", p->key[i].name,
-                 p->key[i].found.value, p->key[i].found.error);
+                    p->key[i].found.value, p->key[i].found.error);
     else
         p->verdict = SS_NAMED;
 }

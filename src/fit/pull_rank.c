@@ -158,10 +158,10 @@ refuse(ss_ranking *r, const trial *t, double noise)
         snprintf(r->why, sizeof r->why, "none of the scenes sticks and slips");
     else if (!best->explains)
         ss_print_to(r->why, sizeof r->why, "within the spread each scene leaves at least %.3g %% of the power of "
-                 "the falls, %.3g times the noise", 100 * of->left / of->power, ss_residue_excess(of, noise));
+                    "the falls, %.3g times the noise", 100 * of->left / of->power, ss_residue_excess(of, noise));
     else
         ss_print_to(r->why, sizeof r->why, "%s friction explains the falls, but the scene would need %.3g "
-                 "times its %s", ss_model_name(best->fit.scene.model), exp(best->most), best->most_name);
+                    "times its %s", ss_model_name(best->fit.scene.model), exp(best->most), best->most_name);
 }
 
 /* Name a scene; n: none, and r->why says why not.  No scene may be named while another may explain the falls
@@ -178,7 +178,7 @@ name_scene(ss_ranking *r, const trial *t, double noise)
                      "and has many fits: whether it explains the falls is not known", model);
         else if (t[i].fit.unfinished && !t[i].explains)
             ss_print_to(r->why, sizeof r->why, "a scene with %s friction is too stiff: it takes more than %.0e "
-                     "integration steps to be adjusted", model, PULLED_BUDGET);
+                        "integration steps to be adjusted", model, PULLED_BUDGET);
         if (r->why[0] != '\0')
             return n;
     }

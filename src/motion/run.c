@@ -236,7 +236,7 @@ over_budget(const sampler *r, const engine *e, double cap, ss_error *err)
         snprintf(budget, sizeof budget, "step budget of %lu", r->opts->max_steps);
     else
         ss_print_to(budget, sizeof budget, "budget of %.2g right-hand sides (max_steps would set another)",
-                 r->work);
+                    r->work);
     if (e->h < cap / 2)
         return ss_fail(err, SS_EBUDGET, "%s used up at t = %.9g s of %.9g s, %s "
                        "%.2g steps would do; the tolerance forces steps of %.3g s, where the "
