@@ -233,7 +233,7 @@ what_is_too_short_or_wrong_is_refused(void **state)
     ss_signal *signal = record(1);
     ss_morlet_opts none = ss_morlet_defaults;
     ss_overview *o = NULL;
-    ss_overview_result shows = { NULL };
+    ss_overview_result shows = { NULL, NULL, 0, 0 };
     ss_error err = { 0 };
     (void)state;
     assert_int_equal(ss_overview_new(&o, signal->head, 1, &opts, &err), SS_EINVAL);
