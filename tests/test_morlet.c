@@ -50,7 +50,7 @@ error_of_the_sum_is_below_its_bound(void **state)
                 double *x = malloc(s.n * sizeof *x);
                 make(which, x, s.n);
                 double *w = transform(plan, x);
-                size_t every = 1 + ss_morlet_grid(plan)->total * s.n / 10000;
+                size_t every = 1 + ss_morlet_grid(plan)->total * s.n / 4000;
                 double worst = worst_error(plan, x, s.n, s.rate, &opts, w, every);
                 if (!(worst <= 1))
                     fail_msg("engine %d, center %g, %d voices, accuracy %g, %s: %g times the bound",
@@ -108,7 +108,7 @@ long_scales_by_fft_keep_the_bound(void **state)
             make(which, x, N);
             ss_morlet *plan = plan_of(N, row[i].rate, &opts);
             double *w = transform(plan, x);
-            size_t every = 1 + ss_morlet_grid(plan)->total / 150;
+            size_t every = 1 + ss_morlet_grid(plan)->total / 60;
             for (size_t j = 0; j < ss_morlet_grid(plan)->n_scales; j++)
                 assert_int_equal(ss_morlet_grid(plan)->scale[j].engine, SS_ENGINE_FFT);
             double worst = worst_error(plan, x, N, row[i].rate, &opts, w, every);
@@ -203,7 +203,7 @@ low_accuracy_keeps_the_bound(void **state)
                     x[k] *= amplitude[(i + j) % 3] / (which == OFFSET ? 1000 : 1);
                 ss_morlet *plan = plan_of(n, 2048, &opts);
                 double *w = transform(plan, x);
-                double worst = worst_error(plan, x, n, 2048, &opts, w, opts.dense ? 431 : 17);
+                double worst = worst_error(plan, x, n, 2048, &opts, w, opts.dense ? 1009 : 41);
                 if (!(worst <= 1))
                     fail_msg("%s, n %zu, accuracy %g, center %g, %s: %g times the bound",
                              kind_name[which], n, accuracy[i], opts.center,
