@@ -17,6 +17,7 @@
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit.h>
 #include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_multilarge_nlinear.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -143,13 +144,34 @@ are_slopes_good(const descent *d)
     return d->squares - squares_of(d->residual, rows) > 0.5 * (d->squares - predicted);
 }
 
+/* Add up J'J, its lower half, and J'r, in one pass over the rows. */
+static void
+add_products(const descent *d, gsl_vector *by, gsl_matrix *products)
+{
+    gsl_vector_set_zero(by);
+    gsl_matrix_set_zero(products);
+    for (size_t i = 0; i < d->fit->rows; i++) {
+        const double *slope = d->slopes + i * d->fit->unknowns;
+        for (size_t j = 0; j < d->n; j++) {
+            const double one = slope[d->free[j]];
+            double *row = gsl_matrix_ptr(products, j, 0);
+            *gsl_vector_ptr(by, j) += one * d->left[i];
+            for (size_t k = 0; k <= j; k++)
+                row[k] += one * slope[d->free[k]];
+        }
+    }
+}
+
 /* Called by GSL at the start, and after a step that is taken: its residuals are those evaluated last. */
 static int
-slopes(const gsl_vector *w, void *user, gsl_matrix *out)
+slopes(CBLAS_TRANSPOSE_t transposed, const gsl_vector *w, const gsl_vector *r, void *user, gsl_vector *by,
+       gsl_matrix *products)
 {
     descent *d = user;
     const least *fit = d->fit;
     int is_first = isnan(d->squares) || d->refresh;
+    (void)transposed;
+    (void)r;
     d->is_old = fit->costly && !is_first && are_slopes_good(d);
     if (!d->is_old)
         d->status = find_slopes(d);
@@ -159,17 +181,17 @@ slopes(const gsl_vector *w, void *user, gsl_matrix *out)
     d->refused = 0;
     memcpy(d->at, d->u, fit->unknowns * sizeof *d->at);
     memcpy(d->left, d->residual, fit->rows * sizeof *d->left);
+    memcpy(d->place, w->data, d->n * sizeof *d->place);
     d->squares = squares_of(d->left, fit->rows);
+    add_products(d, by, products);
     for (size_t j = 0; j < d->n; j++) {
-        const size_t k = d->free[j];
-        double rise = 0;                        /* half the slope of the squares */
-        d->place[j] = gsl_vector_get(w, j);
-        for (size_t i = 0; i < fit->rows; i++)
-            rise += d->slopes[i * fit->unknowns + k] * d->left[i];
-        int is_held = (d->at[k] <= range_of(fit, k).from && rise > 0)
-                      || (d->at[k] >= range_of(fit, k).to && rise < 0);
-        for (size_t i = 0; i < fit->rows; i++)
-            gsl_matrix_set(out, i, j, is_held ? 0 : d->slopes[i * fit->unknowns + k]);
+        const ss_range range = range_of(fit, d->free[j]);
+        const double u = d->at[d->free[j]], rise = gsl_vector_get(by, j);
+        if ((u <= range.from && rise > 0) || (u >= range.to && rise < 0)) {     /* it is held */
+            gsl_vector_set(by, j, 0);
+            for (size_t k = 0; k < d->n; k++)
+                gsl_matrix_set(products, k > j ? k : j, k > j ? j : k, 0);
+        }
     }
     return GSL_SUCCESS;
 }
@@ -185,31 +207,27 @@ is_little_gain(const descent *d, double gain)
 }
 
 /* How much the squares would fall by the best step that is not too long, if the slopes held.  As this costs as
- * much as a step of GSL's, only costly models are asked.  room holds n * (2 n + 2) numbers. */
+ * much as a step of GSL's, only costly models are asked.  room holds n * (n + 1) numbers. */
 static double
-predicted_gain(const descent *d, const gsl_multifit_nlinear_workspace *space, double *room)
+predicted_gain(const descent *d, const gsl_multilarge_nlinear_workspace *space, double *room)
 {
     const size_t n = d->n;
-    gsl_matrix_view a = gsl_matrix_view_array(room, n, n), l = gsl_matrix_view_array(room + n * n, n, n);
-    gsl_vector_view by = gsl_vector_view_array(room + 2 * n * n, n);
-    gsl_vector_view step = gsl_vector_view_array(room + 2 * n * n + n, n);
-    const gsl_matrix *j = gsl_multifit_nlinear_jac(space);
+    gsl_matrix_view l = gsl_matrix_view_array(room, n, n);
+    gsl_vector_view step = gsl_vector_view_array(room + n * n, n);
     const double most = d->fit->farthest > 0 ? d->fit->farthest : INFINITY;
     double gain = INFINITY, size = 0;
     gsl_permutation *p = gsl_permutation_alloc(n);
-    gsl_blas_dsyrk(CblasLower, CblasTrans, 1, j, 0, &a.matrix);
-    gsl_blas_dgemv(CblasTrans, 1, j, gsl_multifit_nlinear_residual(space), 0, &by.vector);
     for (size_t k = 0; k < n; k++)
-        size = fmax(size, room[k * (n + 1)]);
+        size = fmax(size, gsl_matrix_get(space->JTJ, k, k));
     /* directions that the residuals do not show promise nothing */
     for (double damping = UNSEEN; p != NULL && damping < 1; damping *= 10) {
         double longest = 0;
-        gsl_matrix_memcpy(&l.matrix, &a.matrix);
+        gsl_matrix_memcpy(&l.matrix, space->JTJ);
         for (size_t k = 0; k < n; k++)
             *gsl_matrix_ptr(&l.matrix, k, k) += damping * size + DBL_MIN;
         gsl_linalg_mcholesky_decomp(&l.matrix, p, NULL);
-        gsl_linalg_mcholesky_solve(&l.matrix, p, &by.vector, &step.vector);
-        gsl_blas_ddot(&by.vector, &step.vector, &gain);
+        gsl_linalg_mcholesky_solve(&l.matrix, p, space->g, &step.vector);
+        gsl_blas_ddot(space->g, &step.vector, &gain);
         for (size_t k = 0; k < n; k++)
             longest = fmax(longest, fabs(gsl_vector_get(&step.vector, k)));
         if (longest <= most)
@@ -231,11 +249,11 @@ is_little(const descent *d, const double *before, double gain)
 }
 
 static void
-iterate(descent *d, gsl_multifit_nlinear_workspace *space, gsl_multifit_nlinear_fdf *of, gsl_vector *w,
+iterate(descent *d, gsl_multilarge_nlinear_workspace *space, gsl_multilarge_nlinear_fdf *of, gsl_vector *w,
         least_end *end)
 {
     double *before = d->u + d->fit->unknowns;
-    int ended = gsl_multifit_nlinear_init(w, of, space);
+    int ended = gsl_multilarge_nlinear_init(w, of, space);
     end->why = "it takes too many steps";
     if (ended != GSL_SUCCESS || !isfinite(d->squares))
         end->why = "there is no model where it starts";
@@ -245,7 +263,7 @@ iterate(descent *d, gsl_multifit_nlinear_workspace *space, gsl_multifit_nlinear_
         int is_still = d->fit->costly && is_little_gain(d, predicted_gain(d, space, before + d->fit->unknowns));
         if (!is_still) {
             memcpy(before, d->at, d->fit->unknowns * sizeof *before);
-            ended = gsl_multifit_nlinear_iterate(space);
+            ended = gsl_multilarge_nlinear_iterate(space);
             end->steps++;
             is_still = ended != GSL_SUCCESS || is_little(d, before, squares - d->squares);
         }
@@ -253,8 +271,8 @@ iterate(descent *d, gsl_multifit_nlinear_workspace *space, gsl_multifit_nlinear_
             return;
         if (was_old && is_still) {
             d->refresh = 1;
-            gsl_vector_memcpy(w, gsl_multifit_nlinear_position(space));
-            ended = gsl_multifit_nlinear_init(w, of, space);
+            gsl_vector_memcpy(w, gsl_multilarge_nlinear_position(space));
+            ended = gsl_multilarge_nlinear_init(w, of, space);
         } else
             end->converged = ended == GSL_ENOPROG || ended == AT_LEAST || (ended == GSL_SUCCESS && is_still);
         if (ended != GSL_SUCCESS)
@@ -292,7 +310,7 @@ ss_status
 ss_least_fit(least_end *end, const least *fit, double u[], double *residual, double *covariance)
 {
     const size_t m = fit->unknowns, rows = fit->rows;
-    double *room = malloc((6 * m + 2 * m * m + 2 * rows + rows * m) * sizeof *room);
+    double *room = malloc((5 * m + m * m + 2 * rows + rows * m) * sizeof *room);
     size_t *of = malloc(m * sizeof *of);
     *end = (least_end){ .squares = NAN };
     if (room == NULL || of == NULL) {
@@ -309,11 +327,11 @@ ss_least_fit(least_end *end, const least *fit, double u[], double *residual, dou
     for (size_t k = 0; k < m; k++)
         if (range_of(fit, k).to > range_of(fit, k).from)
             of[d.n++] = k;
-    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    how.solver = gsl_multifit_nlinear_solver_mcholesky;     /* it never fails; rounding is far below noise */
-    gsl_multifit_nlinear_fdf f = { .f = residuals, .df = slopes, .n = rows, .p = d.n, .params = &d };
-    gsl_multifit_nlinear_workspace *space =
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, rows, d.n);
+    gsl_multilarge_nlinear_parameters how = gsl_multilarge_nlinear_default_parameters();
+    how.solver = gsl_multilarge_nlinear_solver_mcholesky;     /* it never fails; rounding is far below noise */
+    gsl_multilarge_nlinear_fdf f = { .f = residuals, .df = slopes, .n = rows, .p = d.n, .params = &d };
+    gsl_multilarge_nlinear_workspace *space =
+        gsl_multilarge_nlinear_alloc(gsl_multilarge_nlinear_trust, &how, rows, d.n);
     gsl_vector *w = gsl_vector_alloc(d.n);
     if (space == NULL || w == NULL)
         d.status = SS_ENOMEM;
@@ -331,7 +349,7 @@ ss_least_fit(least_end *end, const least *fit, double u[], double *residual, dou
             d.status = SS_ENOMEM;
     }
     gsl_vector_free(w);
-    gsl_multifit_nlinear_free(space);
+    gsl_multilarge_nlinear_free(space);
     free(room);
     free(of);
     return d.status == SS_EDATA ? SS_OK : d.status;
