@@ -14,6 +14,7 @@
 #   make maps               maps of periodic states, under build/maps
 #   make check-cluster      sweeps by GNU parallel over ssh and by Slurm, on this machine, for real
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
+#   make site               the manual as HTML, under build/site; needs mandoc
 #   make dist               libstickslip-VERSION.tar.gz of what is committed, under build/
 #   make deps               install what all of this needs; INSTALL_DEPS=0: say what is missing only
 #   make clean
@@ -270,6 +271,9 @@ maps:
 draw-maps: all
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/maps sh tools/maps.sh
 
+site: $(BUILD)/stickslip.3
+	@OUT=$(BUILD)/site VERSION=$(VERSION) sh tools/site.sh $(MANUAL)
+
 check-cluster: all
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" sh tests/cluster/run.sh
 
@@ -332,6 +336,6 @@ clean:
 	rm -rf $(BUILD) build build-*
 
 .PHONY: all always bench bench-errors check check-all check-cluster clean coverage deps dist \
-	draw-maps draw-paper fuzz fuzzers install lint maps needs paper run-tests uninstall
+	draw-maps draw-paper fuzz fuzzers install lint maps needs paper run-tests site uninstall
 .SECONDARY:
 -include $(OBJECTS:.o=.d)
