@@ -647,6 +647,33 @@ refuses_a_gap_that_was_not_there(void **state)
     }
 }
 
+/* Rows are given with their own times, at any spacing; a span is one of these times. */
+static void
+gives_each_row_its_stamp(void **state)
+{
+    static const struct { const char *text; double from, to; size_t n; double t[4], x[4]; } row[] = {
+        { "t_ms,x\n0,1\n10,2\n35,4\n36,5\n", 0, 0, 4, { 0, .010, .035, .036 }, { 1, 2, 4, 5 } },
+        { "t_ms,x\n0,1\n10,2\n35,4\n36,5\n", .01, .036, 2, { .010, .035 }, { 2, 4 } },
+        { "x,time\n1,5\n2,5.5\n3,6.5\n", 5.5, 9, 2, { 5.5, 6.5 }, { 2, 3 } },
+        { "# stickslip signal 1\n# rate: 4\n# start: 3\n# columns: t/s x\n3\t7\n3.25\t8\n", 3.1, 4, 1, { 3.25 },
+          { 8 } } };
+    (void)state;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        const ss_read_opts opts = { READ_OPTS, .stamps = 1, .from = row[k].from, .to = row[k].to };
+        ss_signal *s = read_text(row[k].text, &opts);
+        assert_int_equal(s->n, row[k].n);
+        assert_int_equal(s->head->n_columns, 2);
+        for (size_t i = 0; i < s->n; i++) {
+            assert_true(s->values[i] == row[k].x[i]);
+            assert_true(fabs(s->values[s->n + i] - row[k].t[i]) <= 1e-15);
+        }
+        ss_signal_free(s);
+    }
+    ss_signal *s = NULL;
+    assert_int_equal(read_bytes(&s, "t,x\n0,1\n0,2\n", 12, &(ss_read_opts){ READ_OPTS, .stamps = 1 }, NULL), SS_ECLOCK);
+    assert_null(s);
+}
+
 int
 main(void)
 {
@@ -666,6 +693,7 @@ main(void)
         cmocka_unit_test(fills_the_gaps_of_a_long_table),
         cmocka_unit_test(reads_a_file_as_it_was_at_first),
         cmocka_unit_test(refuses_a_gap_that_was_not_there),
+        cmocka_unit_test(gives_each_row_its_stamp),
     };
     return cmocka_run_group_tests_name("signal tables", tests, NULL, NULL);
 }

@@ -105,6 +105,9 @@ typedef struct ss_read_opts {
     void (*warn)(ss_status about, const char *text, void *user);
     void *user;                 /* passed to warn */
     ss_progress progress;       /* called while a file is read, with the part that is done; it cannot stop it */
+    int stamps;                 /* 1: the time of each row [s] is a further column, the last.  Rows of a table
+                                   may then have any spacing, unless they are resampled; the rate is that of
+                                   their usual step */
 } ss_read_opts;
 /* Fill in the defaults, all zeros; size is sizeof(ss_read_opts). */
 void ss_read_opts_init(ss_read_opts *opts, size_t size);

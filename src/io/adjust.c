@@ -187,11 +187,69 @@ cut(ss_source **s, const ss_read_opts *opts, ss_error *err)
     return span->first < end ? SS_OK : refuse_span(span, err);
 }
 
+/* --- stamps -------------------------------------------------------------------------------- */
+
+struct stamped {
+    ss_source base;
+    ss_span span;               /* the rows to be given; from >= to: all */
+    uint64_t row;               /* of the inner source, that is read next */
+};
+
+/* Each row with its time, which the inner source has or its clock shows. */
+static ss_status
+give_stamped(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
+{
+    struct stamped *to = (struct stamped *)s;
+    const size_t columns = s->head->n_columns;
+    double *t = column[columns - 1];
+    size_t rows = 1;
+    if (t == NULL)
+        return ss_fail(err, SS_EINVAL, "%s: the column of stamps must be read", s->name);
+    for (*n = 0; *n == 0 && rows > 0;) {
+        ss_status st = ss_source_rows(s->inner, column, max, &rows, err);
+        if (st != SS_OK)
+            return st;
+        for (size_t i = 0; i < rows; i++, to->row++) {
+            if (!s->inner->stamped)
+                t[i] = s->head->start + (double)to->row / s->head->rate;
+            if (to->span.from < to->span.to && !(t[i] >= to->span.from && t[i] < to->span.to))
+                continue;
+            for (size_t c = 0; c < columns; c++)
+                if (column[c] != NULL)
+                    column[c][*n] = column[c][i];
+            ++*n;
+        }
+    }
+    return SS_OK;
+}
+
+static ss_status
+rewind_stamped(ss_source *s, ss_error *err)
+{
+    ((struct stamped *)s)->row = 0;
+    return ss_source_rewind(s->inner, err);
+}
+
+static ss_status
+stamp(ss_source **s, const ss_read_opts *opts, ss_error *err)
+{
+    static const struct source_calls calls = { .next = give_stamped, .rewind = rewind_stamped };
+    struct stamped *to = ss_source_wrap(s, sizeof *to, &calls, err);
+    if (to == NULL)
+        return SS_ENOMEM;
+    to->span = (ss_span){ opts->from, opts->to };
+    to->base.length = opts->from < opts->to ? UINT64_MAX : to->base.length;
+    to->base.stamped = 1;
+    return to->base.inner->stamped ? SS_OK : ss_header_add_column(to->base.head, "t", "s", err);
+}
+
 ss_status
 ss_source_adjust(ss_source **s, const ss_read_opts *opts, ss_error *err)
 {
     ss_status st = ss_refuse_range((*s)->name, (*s)->head->rate, (*s)->head->start, err);
-    if (st == SS_OK && opts->from < opts->to)
+    if (st == SS_OK && opts->stamps)
+        st = stamp(s, opts, err);
+    else if (st == SS_OK && opts->from < opts->to)
         st = cut(s, opts, err);
     return st == SS_OK && opts->n_calibrations > 0 ? calibrate(s, opts, err) : st;
 }

@@ -27,6 +27,7 @@ struct source {
     ss_header *head;
     uint64_t length;            /* rows; UINT64_MAX: not known before the last */
     int rewinds;                /* 1: it can go back */
+    int stamped;                /* 1: the last column holds the times of the rows, at any spacing */
     unsigned long line;         /* of text, where the last row stood; 0: rows have no lines */
     ss_source *inner;              /* the one whose rows these are made of, or NULL */
 };

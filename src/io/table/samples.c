@@ -100,13 +100,14 @@ choose_columns(struct samples *s, const struct sheet *t, int stamped, ss_error *
             s->of[s->n++] = c;
     if (s->n == 0)
         return ss_fail(err, SS_EDATA, "%s: no column but time", t->name);
-    if (stamped)
-        s->of[s->n++] = time;
     if (ss_header_select(&head, t->names, s->of, s->n, 0, NULL) != SS_OK)
         return ss_fail_memory(err, t->name);
     ss_header_free(s->base.head);
     s->base.head = head;
-    return SS_OK;
+    s->base.stamped = stamped;
+    s->of[s->n] = time;
+    s->n += (size_t)stamped;
+    return stamped ? ss_header_add_column(head, "t", "s", err) : SS_OK;
 }
 
 ss_status
@@ -118,7 +119,7 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     ss_status st = ss_sheet_find_clock(t, &timing, err);
     if (st != SS_OK)
         return st;
-    int stamped = timing.longest > 0;
+    int resampled = timing.longest > 0, stamped = resampled || (t->opts->stamps && timing.time.column != NONE);
     struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : &samples, t->name, err);
     if (s == NULL)
         return SS_ENOMEM;
@@ -131,7 +132,7 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     st = choose_columns(s, t, stamped, err);
     if (st == SS_OK)
         st = rewind_samples(&s->base, err);
-    if (st == SS_OK && stamped)
+    if (st == SS_OK && resampled)
         st = ss_source_resample(out, t->names->rate, 1, timing.longest, err);
     return st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE ? ss_source_fill_gaps(out, t->opts->gaps, err) : st;
 }

@@ -115,6 +115,13 @@ read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, s
     const struct stamps s = stamps_of(&times);
     if (t->opts->resample > 0)
         return find_resampled(t, &s, &timing->longest, own, err);
+    if (t->opts->stamps) {
+        double step = 0;
+        ss_status done = ss_usual_step(&s, &step, err);
+        t->names->rate = *own = 1 / step;
+        t->names->start = ss_sheet_stamp(time, t->first);
+        return done;
+    }
     ss_status st = find_uniform(t, &s, time->zero * time->factor / time->divisor, digit, &timing->usual, err);
     *own = t->names->rate;
     return st;
