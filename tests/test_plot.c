@@ -366,7 +366,7 @@ long_labels_have_two_lines_and_smaller_letters(void **state)
         ss_signal *signal = new_signal(2, 1, 0, row[i].name, row[i].unit);
         signal->values[1] = 1;
         char *script = signal_script(signal, NULL);
-        snprintf(line, sizeof line, "; set label 1 \"%s\" at ", row[i].label);
+        snprintf(line, sizeof line, "set label 1 \"%s\" at ", row[i].label);
         if (strstr(script, line) == NULL)
             fail_msg("no %s", row[i].label);
         if ((strstr(script, "noenhanced font sprintf(") != NULL) != row[i].smaller)

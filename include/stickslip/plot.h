@@ -127,8 +127,8 @@ ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
  * opts->from and to have no meaning here and below. */
 ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_error *err);
 
-/* Draw the errors of x, v, a and f, and below them the error of the map, over CPU time as a
- * multiple of the scene's own, with a point for each simpler scene. */
+/* Draw the errors of x, v, a and f, and the rms error of the map as a ratio less 1, over CPU time as a
+ * multiple of the scene's own, with a colour for each simpler scene. */
 ss_status ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_error *err);
 
 /* Draw a map of a sweep over two parameters: columns 0 and 1 of these make a grid, and the other one or two

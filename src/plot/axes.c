@@ -209,28 +209,11 @@ ss_script_write_side_label(FILE *out, int n, const script_label *l)
                 : " at screen 0.03,graph 0.5 center rotate noenhanced");
 }
 
-static const char *
-title_of(const ss_plot_opts *opts, const ss_header *head)
-{
-    const char *title = opts->title;
-    if (title == NULL && head != NULL)
-        title = ss_header_find_note(head, "scene");
-    if (title == NULL && head != NULL)
-        title = ss_header_find_note(head, "model");
-    return title != NULL ? title : "";
-}
-
-double
-ss_script_title_height(const ss_plot_opts *opts, const ss_header *head)
-{
-    return title_of(opts, head)[0] != '\0' ? 0.6 : 0.15;
-}
-
 void
-ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head, const script_label *lines)
+ss_script_write_title(FILE *out, const char *title, const script_label *lines)
 {
     script_label l = { .text = "" }, all = l;
-    add_text(&l, title_of(opts, head), 0);
+    add_text(&l, title, 0);
     mark_cut(&l);
     double width = width_of(l.text);
     if (width > TITLE_ROOM)

@@ -209,7 +209,7 @@ write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_
     if (ridge > 0)
         fputs(", \\\n    $ridge using 1:2 with points pt 7 ps 0.2*mark lc rgb ridge_colour", out);
     ss_contour_plot_features(out, &marks);
-    fputs("\nunset multiplot\n", out);
+    putc('\n', out);
     return st;
 }
 
@@ -283,9 +283,8 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
             st = ss_script_find_gaps(&of_signal, signal->head, err);
     }
     if (st == SS_OK)
-        st = ss_script_begin(out, &own, signal != NULL ? 8.5 : 6.5, err);
+        st = ss_script_begin(out, &own, c->head, signal != NULL ? 8.5 : 6.5, NULL, err);
     if (st == SS_OK) {
-        ss_script_write_title(out, &own, c->head, NULL);
         write_variables(out, &map, &own_contour);
         fputs(around, out);
         if (signal != NULL)

@@ -13,7 +13,6 @@
 
 #define FIRST 4.6               /* heights of the panels [cm] */
 #define NEXT 2.2
-#define TITLE 0.6               /* above them */
 #define KEY 1.0                 /* and below */
 #define GAP 0.2                 /* between two */
 #define ROOM 8.0                /* for the label of a panel [ems] */
@@ -61,11 +60,11 @@ write_points(FILE *out, const double *x, script_scale of_x, const double *y, scr
     }
 }
 
-/* Write panel i, between two heights [cm] of the picture of a height. */
+/* Write panel i of n rows. */
 static void
-write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, size_t n, double bottom, double top,
-            double height)
+write_panel(script_stack *stack, const map_column *column, script_scale of_x, size_t i, size_t n)
 {
+    FILE *out = stack->out;
     const double *x = column[0].value, *y = column[i].value;
     script_extent e = ss_script_extent(y, n);
     script_scale of_y = ss_script_scale(e);
@@ -74,15 +73,13 @@ write_panel(FILE *out, const map_column *column, script_scale of_x, size_t i, si
     ss_print(out, "$panel%zu << EOD\n", i);
     write_points(out, x, of_x, y, of_y, n, e);
     fputs("EOD\n", out);
-    ss_script_write_margins(out, bottom, top, height);
-    fputs("unset label 1; ", out);
-    ss_script_write_side_label(out, 1, &label);
+    ss_script_write_panel(stack, i == 1 ? FIRST : NEXT, GAP, &label);
     ss_script_write_tics(out, "ytics", ss_script_scaled_extent(e, of_y), i == 1 ? 6 : 4);
     if (steps)
         ss_print(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, "
-                "$panel%zu using 1:2 with points pt 7 ps 4*size lc rgb colour\nunset title\n", i, i);
+                "$panel%zu using 1:2 with points pt 7 ps 4*size lc rgb colour\n", i, i);
     else
-        ss_print(out, "plot %s$panel%zu using 1:2 with %s\nunset title\n",
+        ss_print(out, "plot %s$panel%zu using 1:2 with %s\n",
                 line && e.lo < 0 && e.hi > 0 ? "0 lc rgb '" ZERO_COLOUR "' lw 0.7, " : "", i,
                 line ? "lines lw 1 lc rgb colour" : "points pt 7 ps size lc rgb colour");
 }
@@ -96,31 +93,27 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     size_t letters = vary != NULL ? strlen(vary) : 0;
     int log = letters > 4 && strcmp(vary + letters - 4, ":log") == 0;
     script_extent x = ss_script_extent(column[0].value, t->n);
-    double height = TITLE + FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, top = height - TITLE;
+    script_stack stack;
     script_scale of_x = log ? ss_script_power(0) : ss_map_scale(x);
     script_label x_label = ss_map_label(column[0].label, of_x, INFINITY);
     x = ss_script_scaled_extent(x, of_x);
-    ss_status st = ss_script_begin(out, &titled, height, err);
+    ss_status st = ss_script_begin_stack(&stack, out, &titled, NULL,
+                                         FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, err);
     if (st != SS_OK)
         return st;
-    ss_script_write_title(out, &titled, NULL, NULL);
-    ss_print(out, "colour = '" BLUE "'; size = 0.1\nset multiplot\nunset key; set tics nomirror out scale 0.6\n"
-            "set border lw 0.8; set lmargin at screen 0.175; set rmargin at screen 0.965\n"
-            "set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n"
-            "set grid xtics lc rgb '" GRID_COLOUR "' lt 1; set xtics format ''\n");
+    ss_script_write_frame(out, 0.175, 0.965);
+    fputs("colour = '" BLUE "'; size = 0.1\nset xtics format ''\n"
+          "set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n", out);
     ss_map_write_range(out, 'x', x, log, 9);
     for (size_t i = 1; i < n_columns; i++) {
-        double tall = i == 1 ? FIRST : NEXT;
         if (i + 1 == n_columns) {
             fputs("set xtics format '%g'; ", out);
             ss_script_write_x_label(out, &x_label, "0,0.4");
             if (log)
                 ss_script_write_decades(out, "x", x.lo, x.hi);
         }
-        write_panel(out, column, of_x, i, t->n, top - tall, top, height);
-        top -= tall + GAP;
+        write_panel(&stack, column, of_x, i, t->n);
     }
-    fputs("unset multiplot\n", out);
     return ss_script_end(out);
 }
 

@@ -188,10 +188,8 @@ write_axis(FILE *out, char name, const map_axis *a)
 static void
 write_key(FILE *out, const drawn *d)
 {
-    if (d->n_values == 0 && !d->missing) {
-        fputs("unset key\n", out);
+    if (d->n_values == 0 && !d->missing)
         return;
-    }
     fputs("set key at screen 0.995,graph 1 right top Left reverse samplen 0.6 spacing 1.3 "
           "noenhanced font fine\n", out);
     if (d->n_values == 0)
@@ -238,10 +236,9 @@ write_map(FILE *out, const drawn *d, const ss_plot_opts *opts, ss_error *err)
     script_label x = ss_map_label(d->column[0].label, d->g.x.scale, INFINITY);
     script_label y = ss_map_label(d->column[1].label, d->g.y.scale, INFINITY);
     script_label lines = ss_map_label(d->column[d->lines].label, ss_script_power(0), INFINITY);
-    ss_status st = ss_script_begin(out, opts, 7, err);
+    ss_status st = ss_script_begin(out, opts, NULL, 7, d->lines > 0 ? &lines : NULL, err);
     if (st != SS_OK)
         return st;
-    ss_script_write_title(out, opts, NULL, d->lines > 0 ? &lines : NULL);
     ss_script_write_x_label(out, &x, "0,0.4");
     ss_script_write_side_label(out, 1, &y);
     fputs("line_colour = '#222222'; curve_colour = '" VERMILION "'; missing_colour = '#bbbbbb'\n"
@@ -249,14 +246,13 @@ write_map(FILE *out, const drawn *d, const ss_plot_opts *opts, ss_error *err)
     st = write_data(out, d, opts, err);
     if (st != SS_OK)
         return st;
-    ss_print(out, "set lmargin at screen %g; set rmargin at screen %s; set tmargin at screen %s; "
-            "set bmargin at screen 0.14\n",
-            0.14 + 0.025 * fmax(0, ss_map_letters(range_of(&d->g.y), d->g.y.log) - 3),
-            d->n_values > 0 || d->missing ? "0.835" : "0.965",
-            d->lines > 0 && opts->title[0] != '\0' ? "0.88" : "0.92");
+    ss_script_write_frame(out, 0.14 + 0.025 * fmax(0, ss_map_letters(range_of(&d->g.y), d->g.y.log) - 3),
+                          d->n_values > 0 || d->missing ? 0.835 : 0.965);
+    ss_print(out, "unset grid; set tmargin at screen %s; set bmargin at screen 0.14\n",
+             d->lines > 0 && opts->title[0] != '\0' ? "0.88" : "0.92");
     write_axis(out, 'x', &d->g.x);
     write_axis(out, 'y', &d->g.y);
-    fputs("set tics nomirror out scale 0.6; set border lw 0.8 front\n"
+    fputs("set border lw 0.8 front\n"
           "set style textbox opaque fillcolor '#ffffff' noborder margins 0.4,0.3\n", out);
     write_key(out, d);
     write_plot(out, d, opts);

@@ -94,13 +94,13 @@ write_panels(FILE *out, const ss_header *head, trace t[], size_t n, const ss_plo
 {
     const script_span *span = &t->span;
     int has_over = opts->over != NULL;
-    double above = ss_script_title_height(opts, head) + (has_over ? LEGEND : 0);
-    double height = above + TIME + PANEL * (double)n;
+    script_stack stack;
     size_t bands = 0;
-    ss_status st = ss_script_begin(out, opts, height, err);
+    ss_status st = ss_script_begin_stack(&stack, out, opts, head,
+                                         (has_over ? LEGEND : 0) + TIME + PANEL * (double)n, err);
     if (st != SS_OK)
         return st;
-    ss_script_write_title(out, opts, head, NULL);
+    stack.top -= has_over ? LEGEND : 0;
     int letters = ss_script_write_span(out, span);
     ss_print(out, "colour = '" BLUE "'\n%s", has_over ? "over = '" VERMILION "'\n" : "");
     if (opts->features != NULL && (bands = ss_contour_write_spans(out, span, opts->features)) > 0)
@@ -114,30 +114,25 @@ write_panels(FILE *out, const ss_header *head, trace t[], size_t n, const ss_plo
     make_labels(t, n);
     if (has_over)
         ss_script_write_trace(out, "$over", t[n].x, &t[n].span, t[0].scale);
-    ss_print(out, "set multiplot; set lmargin at screen 0.175; set rmargin at screen %g\n",
-             letters < 5 ? 0.965 : 1 - 0.0095 * letters);
+    ss_script_write_frame(out, 0.175, letters < 5 ? 0.965 : 1 - 0.0095 * letters);
     fputs("set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
-          "set tics nomirror out scale 0.6; set xtics tics; set xtics format ''\n"
-          "set grid xtics lc rgb '" GRID_COLOUR "' lt 1; set border lw 0.8; unset key\n", out);
+          "set xtics tics; set xtics format ''\n", out);
     if (has_over)
         write_legend(out, opts, &t[0], &t[n]);
     for (size_t i = 0; i < n; i++) {
         int over = has_over && i == 0;
-        double top = height - above - PANEL * (double)i;
         script_extent drawn = over ? joined(extent_of(&t[0]), extent_of(&t[n])) : extent_of(&t[i]);
         if (i + 1 == n)
             ss_script_write_time_labels(out, span);
-        ss_script_write_margins(out, top - PANEL * (i + 1 < n ? 0.9 : 1), top, height);
-        fputs("unset label 1; ", out);
-        ss_script_write_side_label(out, 1, &t[i].label);
+        double gap = i + 1 < n ? 0.1 * PANEL : 0;
+        ss_script_write_panel(&stack, PANEL - gap, gap, &t[i].label);
         ss_script_write_tics(out, "ytics", ss_script_scaled_extent(drawn, t[i].scale), 5);
         ss_print(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s\n",
                  bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes x1y2 with boxxyerror fill solid noborder "
                  "lc rgb feature_colour, " : "", i + 1, span->n > 1 ? "lines" : "points pt 7 ps 1",
                  over ? " title name, $over using 1:2 with lines lw 1 lc rgb over title over_name" : "");
-        fputs(i > 0 ? "" : over ? "unset title; unset key\n" : "unset title\n", out);
+        fputs(over ? "unset key\n" : "", out);
     }
-    fputs("unset multiplot\n", out);
     return ss_script_end(out);
 }
 
@@ -228,16 +223,16 @@ write_xy(FILE *out, const ss_header *head, const trace t[2], const trace *over, 
 {
     script_scale scale[2];
     script_label label[2];
-    ss_status st = ss_script_begin(out, opts, 6.5, err);
+    ss_status st = ss_script_begin(out, opts, head, 6.5, NULL, err);
     if (st != SS_OK)
         return st;
-    ss_script_write_title(out, opts, head, NULL);
     for (int i = 0; i < 2; i++) {
         scale[i] = ss_script_scale(extent_of(&t[i]));
         ss_script_make_label(&label[i], t[i].column, scale[i], XY_ROOM);
     }
     ss_script_write_x_label(out, &label[0], "0,0.3");
     ss_script_write_side_label(out, 1, &label[1]);
+    ss_script_write_frame(out, 0.175, 0.965);
     fputs("colour = '" BLUE "'\n", out);
     for (int i = 0; i < 2; i++) {
         script_extent drawn = over != NULL ? joined(extent_of(&t[i]), extent_of(&over[i])) : extent_of(&t[i]);
@@ -249,11 +244,9 @@ write_xy(FILE *out, const ss_header *head, const trace t[2], const trace *over, 
         write_path(out, "$over", over, scale);
         write_legend(out, opts, &t[1], &over[1]);
     }
-    fputs(over != NULL ? "rim = 0.85\n" : "unset key; rim = 0.91\n", out);
-    fputs("set lmargin at screen 0.175; set rmargin at screen 0.965\n"
-          "set tmargin at screen rim; set bmargin at screen 0.16\n"
+    fputs(over != NULL ? "rim = 0.85\n" : "rim = 0.91\n", out);
+    fputs("unset grid; set tmargin at screen rim; set bmargin at screen 0.16\n"
           "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
-          "set tics nomirror out scale 0.6; set border lw 0.8\n"
           "plot $path using 1:2 with lines lw 1 lc rgb colour", out);
     fputs(over != NULL ? " title name, $over using 1:2 with lines lw 1 lc rgb over title over_name\n" : "\n", out);
     return ss_script_end(out);

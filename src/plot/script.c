@@ -1,34 +1,14 @@
-/* script.c -- the parts that all gnuplot scripts have: terminal and size, numbers that are the same in
- * every locale, and text that gnuplot draws and never runs.
- *
- * A picture on paper is 8.5 cm wide, as a journal's column is, with letters of 6 points. */
+/* script.c -- numbers that are the same in every locale, text that gnuplot draws and never runs, and scales
+ * of values. */
 #include "plot/script.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/options.h"
 #include "base/utf8.h"
 
-#define WIDTH 8.5               /* [cm] */
-#define PIXELS_PER_CM 118.11    /* 300 dots per inch */
-#define SCREEN 1.5              /* how much wider and higher on a screen */
 #define LARGEST 1e300           /* drawn value: differences and powers of ten stay finite */
-
-static const ss_plot_opts defaults = { .from = NAN, .to = NAN, .style = SS_PAPER, .over_start = NAN };
-
-void
-ss_plot_opts_init(ss_plot_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &defaults, sizeof defaults);
-}
-
-ss_status
-ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err)
-{
-    return ss_options_take(own, sizeof *own, &defaults, opts, err);
-}
 
 /* --- numbers and text ---------------------------------------------------------------------- */
 
@@ -54,13 +34,13 @@ ss_script_decimals(double range)
     return (int)fmax(0, fmin(305, ceil(-log10(range / SCRIPT_COLUMNS)) + 1));
 }
 
-/* Bytes in a string constant between double quotes.  gnuplot replaces @name and `command` in a line
- * before it looks for strings, so no character with a meaning may appear in the line at all: letters,
+/* gnuplot replaces @name and `command` in a line before it looks for strings, so no character with a
+ * meaning may appear in the line at all: letters,
  * digits and signs without a meaning are written as they are, all others as \ooo, which gnuplot
  * decodes after it has found the end of the string.  It reads all octal digits that follow, not only
- * three, so a digit after such a byte is written as \ooo, too.  Returns 1 if the last byte was. */
-static int
-write_bytes(FILE *out, const char *bytes, size_t n, int escaped)
+ * three, so a digit after such a byte is written as \ooo, too. */
+int
+ss_script_write_bytes(FILE *out, const char *bytes, size_t n, int escaped)
 {
     static const char plain[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
                                 " ()+,-./:=_";
@@ -99,10 +79,10 @@ quote(FILE *out, const char *text, int in_lines)
             fputs("\\n", out);
             escaped = 0;
         } else if (length == 0) {
-            escaped = write_bytes(out, "\xef\xbf\xbd", 3, escaped);
+            escaped = ss_script_write_bytes(out, "\xef\xbf\xbd", 3, escaped);
         } else {
             int drawable = is_drawable(text, i, length);
-            escaped = write_bytes(out, drawable ? text + i : " ", drawable ? length : 1, escaped);
+            escaped = ss_script_write_bytes(out, drawable ? text + i : " ", drawable ? length : 1, escaped);
         }
     }
     putc('"', out);
@@ -207,85 +187,4 @@ ss_script_scale(script_extent e)
     scale = short_scale(e.lo - offset, e.hi - offset);
     scale.offset = offset;
     return scale;
-}
-
-/* --- top and end --------------------------------------------------------------------------- */
-
-/* What each format has: gnuplot's points do not grow with the resolution of a picture as letters do. */
-static const struct format {
-    const char *name, *terminal;
-    double per_cm;              /* of the unit of its size */
-    const char *unit;
-    int letters;                /* [points] */
-    const char *lines;          /* and other options of the terminal */
-    const char *mark;
-} formats[] = {
-    { "png", "pngcairo", PIXELS_PER_CM, "", 24, "2", "2.4" },
-    { "svg", "svg", PIXELS_PER_CM, "", 31, "2 background 'white'", "0.8" },
-    { "pdf", "pdfcairo", 1, " cm", 6, "0.6 fontscale 1", "0.8" },
-    { "eps", "epscairo", 1, " cm", 6, "0.6 fontscale 1", "0.8" },
-};
-
-static const struct format *
-find_format(const char *name)
-{
-    for (size_t i = 0; name != NULL && i < sizeof formats / sizeof *formats; i++)
-        if (strcmp(name, formats[i].name) == 0)
-            return &formats[i];
-    return NULL;
-}
-
-static void
-write_terminal(FILE *out, const struct format *f, const char *output, double width, double height)
-{
-    const double size[2] = { width * f->per_cm, height * f->per_cm };
-    int in_cm = f->unit[0] != '\0';
-    for (int i = 0; i < 2; i++) {
-        fputs(i == 0 ? "width = " : "height = ", out);
-        ss_script_write(out, in_cm ? size[i] : round(size[i]), 3, in_cm ? "        # cm\n" : "\n");
-    }
-    ss_print(out, "letters = %d\nfont = sprintf('Sans,%%g', letters)\n", f->letters);
-    ss_print(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s\n", f->terminal,
-             f->unit, f->unit, f->lines);
-    if (output != NULL) {
-        /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
-        ss_print(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
-        write_bytes(out, output, strlen(output), 0);
-        fputs("\"\n", out);
-    }
-}
-
-ss_status
-ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *err)
-{
-    const char *name = opts->format, *dot;
-    if (name == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
-        name = dot + 1;
-    const struct format *format = find_format(name);
-    if ((name != NULL || opts->output != NULL) && format == NULL)
-        return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'",
-                       name != NULL ? name : opts->output);
-    double scale = opts->style == SS_SCREEN ? SCREEN : 1;
-    fputs("# Made by libstickslip " SS_VERSION " for gnuplot 5.2 or later: gnuplot -p FILE\n", out);
-    if (format != NULL)
-        write_terminal(out, format, opts->output, scale * WIDTH, scale * height);
-    else
-        ss_print(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
-                "linewidth 0.5; set output 'figure.pdf'\nletters = 10\n", scale * WIDTH, scale * height);
-    ss_print(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n",
-             format != NULL ? format->mark : "1");
-    return SS_OK;
-}
-
-void
-ss_script_write_margins(FILE *out, double bottom, double top, double height)
-{
-    ss_print(out, "set bmargin at screen %.5f; set tmargin at screen %.5f\n", bottom / height, top / height);
-}
-
-ss_status
-ss_script_end(FILE *out)
-{
-    fputs("unset output\n", out);
-    return ferror(out) || fflush(out) != 0 ? SS_EIO : SS_OK;
 }

@@ -12,16 +12,42 @@
 /* Take a caller's options.  SS_EINVAL: they were not initialised. */
 ss_status ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err);
 
-/* --- script.c: numbers, text, top and end --------------------------------------------------- */
+/* --- page.c: top, panels and end ------------------------------------------------------------ */
 
-/* Top of the script: terminal and size, and the variables letters, their size in points, and mark, a factor
- * of the sizes of points; the title and the caller's own variables follow. */
-ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, double height, ss_error *err);
+/* A label in one or two lines, see axes.c. */
+typedef struct script_label {
+    char text[256];
+    double font;                /* size of its letters, <= 1, over the usual size */
+} script_label;
+
+/* Begin a picture of this height [cm], a title included: that of opts, or else scene or model of head, unless
+ * it is NULL; and under it "lines: " and the label, unless it is NULL.  The script has the variables letters,
+ * their size in points, and mark, a factor of the sizes of points; the caller's own follow. */
+ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
+                          const script_label *lines, ss_error *err);
 /* SS_EIO if a write failed. */
 ss_status ss_script_end(FILE *out);
-/* Let what follows be drawn between two heights [cm] of a picture of this height. */
-void ss_script_write_margins(FILE *out, double bottom, double top, double height);
+/* Let all axes that follow begin and end at these parts of the width, with tics, borders and a grid in one
+ * style, and no key. */
+void ss_script_write_frame(FILE *out, double from, double to);
 
+/* Panels below one another, with one horizontal axis. */
+typedef struct script_stack {
+    FILE *out;
+    double height, top;         /* [cm] of the picture; where the next panel begins */
+    size_t n;                   /* panels so far */
+} script_stack;
+/* Begin a picture whose panels and axis are so high [cm] in all, below a title as above. */
+ss_status ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_opts *opts,
+                                const ss_header *head, double height, ss_error *err);
+/* Let what follows be drawn in a panel of this height, with a gap below it [cm], and with its label. */
+void ss_script_write_panel(script_stack *stack, double height, double gap, const script_label *label);
+
+/* --- script.c: numbers, text, scales --------------------------------------------------------- */
+
+/* Bytes in a string constant between double quotes; escaped: the last byte was written as \ooo.  Returns
+ * whether the last one is now. */
+int ss_script_write_bytes(FILE *out, const char *bytes, size_t n, int escaped);
 /* Text from outside as a gnuplot string constant that is data and nothing else, see script.c. */
 void ss_script_quote(FILE *out, const char *text);
 /* The same in lines, which end with \n. */
@@ -65,18 +91,11 @@ script_extent ss_script_scaled_extent(script_extent of_values, script_scale scal
 /* "name / (10^-3 unit)", or "(name − offset unit) / (10^-3 unit)"; if it is wider than its room, two lines,
  * "name" and "(10^-3 unit)", or broken near its middle, in smaller letters; cut where it is longer than any
  * picture. */
-typedef struct script_label {
-    char text[256];
-    double font;                /* size of its letters, <= 1, over the usual size */
-} script_label;
 void ss_script_make_label(script_label *label, const ss_column *column, script_scale scale,
                           double room);     /* [ems] */
-/* Set the title: that of opts, or else scene or model of the header, unless it is NULL; and under it
- * "lines: " and the label, unless it is NULL.  A title too wide is broken near its middle and smaller. */
-void ss_script_write_title(FILE *out, const ss_plot_opts *opts, const ss_header *head,
-                           const script_label *lines);
-/* The height above panels [cm], with room for that title if there is one. */
-double ss_script_title_height(const ss_plot_opts *opts, const ss_header *head);
+/* Set the title, broken near its middle and smaller where it is too wide, and under it "lines: " and the label,
+ * unless it is NULL. */
+void ss_script_write_title(FILE *out, const char *title, const script_label *lines);
 /* Set the label of the horizontal axis, so far below it: "0,0.3". */
 void ss_script_write_x_label(FILE *out, const script_label *label, const char *offset);
 /* Set label number n beside the vertical axis; two lines are further out, to leave room for tics. */

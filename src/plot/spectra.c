@@ -119,13 +119,13 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
         return st;
     if (n == 0)
         return ss_fail(err, SS_EINVAL, "no columns to draw");
-    double title = ss_script_title_height(opts, head), height = title + BELOW + PANEL * (double)n, font = 1;
+    double font = 1;
+    script_stack stack;
     const ss_spectrum *s = spectrum[0];
     script_label label;
-    st = ss_script_begin(out, opts, height, err);
+    st = ss_script_begin_stack(&stack, out, opts, head, BELOW + PANEL * (double)n, err);
     if (st != SS_OK)
         return st;
-    ss_script_write_title(out, opts, head, NULL);
     ss_print(out, "from = %.7g         # Hz\nto = %.7g           # Hz\nresolution = %.6g    # Hz, %zu segments\n",
             s->step, (double)(s->n - 1) * s->step, s->resolution, s->segments);
     fputs("colour = '" BLUE "'\n", out);
@@ -134,14 +134,11 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
         label_of(&label, &head->column[column[i]], own.decibels);
         font = fmin(font, label.font);          /* one for all panels */
     }
-    ss_print(out, "set multiplot; set lmargin at screen 0.2; set rmargin at screen 0.95%s\n",
-             own.decibels ? "" : "; set logscale y");
-    fputs("set logscale x; set xrange [from:to]; set format x ''\n"
-          "set tics nomirror out scale 0.6; set border lw 0.8; unset key\n"
-          "set grid xtics lc rgb '" GRID_COLOUR "' lt 1\n", out);
+    ss_script_write_frame(out, 0.2, 0.95);
+    ss_print(out, "set logscale %s; set xrange [from:to]; set format x ''\n", own.decibels ? "x" : "xy");
     for (size_t i = 0; i < n; i++) {
         script_extent e = extent_of(spectrum[i]);
-        double top = height - title - PANEL * (double)i;
+        double gap = i + 1 < n ? 0.08 * PANEL : 0;
         if (!own.decibels)
             ss_script_write_decade_range(out, e.lo, e.hi);
         if (i + 1 == n) {
@@ -149,18 +146,14 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
                   "noenhanced offset 0,0.5\n", out);
             ss_script_write_decades(out, "x", s->step, (double)(s->n - 1) * s->step);
         }
-        ss_script_write_margins(out, top - PANEL * (i + 1 < n ? 0.92 : 1), top, height);
         label_of(&label, &head->column[column[i]], own.decibels);
         label.font = font;
-        fputs("unset label 1; ", out);
-        ss_script_write_side_label(out, 1, &label);
+        ss_script_write_panel(&stack, PANEL - gap, gap, &label);
         if (e.lo <= e.hi)
             ss_print(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour\n", i + 1);
         else
             fputs("set label 2 '0 at all frequencies' at graph 0.5,0.5 center; set yrange [0.1:1]; set ytics (0)\n"
                   "plot NaN; set yrange [*:*]; set ytics autofreq; unset label 2\n", out);
-        fputs(i == 0 ? "unset title\n" : "", out);
     }
-    fputs("unset multiplot\n", out);
     return ss_script_end(out);
 }

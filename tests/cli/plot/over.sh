@@ -8,8 +8,8 @@ sed -n '/^\$over/,/^EOD/p; /^plot /p' both.gp
 grep '^name = ' both.gp
 ss-plot one.tsv > one.gp
 grep '^set ytics' both.gp one.gp | head -n 3
-common() { sed -e '/^set ytics/d; /^\$over/,/^EOD/d; /^over = /d; s/ title name, \$over using.*//; s/; unset key$//' \
-    -e '/^set title offset/d; /^name = /d; /^set bmargin/d; /^if .*size/d; /set terminal/d; /centimetre\|height/d' "$@"; }
+common() { sed -e '/^set ytics/d; /^\$over/,/^EOD/d; /^over = /d; s/ title name, \$over using.*//; ' \
+    -e '/^set title offset/d; /^name = /d; /^set tmargin/d; /^unset key$/d; /^if .*size/d; /set terminal/d; /centimetre\|height/d' "$@"; }
 common one.gp > rest.gp
 common both.gp | diff - rest.gp
 mkdir folder

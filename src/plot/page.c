@@ -1,0 +1,143 @@
+/* page.c -- the page of a picture: terminal and size, title, and panels below one another.
+ *
+ * A picture on paper is 8.5 cm wide, as a journal's column is, with letters of 6 points. */
+#include "plot/script.h"
+#include "plot/style.h"
+
+#include <math.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/options.h"
+#include "signal/header.h"
+
+#define WIDTH 8.5               /* [cm] */
+#define PIXELS_PER_CM 118.11    /* 300 dots per inch */
+#define TITLE 0.6               /* height of a title [cm] */
+#define NO_TITLE 0.15           /* and without one */
+#define SCREEN 1.5              /* how much wider and higher on a screen */
+
+static const ss_plot_opts defaults = { .from = NAN, .to = NAN, .style = SS_PAPER, .over_start = NAN };
+
+void
+ss_plot_opts_init(ss_plot_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &defaults, sizeof defaults);
+}
+
+ss_status
+ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err)
+{
+    return ss_options_take(own, sizeof *own, &defaults, opts, err);
+}
+
+/* What each format has: gnuplot's points do not grow with the resolution of a picture as letters do. */
+static const struct format {
+    const char *name, *terminal;
+    double per_cm;              /* of the unit of its size */
+    const char *unit;
+    int letters;                /* [points] */
+    const char *lines;          /* and other options of the terminal */
+    const char *mark;
+} formats[] = {
+    { "png", "pngcairo", PIXELS_PER_CM, "", 24, "2", "2.4" },
+    { "svg", "svg", PIXELS_PER_CM, "", 31, "2 background 'white'", "0.8" },
+    { "pdf", "pdfcairo", 1, " cm", 6, "0.6 fontscale 1", "0.8" },
+    { "eps", "epscairo", 1, " cm", 6, "0.6 fontscale 1", "0.8" },
+};
+
+static const struct format *
+find_format(const char *name)
+{
+    for (size_t i = 0; name != NULL && i < sizeof formats / sizeof *formats; i++)
+        if (strcmp(name, formats[i].name) == 0)
+            return &formats[i];
+    return NULL;
+}
+
+static void
+write_terminal(FILE *out, const struct format *f, const char *output, double width, double height)
+{
+    const double size[2] = { width * f->per_cm, height * f->per_cm };
+    int in_cm = f->unit[0] != '\0';
+    for (int i = 0; i < 2; i++) {
+        fputs(i == 0 ? "width = " : "height = ", out);
+        ss_script_write(out, in_cm ? size[i] : round(size[i]), 3, in_cm ? "        # cm\n" : "\n");
+    }
+    ss_print(out, "letters = %d\nfont = sprintf('Sans,%%g', letters)\n", f->letters);
+    ss_print(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s\n", f->terminal,
+             f->unit, f->unit, f->lines);
+    if (output != NULL) {
+        /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
+        ss_print(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
+        ss_script_write_bytes(out, output, strlen(output), 0);
+        fputs("\"\n", out);
+    }
+}
+
+static const char *
+title_of(const ss_plot_opts *opts, const ss_header *head)
+{
+    const char *title = opts->title;
+    if (title == NULL && head != NULL)
+        title = ss_header_find_note(head, "scene");
+    if (title == NULL && head != NULL)
+        title = ss_header_find_note(head, "model");
+    return title != NULL ? title : "";
+}
+
+ss_status
+ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
+                const script_label *lines, ss_error *err)
+{
+    const char *name = opts->format, *dot;
+    if (name == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
+        name = dot + 1;
+    const struct format *format = find_format(name);
+    if ((name != NULL || opts->output != NULL) && format == NULL)
+        return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'",
+                       name != NULL ? name : opts->output);
+    double scale = opts->style == SS_SCREEN ? SCREEN : 1;
+    fputs("# Made by libstickslip " SS_VERSION " for gnuplot 5.2 or later: gnuplot -p FILE\n", out);
+    if (format != NULL)
+        write_terminal(out, format, opts->output, scale * WIDTH, scale * height);
+    else
+        ss_print(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
+                 "linewidth 0.5; set output 'figure.pdf'\nletters = 10\n", scale * WIDTH, scale * height);
+    ss_print(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n",
+             format != NULL ? format->mark : "1");
+    ss_script_write_title(out, title_of(opts, head), lines);
+    return SS_OK;
+}
+
+ss_status
+ss_script_end(FILE *out)
+{
+    fputs("unset multiplot; unset output\n", out);
+    return ferror(out) || fflush(out) != 0 ? SS_EIO : SS_OK;
+}
+
+void
+ss_script_write_frame(FILE *out, double from, double to)
+{
+    ss_print(out, "set lmargin at screen %.5g; set rmargin at screen %.5g\n", from, to);
+    fputs("set tics nomirror out scale 0.6; set border lw 0.8; unset key\n"
+          "set grid xtics lc rgb '" GRID_COLOUR "' lt 1\n", out);
+}
+
+ss_status
+ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_opts *opts, const ss_header *head,
+                      double height, ss_error *err)
+{
+    *stack = (script_stack){ out, height + (title_of(opts, head)[0] != '\0' ? TITLE : NO_TITLE), height, 0 };
+    return ss_script_begin(out, opts, head, stack->height, NULL, err);
+}
+
+void
+ss_script_write_panel(script_stack *s, double height, double gap, const script_label *label)
+{
+    fputs(s->n++ == 0 ? "set multiplot\n" : "unset title; unset label 1\n", s->out);
+    ss_print(s->out, "set tmargin at screen %.5f; set bmargin at screen %.5f\n", s->top / s->height,
+             (s->top - height) / s->height);
+    ss_script_write_side_label(s->out, 1, label);
+    s->top -= height + gap;
+}
