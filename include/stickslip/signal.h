@@ -129,8 +129,9 @@ typedef struct ss_reader ss_reader;
  * caller keeps and closes in.  The reader bypasses its buffer, so nothing may have been read from
  * a pipe before.  Messages call the file by name.  opts may be NULL.
  *
- * Text and AU streams are read as they arrive, in constant memory.  Delimited text and .npy are first
- * read to their end, to check their clock.  If they have more than 2^18 numbers, these are kept in a
+ * Text and AU streams are read as they arrive, in constant memory.  So is delimited text from a pipe whose rate is
+ * given, or whose first 16 stamps are numbers on a clock without rounding, unless gaps, resample or table are set.
+ * Other delimited text and .npy are first read to their end, to check their clock.  If they have more than 2^18 numbers, these are kept in a
  * temporary file, 8 bytes for each number and each row.  Memory grows with gaps only. */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);

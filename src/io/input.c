@@ -193,6 +193,12 @@ ss_input_number(const struct input *in, const char **text, const char *expected,
 }
 
 int
+ss_input_is_pipe(const struct input *in)
+{
+    return in->size <= 0 && fileno(in->file) >= 0;
+}
+
+int
 ss_input_waits(const struct input *in)
 {
     struct pollfd fd = { .fd = fileno(in->file), .events = POLLIN };

@@ -42,6 +42,7 @@ ss_status ss_input_row(struct input *in, char **line, ss_error *err);
 ss_status ss_input_number(const struct input *in, const char **text, const char *expected, double *x,
                           ss_error *err);
 int ss_input_has_line(struct input *in);           /* 1: a whole line is in the buffer */
+int ss_input_is_pipe(const struct input *in);      /* 1: its bytes may come slowly, and no end is known */
 int ss_input_waits(const struct input *in);        /* 1: reading more bytes would block */
 
 #endif

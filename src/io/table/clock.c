@@ -12,7 +12,6 @@
 #include "signal/header.h"
 #include "io/table/clock.h"
 
-#define TOLERANCE 0.1           /* a stamp may be off by so many sample periods */
 #define BY_DIGITS 0.25          /* or by so many if it has no more digits: a missing row is farther off */
 enum { DIGIT = 16 };            /* so many bits of a step are found at a time */
 
@@ -245,6 +244,17 @@ farthest_step(const struct stamps *s, double usual, struct off *worst, ss_error 
     return p.status;
 }
 
+ss_status
+ss_clock_refuse(const char *name, unsigned long line, double late, ss_error *err)
+{
+    double missing = rint(late);
+    if (missing > 0 && fabs(late - missing) <= 2 * CLOCK_TOLERANCE)
+        return ss_fail(err, SS_EGAPS, "%s:%lu: %.0f sample%s missing before this time stamp", name, line, missing,
+                       missing > 1 ? "s are" : " is");
+    return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform: this one is off by %.3g "
+                   "sample periods, %.1f is allowed", name, line, fabs(late), CLOCK_TOLERANCE);
+}
+
 /* The error names the row at fault: the one whose step from the row before differs most from the usual
  * step or, if all steps are within the tolerance, the one farthest from the best clock. */
 static ss_status
@@ -255,21 +265,17 @@ refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
     if (st == SS_OK && usual > 0 && l.period > 0)
         return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform, with gaps counted too: "
                        "this one is off by %.3g sample periods, %.1f is allowed", s->file, from_line.line,
-                       from_line.by / l.period, TOLERANCE);
+                       from_line.by / l.period, CLOCK_TOLERANCE);
     if (st == SS_OK)
         st = ss_usual_step(s, &usual, err);
     if (st == SS_OK)
         st = farthest_step(s, usual, &worst, err);
     if (st != SS_OK)
         return st;
-    if (worst.by <= TOLERANCE * usual)
+    if (worst.by <= CLOCK_TOLERANCE * usual)
         worst = from_line;
-    double off = worst.by / usual, missing = rint(off);
-    if (missing > 0 && worst.stamp - worst.before > usual && fabs(off - missing) <= 2 * TOLERANCE)
-        return ss_fail(err, SS_EGAPS, "%s:%lu: %.0f sample%s missing before this time stamp", s->file,
-                       worst.line, missing, missing > 1 ? "s are" : " is");
-    return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform: this one is off by %.3g "
-                   "sample periods, %.1f is allowed", s->file, worst.line, off, TOLERANCE);
+    double off = worst.by / usual;
+    return ss_clock_refuse(s->file, worst.line, worst.stamp - worst.before > usual ? off : -off, err);
 }
 
 /* --- the clock ----------------------------------------------------------------------------- */
@@ -304,7 +310,7 @@ static ss_status
 find_rate(const struct fit *f, const char *file, struct clock *c, ss_error *err)
 {
     struct line l = line_of(f);
-    double deviation = largest_distance(f, l), allowed = TOLERANCE * l.period;
+    double deviation = largest_distance(f, l), allowed = CLOCK_TOLERANCE * l.period;
     if (!(l.period > 0 && deviation <= fmax(allowed, fmin(c->digit, BY_DIGITS * l.period))))
         return SS_EUNEVEN;
 

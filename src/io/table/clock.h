@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <stickslip/status.h>
 
+#define CLOCK_TOLERANCE 0.1     /* a stamp may be off by so many sample periods */
+
 /* Stamps of a file that are read several times: from the first on, the next with the number of its line;
  * *there = 0: there is none. */
 struct stamps {
@@ -34,6 +36,8 @@ struct clock {
 ss_status ss_find_clock(const struct stamps *s, struct clock *clock, ss_error *err);
 /* The median step of stamps, which must ascend. */
 ss_status ss_usual_step(const struct stamps *s, double *usual, ss_error *err);
+/* The error of a stamp that comes so many sample periods too late. */
+ss_status ss_clock_refuse(const char *name, unsigned long line, double late, ss_error *err);
 /* The fewest digits of a number that is x, but for 1e-9 of it. */
 int ss_clock_digits(double x);
 

@@ -13,7 +13,8 @@
 
 struct samples {
     ss_source base;
-    struct kept rows;
+    struct sheet *live;         /* the table whose rows come later, or NULL */
+    struct kept own, *rows;     /* rows: of this table, or its own */
     struct timing timing;
     size_t *of, n;              /* the columns of the table that are given */
     struct sample_count count;
@@ -31,6 +32,19 @@ give_row(const struct samples *s, const double *row, double *const column[], siz
             column[c][at] = row != NULL ? row[s->of[c]] : NAN;
 }
 
+/* A row that came after its clock was found must be on it, but for what a stamp may be off. */
+static ss_status
+check_time(const struct samples *s, ss_error *err)
+{
+    const struct time_column *time = &s->timing.time;
+    const ss_header *head = s->base.head;
+    double late = time->column == NONE ? 0
+        : (ss_sheet_stamp(time, s->row) - head->start) * head->rate - (double)s->given;
+    if (fabs(late) <= CLOCK_TOLERANCE)
+        return SS_OK;
+    return ss_clock_refuse(s->base.name, (unsigned long)s->row[s->rows->width - 1], late, err);
+}
+
 static ss_status
 give_samples(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
 {
@@ -38,8 +52,15 @@ give_samples(ss_source *base, double *const column[], size_t max, size_t *n, ss_
     const struct time_column *time = &s->timing.time;
     ss_status st = SS_OK;
     for (; *n < max; ++*n, s->given++) {
+        if (s->row == NULL && s->live != NULL && s->rows->at == s->rows->held && *n > 0)
+            break;
         if (s->row == NULL) {
-            st = ss_sheet_next(&s->rows, time->column, &s->row, err);
+            if (s->live != NULL && s->rows->at == s->rows->held)
+                st = s->live->later->next(s->live, err);
+            if (st == SS_OK)
+                st = ss_sheet_next(s->rows, time->column, &s->row, err);
+            if (st == SS_OK && s->row != NULL && s->live != NULL)
+                st = check_time(s, err);
             if (st != SS_OK || s->row == NULL)
                 break;
             s->sample = s->timing.usual > 0 ? ss_clock_sample(&s->count, ss_sheet_stamp(time, s->row)) : s->given;
@@ -48,7 +69,7 @@ give_samples(ss_source *base, double *const column[], size_t max, size_t *n, ss_
         give_row(s, there ? s->row : NULL, column, *n);
         s->row = there ? NULL : s->row;
     }
-    ss_progress_at(&s->progress, (1 + (double)s->rows.given / (double)s->rows.n) / 2);
+    ss_progress_at(&s->progress, (1 + (double)s->rows->given / (double)s->rows->n) / 2);
     return st;
 }
 
@@ -60,11 +81,11 @@ give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_err
     const struct time_column *time = &s->timing.time;
     const double *row;
     ss_status st = SS_OK;
-    for (; *n < max && (st = ss_sheet_next(&s->rows, time->column, &row, err)) == SS_OK && row != NULL; ++*n) {
+    for (; *n < max && (st = ss_sheet_next(s->rows, time->column, &row, err)) == SS_OK && row != NULL; ++*n) {
         give_row(s, row, column, *n);
         column[s->n - 1][*n] = ss_sheet_stamp(time, row);
     }
-    ss_progress_at(&s->progress, (1 + (double)s->rows.given / (double)s->rows.n) / 2);
+    ss_progress_at(&s->progress, (1 + (double)s->rows->given / (double)s->rows->n) / 2);
     return st;
 }
 
@@ -75,14 +96,23 @@ rewind_samples(ss_source *base, ss_error *err)
     s->count = (struct sample_count){ .usual = s->timing.usual };
     s->row = NULL;
     s->given = 0;
-    return ss_kept_rewind(&s->rows, err);
+    return ss_kept_rewind(s->rows, err);
+}
+
+static int
+samples_wait(const ss_source *base)
+{
+    const struct samples *s = (const struct samples *)base;
+    return s->rows->at == s->rows->held && s->live->later->waits(s->live);
 }
 
 static void
 free_samples(ss_source *base)
 {
     struct samples *s = (struct samples *)base;
-    ss_kept_free(&s->rows);
+    if (s->live != NULL)
+        s->live->later->free(s->live);
+    ss_kept_free(&s->own);
     free(s->of);
 }
 
@@ -114,21 +144,28 @@ ss_status
 ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *err)
 {
     static const struct source_calls samples = { give_samples, rewind_samples, NULL, free_samples };
+    static const struct source_calls live = { give_samples, NULL, samples_wait, free_samples };
     static const struct source_calls rows = { give_rows, rewind_samples, NULL, free_samples };
     struct timing timing = { .usual = 0 };
     ss_status st = ss_sheet_find_clock(t, &timing, err);
     if (st != SS_OK)
         return st;
     int resampled = timing.longest > 0, stamped = resampled || (t->opts->stamps && timing.time.column != NONE);
-    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : &samples, t->name, err);
+    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : t->later != NULL ? &live : &samples, t->name, err);
     if (s == NULL)
         return SS_ENOMEM;
     *out = &s->base;
     s->timing = timing;
     s->progress = progress;
-    s->rows = t->rows;
-    s->rows.name = s->base.name;
-    t->rows = (struct kept){ 0 };
+    s->rows = &t->rows;
+    if (t->later != NULL) {
+        s->live = t;
+    } else {
+        s->own = t->rows;
+        s->own.name = s->base.name;
+        s->rows = &s->own;
+        t->rows = (struct kept){ 0 };
+    }
     st = choose_columns(s, t, stamped, err);
     if (st == SS_OK)
         st = rewind_samples(&s->base, err);

@@ -27,6 +27,15 @@ struct sheet_column {
     struct stamp_column stamps; /* of stamps */
 };
 
+struct sheet;
+/* A table whose rows come as they are read. */
+struct sheet_calls {
+    /* Replace the rows by those that have arrived, at least one unless there are no more. */
+    ss_status (*next)(struct sheet *t, ss_error *err);
+    int (*waits)(const struct sheet *t);
+    void (*free)(struct sheet *t);
+};
+
 struct sheet {
     const char *name;           /* of the file, for messages */
     const ss_read_opts *opts;
@@ -42,6 +51,7 @@ struct sheet {
     unsigned long clue_line;
     struct kept rows;           /* each of them the values of all columns and the number of its line */
     double *first;              /* the first of them */
+    const struct sheet_calls *later;    /* NULL: all rows are there */
 };
 
 /* Begin a table, of which all is zeros, and its rows.  SS_ENOMEM, without a text. */
@@ -74,6 +84,8 @@ struct timing {
 
 /* Find the column of time, and in t->names the clock on which the rows are samples (time.c). */
 ss_status ss_sheet_find_clock(struct sheet *t, struct timing *timing, ss_error *err);
+/* Do the rows, which are all in memory, lie on a clock without rounding?  SS_ENOMEM, without a text. */
+ss_status ss_sheet_is_plain(struct sheet *t, int *yes);
 /* Mark the columns that the caller does not need, as far as the names tell, before the first row is read. */
 ss_status ss_sheet_mark_spare(struct sheet *t, ss_error *err);
 /* After ss_kept_end: the next row that has a time in this column (NONE: the next), or NULL. */
@@ -93,7 +105,8 @@ ss_sheet_stamp(const struct time_column *c, const double *row)
 }
 
 /* Make a source of the rows, whose names are complete, as samples: with a clock, without the columns of time and
- * text, with gaps filled.  It takes the rows from the table.  progress is told of the rows that were given, as the
+ * text, with gaps filled.  It takes the rows from the table, or, if
+ * more come later, the table.  progress is told of the rows that were given, as the
  * second half of the work. */
 ss_status ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *err);
 

@@ -459,25 +459,21 @@ read_heading(struct text *x, const char *heading, char **row, ss_error *err)
     return SS_OK;
 }
 
-/* Read rows up to the end, or up to the first row of another table, which becomes *row. */
+/* Read a line below the first row.  *more becomes 0 at the end, and at the first row of another table, which
+ * becomes *row. */
 static ss_status
-read_body(struct text *x, char **row, ss_error *err)
+read_line(struct text *x, char **row, int *more, ss_error *err)
 {
     char *line;
     int comment, heading = 0;
-    ss_status st;
+    ss_status st = next_line(x, &line, &comment, err);
     *row = NULL;
-    while ((st = next_line(x, &line, &comment, err)) == SS_OK && line != NULL) {
-        if (!comment)
-            st = is_heading(x, line, &heading);
-        if (st == SS_OK && heading)
-            return read_heading(x, line, row, err);
-        if (st == SS_OK && !comment)
-            st = append_row(x, line, err);
-        if (st != SS_OK)
-            return st;
-    }
-    return st;
+    *more = st == SS_OK && line != NULL;
+    if (!*more || comment)
+        return st;
+    st = is_heading(x, line, &heading);
+    *more = !heading;
+    return st != SS_OK ? st : heading ? read_heading(x, line, row, err) : append_row(x, line, err);
 }
 
 /* Discard the columns of a table before the next one. */
@@ -511,26 +507,68 @@ list_table(const struct sheet *t, size_t number, char *list, size_t size)
     }
 }
 
+/* Read the tables, up to the one that is wanted; row and more are what read_line gave last. */
 static ss_status
-read_tables(struct text *x, ss_error *err)
+read_tables(struct text *x, char *row, int more, ss_error *err)
 {
-    char *row, list[300] = "";
+    char list[300] = "";
     size_t number = 1, wanted = x->t.opts->table;
-    ss_status st = keep_header(x, &row, err);
-    if (st == SS_OK)
-        st = begin_first(x, row, err);
-    for (; st == SS_OK && (st = read_body(x, &row, err)) == SS_OK && row != NULL; number++) {
-        if (number == wanted)
-            return SS_OK;
+    for (;; number++, more = 1) {
+        ss_status st = SS_OK;
+        while (st == SS_OK && more)
+            st = read_line(x, &row, &more, err);
+        if (st != SS_OK || number == wanted || (row == NULL && number == 1 && wanted == 0))
+            return st;
         list_table(&x->t, number, list, sizeof list);
+        if (row == NULL)
+            return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", x->t.name, number, PLURAL(number), list);
         st = clear_table(x);
         if (st == SS_OK)
             st = begin_table(x, row, err);
+        if (st != SS_OK)
+            return st;
     }
-    if (st != SS_OK || number == wanted || (number == 1 && wanted == 0))
-        return st;
-    list_table(&x->t, number, list, sizeof list);
-    return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", x->t.name, number, PLURAL(number), list);
+}
+
+/* --- rows as they come --------------------------------------------------------------------- */
+
+static int
+text_waits(const struct sheet *t)
+{
+    return ss_input_waits(((const struct text *)t)->in);
+}
+
+/* Replace the rows by those that have arrived, at least one unless the text ends. */
+static ss_status
+next_rows(struct sheet *t, ss_error *err)
+{
+    struct text *x = (struct text *)t;
+    char *row = NULL;
+    int more = 1;
+    ss_status st = SS_OK;
+    t->rows.at = t->rows.held = 0;
+    while (st == SS_OK && more && (t->rows.held == 0 || ss_input_has_line(x->in)))
+        st = read_line(x, &row, &more, err);
+    return st == SS_OK && row != NULL ? ss_fail(err, SS_ETABLES, "%s:%lu: another table begins here", t->name,
+                                                x->in->line) : st;
+}
+
+/* *live becomes 1 if the rows of a text from a pipe can be handed on as they come: if a rate is given, or if the first
+ * stamps show one that more of them would not change.  The rest is as read_line has it. */
+static ss_status
+read_first(struct text *x, int *live, char **row, int *more, ss_error *err)
+{
+    enum { SHOWN = 16 };
+    const ss_read_opts *opts = x->t.opts;
+    struct kept *rows = &x->t.rows;
+    ss_status st = SS_OK;
+    *more = 1;
+    *live = ss_input_is_pipe(x->in) && opts->gaps == SS_GAPS_REFUSE && !(opts->resample > 0) && !opts->stamps
+        && opts->table == 0 && !x->labview;
+    while (st == SS_OK && *live && *more && !(opts->rate > 0) && rows->n < SHOWN)
+        st = read_line(x, row, more, err);
+    *live = *live && *more && !rows->is_away;
+    return st == SS_OK && *live && !(opts->rate > 0) ? ss_sheet_is_plain(&x->t, live) : st;
 }
 
 /* --- the format ---------------------------------------------------------------------------- */
@@ -567,33 +605,58 @@ find_rate_line(const struct text *x)
     return NULL;
 }
 
+static void
+free_text(struct sheet *t)
+{
+    struct text *x = (struct text *)t;
+    drop_lines(x);
+    free(x->head);
+    free(x->cell);
+    free(x->copy);
+    ss_sheet_free(t);
+    free(x);
+}
+
 static ss_status
 open_text(ss_source **out, const struct opening *o, ss_error *err)
 {
+    static const struct sheet_calls as_they_come = { next_rows, text_waits, free_text };
     struct input *in = o->in;
-    struct text x = { .in = in, .layout = LAYOUT_ONE };
-    ss_status st = ss_sheet_begin(&x.t, in->name, o->opts);
+    char *row;
+    int live = 0, more;
+    struct text *x = calloc(1, sizeof *x);
+    if (x == NULL)
+        return ss_fail_memory(err, in->name);
+    x->in = in;
+    x->layout = LAYOUT_ONE;
+    x->opts = *o->opts;
+    ss_status st = ss_sheet_begin(&x->t, in->name, &x->opts);
     in->share = 0.5;                            /* of the work; the other half is to give the rows */
     if (st == SS_OK)
         st = ss_input_need(in, 3, err);
     if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
         in->lo += 3;                            /* skip the byte-order mark */
     if (st == SS_OK)
-        st = read_tables(&x, err);
+        st = keep_header(x, &row, err);
     if (st == SS_OK)
-        st = ss_kept_end(&x.t.rows, err);
+        st = begin_first(x, row, err);
     if (st == SS_OK)
-        st = ss_text_check_times(&x, err);
-    const struct text_line *clue = find_rate_line(&x);
-    x.t.clue = clue != NULL ? clue->text : NULL;
-    x.t.clue_line = clue != NULL ? clue->number : 0;
+        st = read_first(x, &live, &row, &more, err);
+    if (st == SS_OK && live)
+        x->t.later = &as_they_come;
+    else if (st == SS_OK)
+        st = read_tables(x, row, more, err);
     if (st == SS_OK)
-        st = ss_sheet_give(out, &x.t, in->size > 0 ? in->progress : (ss_progress){ NULL, NULL }, err);
-    drop_lines(&x);
-    free(x.head);
-    free(x.cell);
-    free(x.copy);
-    ss_sheet_free(&x.t);
+        st = ss_kept_end(&x->t.rows, err);
+    if (st == SS_OK)
+        st = ss_text_check_times(x, err);
+    const struct text_line *clue = find_rate_line(x);
+    x->t.clue = clue != NULL ? clue->text : NULL;
+    x->t.clue_line = clue != NULL ? clue->number : 0;
+    if (st == SS_OK)
+        st = ss_sheet_give(out, &x->t, in->size > 0 ? in->progress : (ss_progress){ NULL, NULL }, err);
+    if (*out == NULL || x->t.later == NULL)
+        free_text(&x->t);
     return st == SS_ENOMEM ? ss_fail_memory(err, in->name) : st;
 }
 

@@ -14,6 +14,7 @@ struct text_line {              /* above the data, to be freed */
 
 struct text {
     struct sheet t;             /* what becomes of it */
+    ss_read_opts opts;          /* of it */
     struct input *in;
     char mark;                  /* decimal point or comma, '\0': none seen */
     char separator;             /* '\t' ';' ',' or ' ' (any blanks); '\0': one column */

@@ -451,3 +451,23 @@ ss_sheet_find_clock(struct sheet *t, struct timing *timing, ss_error *err)
             return refuse_text(t, i, SS_ECLOCK, err);
     return ss_fail(err, SS_ECLOCK, "%s: no column of time", t->name);
 }
+
+ss_status
+ss_sheet_is_plain(struct sheet *t, int *yes)
+{
+    ss_read_opts quiet = *t->opts;
+    struct sheet first = *t;
+    struct timing timing;
+    const double *row;
+    quiet.warn = NULL;
+    first.opts = &quiet;
+    ss_status st = ss_sheet_find_clock(&first, &timing, NULL);
+    size_t time = timing.time.column;
+    *yes = st == SS_OK && (time == NONE || (t->column[time].kind == COLUMN_NUMBERS && timing.time.zero == 0));
+    if (!*yes || time == NONE)
+        return st == SS_ENOMEM ? st : SS_OK;
+    ss_kept_rewind(&first.rows, NULL);
+    for (uint64_t i = 0; ss_sheet_next(&first.rows, time, &row, NULL) == SS_OK && row != NULL; i++)
+        *yes &= ss_is_on_clock(ss_sheet_stamp(&timing.time, row), t->names->rate, t->names->start, i);
+    return SS_OK;
+}
