@@ -88,7 +88,7 @@ static inline void
 write_ok(const ss_record *record)
 {
     ss_error err = { 0 };
-    if (ss_store_write(path, record, &err) != SS_OK)
+    if (ss_record_write(record, NULL, path, SS_H5, &err) != SS_OK)
         fail_msg("%s", err.text);
 }
 
@@ -120,13 +120,14 @@ draw(size_t most)
 static inline ss_status
 write_pieces(const ss_signal *signal, const ss_coefficients *c, int known, ss_error *err)
 {
-    ss_store_writer *writer = NULL;
+    ss_writer *writer = NULL;
     ss_coefficients grid = *c;
     size_t done[200] = { 0 }, left = 1, samples = 0;
     assert_true(c->n_scales <= 200);
     grid.n = known ? c->n : 0;
     grid.w = NULL;
-    ss_status st = ss_store_writer_new(&writer, path, signal->head, &grid, err);
+    ss_status st = ss_writer_new(&writer, NULL, path, SS_H5, &(ss_contents){ signal->head,
+                                 &grid, 0, grid.n }, err);
     while (st == SS_OK && samples < signal->n) {
         size_t n = draw(signal->n / 3 + 1);
         n = n < signal->n - samples ? n : signal->n - samples;
@@ -140,15 +141,15 @@ write_pieces(const ss_signal *signal, const ss_coefficients *c, int known, ss_er
             size_t n = draw(scale->n);
             n = n < scale->n - done[i] ? n : scale->n - done[i];
             if (n > 0)
-                st = ss_store_writer_rows(writer, scale, done[i], n,
+                st = ss_writer_coefficients(writer, scale, done[i], n,
                                           c->w + 2 * (scale->offset + done[i]), c->n, err);
             done[i] += n;
             left += scale->n - done[i];
         }
     }
     if (st == SS_OK)
-        st = ss_store_writer_end(writer, c->n, err);
-    ss_store_writer_free(writer);
+        st = ss_writer_end(writer, c->n, err);
+    ss_writer_free(writer);
     return st;
 }
 

@@ -93,29 +93,32 @@ makers_and_writers_refuse_null(void **state)
     assert_refused(ss_signal_new(NULL, head, 1, &e), &e);
     assert_refused(ss_signal_new(&signal, NULL, 1, &e), &e);
     assert_refused(ss_signal_select(&signal, NULL, NULL, 0, 0, 0, NULL), NULL);
-    assert_refused(ss_signal_write(NULL, stdout, SS_TSV, NULL), NULL);
-    assert_refused(ss_writer_new(NULL, stdout, SS_TSV, head, NULL), NULL);
-    assert_refused(ss_writer_new(&writer, NULL, SS_TSV, head, NULL), NULL);
-    assert_refused(ss_writer_new(&writer, stdout, SS_TSV, NULL, NULL), NULL);
+    assert_refused(ss_record_write(&(ss_record){ .signal = NULL }, stdout, NULL, SS_TSV, NULL), NULL);
+    assert_refused(ss_writer_new(NULL, stdout, NULL, SS_TSV, &(ss_contents){ .signal = head }, NULL), NULL);
+    assert_refused(ss_writer_new(&writer, NULL, NULL, SS_TSV, &(ss_contents){ .signal = head }, NULL), NULL);
+    assert_refused(ss_writer_new(&writer, stdout, NULL, SS_TSV, &(ss_contents){ .signal = NULL }, NULL), NULL);
     assert_refused(ss_writer_rows(NULL, NULL, 0, &e), &e);
     assert_refused(ss_scene_write(NULL, stdout, NULL), NULL);
     assert_refused(ss_scene_write(&scene, NULL, NULL), NULL);
-    assert_refused(ss_coefficients_write(NULL, stdout, SS_TSV, NULL), NULL);
+    assert_refused(ss_record_write(&(ss_record){ .coefficients = &(ss_coefficients){ .head = head } }, stdout,
+                                   NULL, SS_TSV, NULL),
+                   NULL);
     assert_refused(ss_morlet_transform(&c, NULL, 0, &ss_morlet_defaults, &e), &e);
-    assert_refused(ss_store_write(NULL, &record, &e), &e);
-    assert_refused(ss_store_write("x.h5", NULL, &e), &e);
-    ss_store_writer *store = NULL;
+    assert_refused(ss_record_write(&record, NULL, NULL, SS_H5, &e), &e);
+    assert_refused(ss_record_write(NULL, NULL, "x.h5", SS_H5, &e), &e);
+    ss_writer *store = NULL;
     const ss_coefficients grid = { .head = NULL };
-    assert_refused(ss_store_writer_new(NULL, "x.h5", head, &grid, &e), &e);
-    assert_refused(ss_store_writer_new(&store, NULL, head, &grid, &e), &e);
-    assert_refused(ss_store_writer_new(&store, "x.h5", NULL, NULL, &e), &e);
-    assert_refused(ss_store_writer_new(&store, "x.h5", head, &grid, &e), &e);
+    const ss_contents both = { head, &grid, 0, 0 };
+    assert_refused(ss_writer_new(NULL, NULL, "x.h5", SS_H5, &both, &e), &e);
+    assert_refused(ss_writer_new(&store, NULL, NULL, SS_H5, &both, &e), &e);
+    assert_refused(ss_writer_new(&store, NULL, "x.h5", SS_H5, NULL, &e), &e);
+    assert_refused(ss_writer_new(&store, NULL, "x.h5", SS_H5, &both, &e), &e);
     assert_null(store);
-    assert_refused(ss_store_writer_signal(NULL, (double *[]){ &(double){ 0 } }, 1, &e), &e);
-    assert_refused(ss_store_writer_rows(NULL, NULL, 0, 0, NULL, 0, &e), &e);
-    assert_refused(ss_store_writer_note(NULL, "a", "b", &e), &e);
-    assert_refused(ss_store_writer_end(NULL, 1, &e), &e);
-    ss_store_writer_free(NULL);
+    assert_refused(ss_writer_rows(NULL, (double *[]){ &(double){ 0 } }, 1, &e), &e);
+    assert_refused(ss_writer_coefficients(NULL, NULL, 0, 0, NULL, 0, &e), &e);
+    assert_refused(ss_writer_note(NULL, "a", "b", &e), &e);
+    assert_refused(ss_writer_end(NULL, 1, &e), &e);
+    ss_writer_free(NULL);
     ss_coefficients *map = NULL;
     assert_refused(ss_store_open_coefficients(NULL, "x.h5", &e), &e);
     assert_refused(ss_store_open_coefficients(&map, NULL, &e), &e);
@@ -168,7 +171,7 @@ headers_and_samples_refuse_null(void **state)
     assert_null(ss_reader_header(NULL));
     assert_int_equal(ss_reader_waits(NULL), 0);
     assert_int_equal(ss_reader_piece(NULL), 1);
-    assert_refused(ss_writer_flush(NULL, NULL), NULL);
+    assert_refused(ss_writer_end(NULL, 0, NULL), NULL);
     assert_refused(ss_reader_resample(NULL, 1, &e), &e);
     assert_refused(ss_reader_keep(NULL, NULL, &e), &e);
     assert_refused(ss_reader_rewind(NULL, &e), &e);
@@ -276,7 +279,7 @@ transforms_refuse_null(void **state)
     ss_morlet *plan = NULL;
     ss_stream *stream = NULL;
     ss_signal *signal;
-    ss_coefficient_writer *writer;
+    ss_writer *writer;
     static const ss_coefficients none;
     double x[64] = { 0 }, w[2], difference;
     (void)state;
@@ -329,11 +332,12 @@ transforms_refuse_null(void **state)
     assert_int_equal(ss_coefficients_edge(NULL, 0, 0), 1);
     assert_int_equal(ss_coefficients_edge(&none, 0, 0), 1);
     assert_true(isnan(ss_coefficients_max(NULL)));
-    assert_refused(ss_coefficient_writer_new(NULL, stdout, SS_TSV, head, NULL), NULL);
-    assert_refused(ss_coefficient_writer_new(&writer, NULL, SS_TSV, head, NULL), NULL);
-    assert_refused(ss_coefficient_writer_new(&writer, stdout, SS_TSV, NULL, NULL), NULL);
-    assert_refused(ss_coefficient_writer_rows(NULL, &scale, 0, 0, w, 1, NULL), NULL);
-    assert_refused(ss_coefficient_writer_end(NULL, 1, NULL), NULL);
+    const ss_contents of_grid = { .grid = &(ss_coefficients){ .head = head } };
+    assert_refused(ss_writer_new(NULL, stdout, NULL, SS_TSV, &of_grid, NULL), NULL);
+    assert_refused(ss_writer_new(&writer, NULL, NULL, SS_TSV, &of_grid, NULL), NULL);
+    assert_refused(ss_writer_new(&writer, stdout, NULL, SS_TSV, &(ss_contents){ .grid = &none }, NULL), NULL);
+    assert_refused(ss_writer_coefficients(NULL, &scale, 0, 0, w, 1, NULL), NULL);
+    assert_refused(ss_writer_end(NULL, 1, NULL), NULL);
     ss_header_free(head);
 }
 
@@ -517,7 +521,8 @@ writers_of_rows_refuse_null(void **state)
 {
     ss_header *head = NULL;
     assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
-    ss_event_writer *writer = NULL;
+    ss_writer *writer = NULL;
+    const ss_contents events = { .signal = head, .events = 1 };
     ss_event event = { .kind = (ss_event_kind)7 };
     ss_features features = { .n = 0 };
     ss_signal signal = { .head = head };
@@ -528,18 +533,18 @@ writers_of_rows_refuse_null(void **state)
     ss_need need = { 0, 1 };
     FILE *out = tmpfile();
     (void)state;
-    assert_int_equal(ss_event_writer_new(NULL, out, SS_TSV, head, NULL), SS_EINVAL);
-    assert_int_equal(ss_event_writer_new(&writer, NULL, SS_TSV, head, NULL), SS_EINVAL);
-    assert_int_equal(ss_event_writer_new(&writer, out, SS_TSV, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_event_writer_new(&writer, out, SS_AU, head, NULL), SS_EINVAL);
-    assert_int_equal(ss_event_writer_new(&writer, out, (ss_format)9, head, NULL), SS_EINVAL);
-    assert_int_equal(ss_event_writer_row(NULL, &event, NULL), SS_EINVAL);
-    assert_int_equal(ss_event_writer_new(&writer, out, SS_TSV, head, NULL), SS_OK);
-    assert_int_equal(ss_event_writer_row(writer, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_event_writer_row(writer, &event, NULL), SS_EINVAL);
-    assert_int_equal(ss_event_writer_flush(NULL, NULL), SS_EINVAL);
-    ss_event_writer_free(writer);
-    ss_event_writer_free(NULL);
+    assert_int_equal(ss_writer_new(NULL, out, NULL, SS_TSV, &events, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_new(&writer, NULL, NULL, SS_TSV, &events, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_new(&writer, out, NULL, SS_TSV, &(ss_contents){ .events = 1 }, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_new(&writer, out, NULL, SS_AU, &events, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_new(&writer, out, NULL, (ss_format)9, &events, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_events(NULL, &event, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_new(&writer, out, NULL, SS_TSV, &events, NULL), SS_OK);
+    assert_int_equal(ss_writer_events(writer, NULL, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_events(writer, &event, 1, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_end(NULL, 0, NULL), SS_EINVAL);
+    ss_writer_free(writer);
+    ss_writer_free(NULL);
     assert_int_equal(ss_features_write(NULL, &signal, 0, opts, out, SS_TSV, NULL), SS_EINVAL);
     assert_int_equal(ss_features_write(&features, NULL, 0, opts, out, SS_TSV, NULL), SS_EINVAL);
     assert_int_equal(ss_features_write(&features, &signal, 0, opts, out, SS_TSV, NULL), SS_EINVAL);
@@ -720,7 +725,6 @@ refuses_what_is_no_known_choice(void **state)
         ss_morlet *plan;
         ss_reader *reader;
         ss_writer *writer;
-        ss_coefficient_writer *coefficient_writer;
         ss_signal *made;
         ss_ranking *ranking;
         ss_fit fit;
@@ -747,10 +751,10 @@ refuses_what_is_no_known_choice(void **state)
         assert_null(ss_format_name((size_t)k));
         assert_null(ss_time_unit_name((size_t)k));
         assert_int_equal(ss_format_has_words((ss_format)k), 0);
-        assert_int_equal(ss_writer_new(&writer, in, (ss_format)k, head, NULL), SS_EINVAL);
-        assert_int_equal(ss_signal_write(signal, in, (ss_format)k, NULL), SS_EINVAL);
-        assert_int_equal(ss_coefficient_writer_new(&coefficient_writer, in, (ss_format)k, head, NULL),
-                         SS_EINVAL);
+        assert_int_equal(ss_writer_new(&writer, in, NULL, (ss_format)k,
+                                       &(ss_contents){ .signal = head }, NULL), SS_EINVAL);
+        assert_int_equal(ss_record_write(&(ss_record){ .signal = signal }, in, NULL, (ss_format)k, NULL),
+                                         SS_EINVAL);
         assert_int_equal(ss_ranking_new(&ranking, signal, 0, &scene, 1, &rank, NULL), SS_EINVAL);
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &scene, &rank, NULL), SS_EINVAL);
         assert_string_equal(ss_model_name(NULL), "?");
@@ -789,7 +793,7 @@ nothing_is_freed_without_complaint(void **state)
     ss_trade_free(NULL);
     ss_models_free(NULL);
     ss_stream_free(NULL);
-    ss_coefficient_writer_free(NULL);
+    ss_writer_free(NULL);
     ss_features_free(NULL);
     ss_ranking_free(NULL);
 }

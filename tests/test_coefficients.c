@@ -1,4 +1,5 @@
 /* test_coefficients.c -- coefficients as a stream: read back, in any order of scales, and damaged. */
+#include <stickslip/store.h>
 #include <stdlib.h>
 #include <string.h>
 #include "map/map.h"
@@ -63,7 +64,7 @@ stream_reads_back_the_same(void **state)
         ss_coefficients *coef = some_coefficients(&opts);
         assert_string_equal(ss_header_find_note(coef->head, "scene"), "compliant-light");
         assert_string_equal(ss_header_find_note(coef->head, "column"), "a");
-        assert_int_equal(ss_coefficients_write(coef, file, SS_TSV, NULL), SS_OK);
+        assert_int_equal(ss_record_write(&(ss_record){ .coefficients = coef }, file, NULL, SS_TSV, NULL), SS_OK);
         rewind(file);
         if (ss_coefficients_read(&back, file, "c.tsv", &err) != SS_OK)
             fail_msg("%s", err.text);
@@ -94,7 +95,7 @@ stream_may_interleave_scales(void **state)
     ss_coefficients *coef = some_coefficients(&opts), *back = NULL;
     FILE *file = tmpfile(), *mixed = tmpfile();
     (void)state;
-    ss_coefficients_write(coef, file, SS_TSV, NULL);
+    ss_record_write(&(ss_record){ .coefficients = coef }, file, NULL, SS_TSV, NULL);
     rewind(file);
     for (; n < LENGTH(line) && getline(&line[n], &size, file) > 0; n++, size = 0)
         header += line[n][0] == '#';
@@ -178,7 +179,7 @@ refuses_broken_streams(void **state)
     (void)state;
     opts.voices = 2, opts.octaves = 1, opts.m0 = -6, opts.m1 = -5;
     ss_coefficients *coef = some_coefficients(&opts);
-    ss_coefficients_write(coef, file, SS_TSV, NULL);
+    ss_record_write(&(ss_record){ .coefficients = coef }, file, NULL, SS_TSV, NULL);
     ss_coefficients_free(coef);
     fclose(file);
     for (size_t i = 0; i < LENGTH(damage); i++)

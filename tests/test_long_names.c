@@ -89,7 +89,8 @@ signals_keep_long_names_in_every_form(void **state)
     assert_int_equal(ss_header_column(signal->head, longest), 0);
     for (int format = SS_TSV; format <= SS_AU; format++) {
         FILE *file = tmpfile();
-        assert_int_equal(ss_signal_write(signal, file, (ss_format)format, NULL), SS_OK);
+        assert_int_equal(ss_record_write(&(ss_record){ .signal = signal }, file, NULL, (ss_format)format, NULL),
+                                         SS_OK);
         rewind(file);
         assert_int_equal(ss_signal_read(&back, file, "in", NULL, NULL), SS_OK);
         assert_same_header(signal->head, back->head);
@@ -97,7 +98,7 @@ signals_keep_long_names_in_every_form(void **state)
         fclose(file);
     }
     ss_error err = new_error();
-    ss_status st = ss_store_write(path, &(ss_record){ .signal = signal }, &err);
+    ss_status st = ss_record_write(&(ss_record){ .signal = signal }, NULL, path, SS_H5, &err);
     assert_told(st, &err);
     if (st == SS_OK) {
         assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
@@ -174,7 +175,7 @@ paths_of_10000_letters_are_refused(void **state)
     ss_coefficients *c = NULL;
     ss_scene scene;
     (void)state;
-    assert_int_equal(ss_store_write(path, &(ss_record){ .signal = signal }, NULL), SS_OK);
+    assert_int_equal(ss_record_write(&(ss_record){ .signal = signal }, NULL, path, SS_H5, NULL), SS_OK);
     for (int i = 0; i < 2; i++) {
         ss_error err = new_error();
         assert_fails(ss_signal_load(&read, name[i], NULL, &err), &err);
@@ -182,7 +183,7 @@ paths_of_10000_letters_are_refused(void **state)
         assert_fails(ss_signal_load(&read, place, NULL, &err), &err);
         assert_fails(ss_store_read_coefficients(&c, name[i], &err), &err);
         assert_fails(ss_store_open_coefficients(&c, name[i], &err), &err);
-        assert_fails(ss_store_write(name[i], &(ss_record){ .signal = signal }, &err), &err);
+        assert_fails(ss_record_write(&(ss_record){ .signal = signal }, NULL, name[i], SS_H5, &err), &err);
         assert_fails(ss_scene_load(&scene, name[i], NULL, 0, &err), &err);
         assert_false(ss_store_is_hdf5(name[i]));
     }

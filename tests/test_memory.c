@@ -264,7 +264,7 @@ static ss_status
 write_streams(int variant)
 {
     rewind(scrap);
-    return ss_signal_write(signal, scrap, (ss_format)variant, NULL);
+    return ss_record_write(&(ss_record){ .signal = signal }, scrap, NULL, (ss_format)variant, NULL);
 }
 
 static ss_status
@@ -688,7 +688,7 @@ stores(int variant)
     char other[80];
     ss_record record = { signal, &event, 1, 1, variant == 0 ? coefficients : NULL };
     snprintf(other, sizeof other, "%s.new", path);
-    ss_status st = ss_store_write(other, &record, &err);
+    ss_status st = ss_record_write(&record, NULL, other, SS_H5, &err);
     if (st != SS_OK)
         assert_int_not_equal(access(other, F_OK), 0);
     unlink(other);
@@ -700,22 +700,23 @@ static ss_status
 store_pieces(int variant)
 {
     char other[80];
-    ss_store_writer *writer = NULL;
+    ss_writer *writer = NULL;
     ss_coefficients grid = *coefficients;
     size_t n = signal->n;
     snprintf(other, sizeof other, "%s.new", path);
     grid.n = variant == 0 ? n : 0;
-    ss_status st = ss_store_writer_new(&writer, other, signal->head, &grid, &err);
+    ss_status st = ss_writer_new(&writer, NULL, other, SS_H5, &(ss_contents){ signal->head, &grid, 0, grid.n },
+                                 &err);
     if (st == SS_OK)
         st = store_samples(writer, signal, 0, n, &err);
     for (size_t i = 0; st == SS_OK && i < grid.n_scales; i++)
-        st = ss_store_writer_rows(writer, &grid.scale[i], 0, grid.scale[i].n,
+        st = ss_writer_coefficients(writer, &grid.scale[i], 0, grid.scale[i].n,
                                   grid.w + 2 * grid.scale[i].offset, n, &err);
     if (st == SS_OK)
-        st = ss_store_writer_note(writer, "late", "note", &err);
+        st = ss_writer_note(writer, "late", "note", &err);
     if (st == SS_OK)
-        st = ss_store_writer_end(writer, n, &err);
-    ss_store_writer_free(writer);
+        st = ss_writer_end(writer, n, &err);
+    ss_writer_free(writer);
     if (st != SS_OK)
         assert_int_not_equal(access(other, F_OK), 0);
     unlink(other);
@@ -814,13 +815,13 @@ set_up(void **state)
         return -1;
     for (int i = 0; i < 2; i++) {
         FILE *out = fmemopen(text[i], sizeof text[i], "w");
-        if (ss_signal_write(signal, out, i == 0 ? SS_TSV : SS_AU, NULL) != SS_OK)
+        if (ss_record_write(&(ss_record){ .signal = signal }, out, NULL, i == 0 ? SS_TSV : SS_AU, NULL) != SS_OK)
             return -1;
         length[i] = (size_t)ftell(out);
         fclose(out);
     }
     FILE *out = fmemopen(coefficient_text, sizeof coefficient_text, "w");
-    if (ss_coefficients_write(coefficients, out, SS_TSV, NULL) != SS_OK)
+    if (ss_record_write(&(ss_record){ .coefficients = coefficients }, out, NULL, SS_TSV, NULL) != SS_OK)
         return -1;
     coefficient_length = (size_t)ftell(out);
     fclose(out);
@@ -834,7 +835,7 @@ set_up(void **state)
         return -1;
     fclose(out);
     ss_record record = { .signal = signal, .coefficients = coefficients };
-    return ss_store_write(path, &record, NULL) == SS_OK ? 0 : -1;
+    return ss_record_write(&record, NULL, path, SS_H5, NULL) == SS_OK ? 0 : -1;
 }
 
 static int

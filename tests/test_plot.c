@@ -130,7 +130,7 @@ read_thin(const ss_signal *signal, int xy, ss_plot_opts *opts)
     ss_reader *reader = NULL;
     ss_signal *thin = NULL;
     ss_error err = { 0 };
-    assert_int_equal(ss_signal_write(signal, file, SS_AU, NULL), SS_OK);
+    assert_int_equal(ss_record_write(&(ss_record){ .signal = signal }, file, NULL, SS_AU, NULL), SS_OK);
     rewind(file);
     assert_int_equal(ss_reader_new(&reader, file, "file", NULL, NULL), SS_OK);
     if (xy)

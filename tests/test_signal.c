@@ -1,4 +1,5 @@
 /* test_signal.c -- a signal in memory: its header, its columns and rows, its gaps. */
+#include <stickslip/store.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -145,12 +146,14 @@ writes_at_most_4096_notes(void **state)
         assert_int_equal(ss_header_note(head, key, "", NULL), SS_OK);
     }
     for (size_t i = 0; i < 2; i++) {
-        assert_int_equal(ss_writer_new(&writer, out, format[i], head, &err), SS_OK);
+        assert_int_equal(ss_writer_new(&writer, out, NULL, format[i], &(ss_contents){ .signal = head },
+                                       &err), SS_OK);
         ss_writer_free(writer);
     }
     ss_header_note(head, "one more", "", NULL);
     for (size_t i = 0; i < 2; i++) {
-        assert_int_equal(ss_writer_new(&writer, out, format[i], head, &err), SS_EDATA);
+        assert_int_equal(ss_writer_new(&writer, out, NULL, format[i], &(ss_contents){ .signal = head },
+                                       &err), SS_EDATA);
         assert_string_equal(err.text, "4097 notes: files have no more than 4096");
     }
     fclose(out);
@@ -181,7 +184,7 @@ read_again(const ss_signal *s, ss_format format)
     FILE *out = open_memstream(&text, &n);
     ss_signal *again;
     ss_error err = { 0 };
-    assert_int_equal(ss_signal_write(s, out, format, NULL), SS_OK);
+    assert_int_equal(ss_record_write(&(ss_record){ .signal = s }, out, NULL, format, NULL), SS_OK);
     fclose(out);
     if (read_bytes(&again, text, n, NULL, &err) != SS_OK)
         fail_msg("%s\n%s", err.text, text);

@@ -1,5 +1,6 @@
 /* test_signal_forms.c -- a signal comes back from each of its forms; malformed input is refused in
  * clear words. */
+#include <stickslip/store.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -22,8 +23,8 @@ au_is_not_written_where_it_would_not_be_read(void **state)
     for (int i = 0; i < CHANNELS; i++)
         ss_header_add_column(head, "a", NULL, NULL);
     FILE *f = tmpfile();
-    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head, NULL), SS_OK);
-    ss_writer_flush(writer, NULL);
+    assert_int_equal(ss_writer_new(&writer, f, NULL, SS_AU, &(ss_contents){ .signal = head }, NULL), SS_OK);
+    ss_writer_end(writer, 0, NULL);
     ss_writer_free(writer);
     rewind(f);
     assert_int_equal(ss_signal_read(&back, f, "in", NULL, NULL), SS_OK);
@@ -32,15 +33,15 @@ au_is_not_written_where_it_would_not_be_read(void **state)
     fclose(f);
     f = tmpfile();
     ss_header_add_column(head, "a", NULL, NULL);
-    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_new(&writer, f, NULL, SS_AU, &(ss_contents){ .signal = head }, NULL), SS_EINVAL);
     ss_header_free(head);
     ss_header_new(&head, 1, 0, NULL);
     ss_header_add_column(head, "a", NULL, NULL);
     memset(note, 'x', sizeof note - 1);
     ss_header_note(head, "long", note, NULL);
-    assert_int_equal(ss_writer_new(&writer, f, SS_AU, head, NULL), SS_EINVAL);
+    assert_int_equal(ss_writer_new(&writer, f, NULL, SS_AU, &(ss_contents){ .signal = head }, NULL), SS_EINVAL);
     assert_int_equal(ftell(f), 0);              /* nothing was written */
-    assert_int_equal(ss_writer_new(&writer, f, SS_TSV, head, NULL), SS_OK);
+    assert_int_equal(ss_writer_new(&writer, f, NULL, SS_TSV, &(ss_contents){ .signal = head }, NULL), SS_OK);
     ss_writer_free(writer);
     ss_header_free(head);
     fclose(f);
@@ -85,7 +86,7 @@ come_back_the_same(ss_format format, int has_time, size_t n)
     for (size_t i = 0; i < n * one->head->n_columns; i++)
         one->values[i] = hard[i % 10] * (i < 10 ? 1 : cos((double)i));
     FILE *f = tmpfile();
-    assert_int_equal(ss_signal_write(one, f, format, NULL), SS_OK);
+    assert_int_equal(ss_record_write(&(ss_record){ .signal = one }, f, NULL, format, NULL), SS_OK);
     rewind(f);
     if (ss_signal_read(&two, f, "in", NULL, &err) != SS_OK)
         fail_msg("%s", err.text);
@@ -146,7 +147,7 @@ reads_a_line_of_any_length(void **state)
     for (int i = 0; i < COLUMNS; i++)
         one->values[i] = 1. / (i + 3);
     FILE *f = tmpfile();
-    assert_int_equal(ss_signal_write(one, f, SS_TSV, NULL), SS_OK);
+    assert_int_equal(ss_record_write(&(ss_record){ .signal = one }, f, NULL, SS_TSV, NULL), SS_OK);
     rewind(f);
     assert_int_equal(ss_signal_read(&two, f, "in", NULL, &err), SS_OK);
     assert_int_equal(two->head->n_columns, COLUMNS);
@@ -207,7 +208,7 @@ reports_a_full_disk(void **state)
         skip();
     }
     assert_int_equal(ss_wave_new(&s, SS_SINE, &ss_wave_defaults, NULL), SS_OK);
-    assert_int_equal(ss_signal_write(s, out, SS_TSV, NULL), SS_EIO);
+    assert_int_equal(ss_record_write(&(ss_record){ .signal = s }, out, NULL, SS_TSV, NULL), SS_EIO);
     ss_signal_free(s);
     fclose(out);
 }

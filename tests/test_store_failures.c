@@ -13,17 +13,18 @@ a_file_that_is_not_brought_to_its_end_is_no_file(void **state)
         ss_signal *signal = new_signal(300);
         ss_coefficients *c = transform(signal, 1), grid = *c;
         const ss_scale *scale = c->scale;
-        ss_store_writer *writer = NULL;
+        ss_writer *writer = NULL;
         ss_error err = { 0 };
         grid.n = row % 2 ? c->n : 0;
-        assert_int_equal(ss_store_writer_new(&writer, path, signal->head, &grid, NULL), SS_OK);
+        assert_int_equal(ss_writer_new(&writer, NULL, path, SS_H5, &(ss_contents){ signal->head,
+                                       &grid, 0, grid.n }, NULL), SS_OK);
         ss_status st = store_samples(writer, signal, 0, 300, &err);
         assert_int_equal(st, SS_OK);
-        assert_int_equal(ss_store_writer_rows(writer, scale, 0, 200, c->w, 300, NULL), SS_OK);
+        assert_int_equal(ss_writer_coefficients(writer, scale, 0, 200, c->w, 300, NULL), SS_OK);
         if (row < 2)            /* a gap in the rows of a scale */
-            st = ss_store_writer_rows(writer, scale, 201, 99, c->w, 300, &err);
+            st = ss_writer_coefficients(writer, scale, 201, 99, c->w, 300, &err);
         else if (row < 4)       /* rows are missing */
-            st = ss_store_writer_end(writer, 300, &err);
+            st = ss_writer_end(writer, 300, &err);
         else if (row == 5)      /* a sample too many */
             st = store_samples(writer, signal, 0, 1, &err);
         assert_int_equal(st, row == 4 ? SS_OK : SS_EINVAL);
@@ -32,10 +33,10 @@ a_file_that_is_not_brought_to_its_end_is_no_file(void **state)
             strcpy(first, err.text);
             assert_true(first[0] != '\0');
             err.text[0] = '\0';
-            assert_int_equal(ss_store_writer_end(writer, 300, &err), SS_EINVAL);
+            assert_int_equal(ss_writer_end(writer, 300, &err), SS_EINVAL);
             assert_string_equal(err.text, first);
         }
-        ss_store_writer_free(writer);
+        ss_writer_free(writer);
         assert_int_equal(access(path, F_OK), -1);
         assert_int_equal(H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
         ss_coefficients_free(c);
@@ -56,7 +57,7 @@ a_write_that_fails_says_why_and_leaves_no_file(void **state)
         small = old;
         small.rlim_cur = limit;
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-        ss_status status = ss_store_write(path, &(ss_record){ .signal = signal }, &err);
+        ss_status status = ss_record_write(&(ss_record){ .signal = signal }, NULL, path, SS_H5, &err);
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
         assert_int_equal(status, SS_EIO);
         assert_non_null(strstr(err.text, path));
@@ -107,9 +108,9 @@ a_device_gets_a_copy(void **state)
     ss_error err = { 0 };
     (void)state;
     ss_signal *signal = new_signal(50);
-    assert_int_equal(ss_store_write("/dev/null", &(ss_record){ .signal = signal }, &err), SS_OK);
+    assert_int_equal(ss_record_write(&(ss_record){ .signal = signal }, NULL, "/dev/null", SS_H5, &err), SS_OK);
     if (access("/dev/full", W_OK) == 0) {
-        assert_int_equal(ss_store_write("/dev/full", &(ss_record){ .signal = signal }, &err),
+        assert_int_equal(ss_record_write(&(ss_record){ .signal = signal }, NULL, "/dev/full", SS_H5, &err),
                          SS_EIO);
         assert_string_equal(err.text, "/dev/full: No space left on device");
         assert_int_equal(access("/dev/full", F_OK), 0);
@@ -122,7 +123,7 @@ a_target_that_cannot_be_opened_says_why(void **state)
 {
     ss_error err = { 0 };
     (void)state;
-    assert_int_equal(ss_store_write("/nonexistent/run.h5", &(ss_record){ .has_events = 1 }, &err),
+    assert_int_equal(ss_record_write(&(ss_record){ .has_events = 1 }, NULL, "/nonexistent/run.h5", SS_H5, &err),
                      SS_EIO);
     assert_string_equal(err.text, "/nonexistent/run.h5: No such file or directory");
 }
@@ -150,7 +151,7 @@ hdf5_reports_nothing_and_is_left_as_it_was(void **state)
     fputs("\211HDF\r\n\032\n", damaged);
     fclose(damaged);
     assert_int_equal(ss_signal_load(&signal, path, NULL, NULL), SS_EDATA);
-    assert_int_equal(ss_store_write("/nonexistent/run.h5", &(ss_record){ .has_events = 1 }, NULL),
+    assert_int_equal(ss_record_write(&(ss_record){ .has_events = 1 }, NULL, "/nonexistent/run.h5", SS_H5, NULL),
                      SS_EIO);
     assert_int_equal(reports, 0);
     H5Eget_auto2(H5E_DEFAULT, &now, &user);

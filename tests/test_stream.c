@@ -1,5 +1,6 @@
 /* test_stream.c -- the transform of a stream against the sum in long double and against that of the
  * whole record, however its samples come. */
+#include <stickslip/store.h>
 #include <stdlib.h>
 #include <string.h>
 #include "fit/order.h"
@@ -499,7 +500,7 @@ sink_stops_the_stream(void **state)
 /* --- as files -------------------------------------------------------------------------------- */
 
 typedef struct file {
-    ss_coefficient_writer *writer;
+    ss_writer *writer;
     FILE *out;
 } file;
 
@@ -507,7 +508,7 @@ static int
 write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples,
            void *user)
 {
-    return ss_coefficient_writer_rows(((file *)user)->writer, scale, first, n, w, samples, NULL) != SS_OK;
+    return ss_writer_coefficients(((file *)user)->writer, scale, first, n, w, samples, NULL) != SS_OK;
 }
 
 /* A file of the coefficients of n samples as a stream, and those that the whole record gives. */
@@ -526,14 +527,15 @@ file_of_stream(size_t n, ss_format format, int dense, ss_coefficients **whole)
     assert_int_equal(ss_signal_new(&signal, head, n, NULL), SS_OK);
     make(NOISE, signal->values, n);
     assert_int_equal(ss_coefficients_header(&own, head, 0, 0, &opts, NULL), SS_OK);
-    assert_int_equal(ss_coefficient_writer_new(&f.writer, f.out, format, own, NULL), SS_OK);
+    assert_int_equal(ss_writer_new(&f.writer, f.out, NULL, format,
+                                   &(ss_contents){ .grid = &(ss_coefficients){ .head = own } }, NULL), SS_OK);
     assert_int_equal(ss_stream_new(&stream, 2000, &opts, write_rows, &f, NULL), SS_OK);
     feed(stream, signal->values, n, HURRIED);
-    assert_int_equal(ss_coefficient_writer_end(f.writer, n, NULL), SS_OK);
+    assert_int_equal(ss_writer_end(f.writer, n, NULL), SS_OK);
     opts.force = 1;
     opts.fmax = highest(2000, &opts);
     assert_int_equal(ss_morlet_transform(whole, signal, 0, &opts, NULL), SS_OK);
-    ss_coefficient_writer_free(f.writer);
+    ss_writer_free(f.writer);
     ss_stream_free(stream);
     ss_signal_free(signal);
     ss_header_free(own);
@@ -645,14 +647,15 @@ reads_back_the_events_that_it_writes(void **state)
     FILE *text = tmpfile();
     ss_header *head = NULL;
     assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
-    ss_event_writer *writer = NULL;
+    ss_writer *writer = NULL;
     (void)state;
     assert_int_equal(ss_header_note(head, "scene", "mine", NULL), SS_OK);
-    assert_int_equal(ss_event_writer_new(&writer, text, SS_TSV, head, NULL), SS_OK);
+    assert_int_equal(ss_writer_new(&writer, text, NULL, SS_TSV,
+                                   &(ss_contents){ .signal = head, .events = 1 }, NULL), SS_OK);
     for (size_t i = 0; i < 2; i++)
-        assert_int_equal(ss_event_writer_row(writer, &event[i], NULL), SS_OK);
-    assert_int_equal(ss_event_writer_flush(writer, NULL), SS_OK);
-    ss_event_writer_free(writer);
+        assert_int_equal(ss_writer_events(writer, &event[i], 1, NULL), SS_OK);
+    assert_int_equal(ss_writer_end(writer, 0, NULL), SS_OK);
+    ss_writer_free(writer);
     ss_table *t = read_table(text, SS_KIND_EVENTS);
     assert_int_equal(t->n, 2);
     assert_int_equal(t->n_columns, 5);

@@ -26,7 +26,7 @@ write_again(const ss_coefficients *c, job *j)
 {
     ss_coefficients *back = NULL;
     FILE *out = open_memstream(&j->text, &j->length);
-    ss_status st = ss_coefficients_write(c, out, SS_TSV, NULL);
+    ss_status st = ss_record_write(&(ss_record){ .coefficients = c }, out, NULL, SS_TSV, NULL);
     fclose(out);
     FILE *in = fmemopen(j->text, j->length, "r");
     if (st == SS_OK)
@@ -35,7 +35,7 @@ write_again(const ss_coefficients *c, job *j)
     free(j->text);
     out = open_memstream(&j->text, &j->length);
     if (st == SS_OK)
-        st = ss_coefficients_write(back, out, SS_TSV, NULL);
+        st = ss_record_write(&(ss_record){ .coefficients = back }, out, NULL, SS_TSV, NULL);
     fclose(out);
     ss_coefficients_free(back);
     return st;

@@ -108,7 +108,7 @@ enum {
     TOOL_SIGNALS = TOOL_NUMBERS | 1 << TOOL_H5
 };
 
-/* The format of a kind that is a stream. */
+/* The format of a kind that is a stream or HDF5. */
 ss_format tool_stream(tool_kind kind);
 /* The kind of path's ending, among those allowed, else wrong usage that
  * names them; standard output (NULL or "-") has the fallback. */
@@ -127,17 +127,14 @@ FILE *tool_output_kept(const char *path);
 /* Continue to write at this offset, and remove the rest of the file. */
 void tool_cut(FILE *out, long offset);
 
-/* Write a whole signal to the output that -o names, as .tsv, .au or .h5, or die. */
-void tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind);
-
-/* The same for a signal that comes in pieces, in constant memory; its header is copied.  The first
- * rows open the file.  A note that is known at the end is left
- * out by AU and CSV.  The functions die if they fail; end frees. */
-typedef struct tool_signal tool_signal;
-tool_signal *tool_signal_new(const ss_header *head, const char *path, tool_kind kind);
-void tool_signal_rows(tool_signal *signal, double *const column[], size_t n);
-void tool_signal_note(tool_signal *signal, const char *key, const char *value);
-void tool_signal_end(tool_signal *signal);
+/* Begin to write to the output that -o names, as .h5 or a stream, or die. */
+ss_writer *tool_writer(const char *path, tool_kind kind, const ss_contents *contents);
+/* Append rows, which leave the tool at once, or die. */
+void tool_write_rows(ss_writer *writer, double *const column[], size_t n);
+/* Complete the file and free the writer, or die. */
+void tool_write_end(ss_writer *writer, size_t samples);
+/* All of this for a signal in memory. */
+void tool_write(const ss_signal *signal, const char *path, tool_kind kind);
 
 /* Call before work for tool_draw with the path after -o: dies if a script would go to a terminal unasked. */
 void tool_script_to(const char *path);

@@ -16,7 +16,7 @@ static const char *const ending[] = { "h5", "gp", "png", "svg", "pdf", "eps" };
 ss_format
 tool_stream(tool_kind kind)
 {
-    return (ss_format)(kind - TOOL_STREAM);
+    return kind == TOOL_H5 ? SS_H5 : (ss_format)(kind - TOOL_STREAM);
 }
 
 static int
@@ -73,132 +73,43 @@ tool_set_format_of_words(const tool_option *o, char *text)
     set_format(o, text, 1);
 }
 
-void
-tool_write_signal(const ss_signal *signal, const char *path, tool_kind kind)
+/* --- files of signals, coefficients and events ------------------------------------------------ */
+
+ss_writer *
+tool_writer(const char *path, tool_kind kind, const ss_contents *contents)
 {
+    ss_writer *writer;
     ss_error err = { 0 };
-    if (kind == TOOL_H5)
-        tool_check(ss_store_write(tool_output_path(path), &(ss_record){ .signal = signal }, &err),
-                   &err);
-    else
-        tool_check(ss_signal_write(signal, tool_output(path), tool_stream(kind), &err), &err);
-}
-
-/* --- a signal as it comes -------------------------------------------------------------------- */
-
-enum { WHOLE = 1 << 20 };       /* a signal of at most so many values goes into HDF5 in one piece */
-
-struct tool_signal {
-    ss_header *head;
-    const char *path;
-    tool_kind kind;
-    FILE *out;
-    ss_writer *writer;          /* NULL before the first rows, and for HDF5 */
-    ss_store_writer *store;     /* NULL as long as all rows are kept */
-    double **kept;
-    size_t n;                   /* rows so far */
-};
-
-tool_signal *
-tool_signal_new(const ss_header *head, const char *path, tool_kind kind)
-{
-    tool_signal *s = calloc(1, sizeof *s);
-    if (s == NULL || ss_header_copy(&s->head, head, NULL) != SS_OK)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    s->path = path;
-    s->kind = kind;
-    if (kind == TOOL_H5)
-        s->kept = tool_columns(head->n_columns, WHOLE / (head->n_columns + 1) + 1);
-    return s;
-}
-
-static void
-begin_stream(tool_signal *s)
-{
-    ss_error err = { 0 };
-    s->out = tool_output(s->path);
-    tool_check(ss_writer_new(&s->writer, s->out, tool_stream(s->kind), s->head, &err), &err);
-}
-
-/* Keep the rows.  Returns 0 if they become too many. */
-static int
-keep_rows(tool_signal *s, double *const column[], size_t n)
-{
-    size_t columns = s->head->n_columns;
-    if (s->store != NULL || s->n + n > WHOLE / (columns + 1))
-        return 0;
-    for (size_t c = 0; c < columns; c++)
-        memcpy(s->kept[c] + s->n, column[c], n * sizeof *column[c]);
-    return 1;
-}
-
-static void
-store_rows(tool_signal *s, double *const column[], size_t n)
-{
-    ss_error err = { 0 };
-    if (s->store == NULL) {
-        tool_check(ss_store_writer_new(&s->store, tool_output_path(s->path), s->head, NULL, &err), &err);
-        tool_check(ss_store_writer_signal(s->store, s->kept, s->n, &err), &err);
-    }
-    tool_check(ss_store_writer_signal(s->store, column, n, &err), &err);
+    const char *hdf5 = kind == TOOL_H5 ? tool_output_path(path) : NULL;
+    FILE *out = hdf5 == NULL ? tool_output(path) : NULL;
+    tool_check(ss_writer_new(&writer, out, hdf5, tool_stream(kind), contents, &err), &err);
+    return writer;
 }
 
 void
-tool_signal_rows(tool_signal *s, double *const column[], size_t n)
+tool_write(const ss_signal *signal, const char *path, tool_kind kind)
 {
     ss_error err = { 0 };
-    if (s->kind == TOOL_H5) {
-        if (!keep_rows(s, column, n))
-            store_rows(s, column, n);
-        s->n += n;
-        return;
-    }
-    if (s->writer == NULL)
-        begin_stream(s);
-    tool_check(ss_writer_rows(s->writer, column, n, &err), &err);
-    tool_check(ss_writer_flush(s->writer, &err), &err);
+    const char *hdf5 = kind == TOOL_H5 ? tool_output_path(path) : NULL;
+    FILE *out = hdf5 == NULL ? tool_output(path) : NULL;
+    tool_check(ss_record_write(&(ss_record){ .signal = signal }, out, hdf5, tool_stream(kind), &err), &err);
 }
 
 void
-tool_signal_note(tool_signal *s, const char *key, const char *value)
+tool_write_rows(ss_writer *writer, double *const column[], size_t n)
 {
     ss_error err = { 0 };
-    if (s->store != NULL)
-        tool_check(ss_store_writer_note(s->store, key, value, &err), &err);
-    else if (s->writer == NULL)
-        tool_check(ss_header_note(s->head, key, value, NULL), NULL);
-    else if (s->kind == TOOL_TSV)
-        fprintf(s->out, "# %s: %s\n", key, value);
-}
-
-/* Store all rows that were kept. */
-static void
-store_whole(const tool_signal *s)
-{
-    ss_signal *signal;
-    size_t columns = s->head->n_columns;
-    tool_check(ss_signal_new(&signal, s->head, s->n, NULL), NULL);
-    for (size_t c = 0; c < columns; c++)
-        memcpy(signal->values + c * s->n, s->kept[c], s->n * sizeof *signal->values);
-    tool_write_signal(signal, s->path, s->kind);
-    ss_signal_free(signal);
+    tool_check(ss_writer_rows(writer, column, n, &err), &err);
+    if (fflush(NULL) != 0)
+        tool_check(SS_EIO, NULL);
 }
 
 void
-tool_signal_end(tool_signal *s)
+tool_write_end(ss_writer *writer, size_t samples)
 {
     ss_error err = { 0 };
-    if (s->store != NULL)
-        tool_check(ss_store_writer_end(s->store, s->n, &err), &err);
-    else if (s->kind == TOOL_H5)
-        store_whole(s);
-    else if (s->writer == NULL)
-        begin_stream(s);
-    ss_store_writer_free(s->store);
-    ss_writer_free(s->writer);
-    ss_header_free(s->head);
-    free(s->kept);
-    free(s);
+    tool_check(ss_writer_end(writer, samples, &err), &err);
+    ss_writer_free(writer);
 }
 
 /* --- gnuplot ------------------------------------------------------------------------------- */

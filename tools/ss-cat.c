@@ -56,16 +56,17 @@ copy_rows(tool_kind kind, const ss_read_opts *opts)
     ss_reader *reader = tool_read_rows(path, opts);
     const ss_header *head = ss_reader_header(reader);
     ss_header *chosen;
-    size_t n, got, *column = choose_columns(head, &n), piece = ss_reader_piece(reader);
+    size_t n, got, all = 0, *column = choose_columns(head, &n), piece = ss_reader_piece(reader);
     double **from = tool_columns(head->n_columns, piece), **to = tool_room(NULL, n + 1, sizeof *to);
     for (size_t i = 0; i < n; i++)
         to[i] = from[column[i]];
     say_header(head);
     tool_check(ss_header_select(&chosen, head, column, n, 0, NULL), NULL);
-    tool_signal *out = tool_signal_new(chosen, output, kind);
-    while ((got = tool_rows(reader, from, piece)) > 0)
-        tool_signal_rows(out, to, got);
-    tool_signal_end(out);
+    got = tool_rows(reader, from, piece);       /* if this fails, nothing is written */
+    ss_writer *out = tool_writer(output, kind, &(ss_contents){ .signal = chosen });
+    for (; got > 0; all += got, got = tool_rows(reader, from, piece))
+        tool_write_rows(out, to, got);
+    tool_write_end(out, all);
     ss_header_free(chosen);
     ss_reader_free(reader);
     free(column);

@@ -149,21 +149,11 @@ read_wisdom(const char *path)
     fclose(in);
 }
 
-static void
-check_written(ss_status status, const ss_error *err)
-{
-    if (status == SS_EIO || status == SS_STOP)
-        tool_end();                     /* it writes the reason */
-    tool_check(status, err);
-}
-
 /* --- output as it comes ----------------------------------------------------------------------- */
 
 typedef struct flow {
-    ss_coefficient_writer *text;        /* or AU; NULL for HDF5 */
-    ss_store_writer *store;
-    FILE *out;
-    ss_error error;                     /* of the store */
+    ss_writer *writer;
+    ss_error error;                     /* of the writer */
     size_t coefficients;
     double seconds;                     /* spent on writing */
     double *w;                          /* all coefficients, for --check; or NULL */
@@ -172,16 +162,11 @@ typedef struct flow {
 
 /* Write coefficients of one scale: the sink of both ways to transform. */
 static int
-write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples,
-           void *user)
+write_coefficients(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
 {
     flow *f = user;
     double begin = now();
-    ss_status st;
-    if (f->store != NULL)
-        st = ss_store_writer_rows(f->store, scale, first, n, w, samples, &f->error);
-    else
-        st = ss_coefficient_writer_rows(f->text, scale, first, n, w, samples, &f->error);
+    ss_status st = ss_writer_coefficients(f->writer, scale, first, n, w, samples, &f->error);
     if (f->w != NULL)
         memcpy(f->w + 2 * f->coefficients, w, 2 * n * sizeof *w);
     f->coefficients += n;
@@ -189,55 +174,27 @@ write_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_
     return st != SS_OK;
 }
 
-static void
-store_samples(flow *f, double *const column[], size_t n)
-{
-    if (f->store != NULL)
-        tool_check(ss_store_writer_signal(f->store, column, n, &f->error), &f->error);
-}
-
 /* Open the output for n samples on this grid; n is 0 if their number is not known yet. */
 static void
-open_output(flow *f, const request *req, const ss_header *signal, size_t column, size_t n,
-            const ss_scale *scale, size_t n_scales)
+open_output(flow *f, const request *req, const ss_header *signal, size_t column, size_t n, const ss_grid *on)
 {
     ss_header *head;
     tool_check(ss_coefficients_header(&head, signal, column, n, &req->opts, &f->error), &f->error);
-    if (req->kind == TOOL_H5) {
-        const ss_coefficients grid = { .head = head, .n = n, .center = req->opts.center,
-                                       .n_scales = n_scales, .scale = (ss_scale *)scale };
-        tool_check(ss_store_writer_new(&f->store, tool_output_path(req->output), signal, &grid,
-                                       &f->error), &f->error);
-    } else {
-        f->out = tool_output(req->output);
-        check_written(ss_coefficient_writer_new(&f->text, f->out, tool_stream(req->kind), head, &f->error),
-                      &f->error);
-    }
+    const ss_coefficients grid = { .head = head, .n = n, .center = req->opts.center, .n_scales = on->n_scales,
+                                   .scale = (ss_scale *)on->scale };
+    f->writer = tool_writer(req->output, req->kind, &(ss_contents){ signal, &grid, 0, n });
     ss_header_free(head);
 }
 
-/* Die if the transform has failed, because of the output or of the library. */
+/* Die if the transform has failed, because of the output or of the library; rows that are written stay. */
 static void
 check_flow(const flow *f, ss_status status, const ss_error *err, const char *path)
 {
-    if (status != SS_OK && status != SS_STOP && f->out != NULL)
-        fflush(f->out);                 /* rows that are written stay */
-    if (status == SS_STOP && f->store != NULL)
-        tool_check(SS_EIO, &f->error);
     if (status == SS_STOP)
-        check_written(status, NULL);
+        tool_check(SS_EIO, &f->error);
+    if (status != SS_OK)
+        fflush(NULL);
     check(status, err, path);
-}
-
-static void
-close_output(flow *f, size_t samples)
-{
-    if (f->store != NULL)
-        tool_check(ss_store_writer_end(f->store, samples, &f->error), &f->error);
-    else
-        check_written(ss_coefficient_writer_end(f->text, samples, NULL), NULL);
-    ss_store_writer_free(f->store);
-    ss_coefficient_writer_free(f->text);
 }
 
 /* --- a record that is there --------------------------------------------------------------------- */
@@ -268,7 +225,7 @@ say_what_was_done(const ss_morlet *plan, size_t n, double seconds)
 static void
 transform_whole(const request *req, const char *path)
 {
-    flow f = { .text = NULL };
+    flow f = { .writer = NULL };
     ss_morlet *plan = NULL;
     ss_error err = { 0 };
     ss_read_opts reading = req->reading.opts;
@@ -282,18 +239,17 @@ transform_whole(const request *req, const char *path)
     check(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err), &err, path);
     if (req->check)
         f.w = tool_room(NULL, 2 * ss_morlet_grid(plan)->total, sizeof *f.w);
-    open_output(&f, req, signal->head, column, signal->n, ss_morlet_grid(plan)->scale,
-                ss_morlet_grid(plan)->n_scales);
+    open_output(&f, req, signal->head, column, signal->n, ss_morlet_grid(plan));
     double **all = tool_room(NULL, signal->head->n_columns, sizeof *all);
     for (size_t c = 0; c < signal->head->n_columns; c++)
         all[c] = signal->values + c * signal->n;
-    store_samples(&f, all, signal->n);
+    tool_check(ss_writer_rows(f.writer, all, signal->n, &err), &err);
     free(all);
-    check_flow(&f, ss_morlet_each(plan, x, write_rows, &f, &err), &err, path);
+    check_flow(&f, ss_morlet_each(plan, x, write_coefficients, &f, &err), &err, path);
     say_what_was_done(plan, signal->n, now() - begin - f.seconds);
     if (req->check)
         compare(plan, x, f.w, path);
-    close_output(&f, signal->n);
+    tool_write_end(f.writer, signal->n);
     free(f.w);
     ss_morlet_free(plan);
     ss_signal_free(signal);
@@ -312,7 +268,7 @@ invert(const request *req, const char *path)
           path);
     tool_note("%zu samples, error about %.2g between %.4g and %.4g Hz", signal->n, error,
               coef->scale[0].f, coef->scale[coef->n_scales - 1].f);
-    tool_write_signal(signal, req->output, req->kind);
+    tool_write(signal, req->output, req->kind);
     ss_signal_free(signal);
     ss_coefficients_free(coef);
 }
@@ -335,17 +291,6 @@ push_samples(flow *f, const double *x, size_t n, const request *req, const char 
     }
 }
 
-/* Push a column of n rows; n may be 0.  The first call opens the output. */
-static void
-push_rows(flow *f, double *const x[], size_t n, const ss_header *head, size_t column, const request *req,
-          const char *path)
-{
-    if (f->text == NULL && f->store == NULL)
-        open_output(f, req, head, column, 0, ss_stream_grid(f->stream)->scale, ss_stream_grid(f->stream)->n_scales);
-    store_samples(f, x, n);
-    push_samples(f, x[column], n, req, path);
-}
-
 /* Push samples as they come, until there are no more. */
 static void
 follow(flow *f, ss_reader *reader, size_t column, const request *req, const char *path)
@@ -359,11 +304,14 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
         all += n;
         if (all == 0)                   /* then nothing is written */
             tool_check(st, &bad);
-        push_rows(f, x, n, head, column, req, path);
+        if (f->writer == NULL)
+            open_output(f, req, head, column, 0, ss_stream_grid(f->stream));
+        tool_check(ss_writer_rows(f->writer, x, n, &err), &err);
+        push_samples(f, x[column], n, req, path);
         if (st != SS_OK)                /* coefficients that are complete before bad data are written */
             check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
-        if (f->out != NULL && (st != SS_OK || ss_reader_waits(reader)) && fflush(f->out) != 0)
-            check_written(SS_EIO, NULL);
+        if ((st != SS_OK || ss_reader_waits(reader)) && fflush(NULL) != 0)
+            tool_check(SS_EIO, NULL);
         tool_check(st, &bad);
     } while (n > 0 && !tool_stopping());
     free(x);
@@ -375,7 +323,7 @@ close_flow(flow *f, const char *path)
     ss_error err = { 0 };
     size_t scales = ss_stream_grid(f->stream)->n_scales;
     check_flow(f, ss_stream_end(f->stream, &err), &err, path);
-    close_output(f, ss_stream_samples(f->stream));
+    tool_write_end(f->writer, ss_stream_samples(f->stream));
     tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
               ss_stream_samples(f->stream), scales, ss_stream_grid(f->stream)->scale[0].f,
               ss_stream_grid(f->stream)->scale[scales - 1].f);
@@ -387,13 +335,13 @@ close_flow(flow *f, const char *path)
 static void
 transform_stream(const request *req, const char *path)
 {
-    flow f = { .text = NULL };
+    flow f = { .writer = NULL };
     ss_error err = { 0 };
     ss_reader *reader = tool_read_rows(path, &req->reading.opts);
     const ss_header *head = ss_reader_header(reader);
     size_t column = tool_column(head, path, req->column);
     tool_end_at_rows(req->output);
-    check(ss_stream_new(&f.stream, head->rate, &req->opts, write_rows, &f, &err), &err, path);
+    check(ss_stream_new(&f.stream, head->rate, &req->opts, write_coefficients, &f, &err), &err, path);
     follow(&f, reader, column, req, path);
     close_flow(&f, path);
     ss_reader_free(reader);

@@ -121,7 +121,7 @@ add_band(tool_kind kind, ss_noise *noise)
     add_notes(signal->head);
     if (note_clipped(text, sizeof text))
         tool_check(ss_header_note(signal->head, "clipped", text, NULL), NULL);
-    tool_write_signal(signal, output, kind);
+    tool_write(signal, output, kind);
     ss_signal_free(signal);
     free(chosen);
 }
@@ -154,7 +154,7 @@ static void
 change_rows(tool_kind kind, ss_noise *noise)
 {
     ss_reader *reader = tool_read_rows(path, &reading.opts);
-    size_t n;
+    size_t n, all = 0;
     char text[128];
     ss_error err = { 0 };
     if (!isnan(snr))
@@ -166,17 +166,18 @@ change_rows(tool_kind kind, ss_noise *noise)
     size_t columns = head->n_columns, piece = ss_reader_piece(reader);
     double **x = tool_columns(columns, piece), *chosen = choose_columns(head), *level = find_levels(reader, chosen, x);
     add_notes(head);
-    tool_signal *out = tool_signal_new(head, output, kind);
-    while ((n = tool_rows(reader, x, piece)) > 0) {
+    n = tool_rows(reader, x, piece);            /* if this fails, nothing is written */
+    ss_writer *out = tool_writer(output, kind, &(ss_contents){ .signal = head });
+    for (; n > 0; all += n, n = tool_rows(reader, x, piece)) {
         tool_check(ss_noise_add(noise, x, columns, n, level, &err), &err);
         for (size_t c = 0; c < columns && bits > 0; c++)
             if (chosen[c] == 1)
                 convert(x[c], n);
-        tool_signal_rows(out, x, n);
+        tool_write_rows(out, x, n);
     }
     if (note_clipped(text, sizeof text))
-        tool_signal_note(out, "clipped", text);
-    tool_signal_end(out);
+        tool_check(ss_writer_note(out, "clipped", text, &err), &err);
+    tool_write_end(out, all);
     ss_header_free(head);
     ss_reader_free(reader);
     free(x);

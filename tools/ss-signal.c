@@ -93,7 +93,7 @@ main(int argc, char *argv[])
 
     tool_check(ss_wave_new(&signal, wave, &opts, &err), &err);
     tool_note("%s: %zu sample%s", kinds[wave], signal->n, tool_s(signal->n));
-    tool_write_signal(signal, output, kind);
+    tool_write(signal, output, kind);
     ss_signal_free(signal);
     tool_end();
     return 0;

@@ -40,27 +40,21 @@ typedef struct request {
     ss_sim_opts opts;
 } request;
 
-/* The output of the sinks: a stream, begun with the first sample or event, so that a run that fails
- * at once writes nothing; or a record to fill. */
+/* The output of the sinks, begun with the first sample or event, so that a run that fails at once writes
+ * nothing. */
 typedef struct output {
     const request *req;
-    ss_header *head;
-    ss_event_writer *event_writer;      /* of events as text */
-    ss_writer *writer;                  /* samples as a stream */
-    ss_signal *signal;                  /* for HDF5 */
-    size_t n_samples;
-    ss_event *events;
-    size_t n_events, room;
+    ss_contents contents;
+    ss_writer *writer;
+    size_t samples;
+    ss_error error;
 } output;
 
 static void
-begin_samples(output *o)
+begin(output *o)
 {
-    ss_format format = tool_stream(o->req->kind);
-    ss_error err = { 0 };
     if (o->writer == NULL)
-        tool_check(ss_writer_new(&o->writer, tool_output(o->req->path), format, o->head, &err),
-                   &err);
+        o->writer = tool_writer(o->req->path, o->req->kind, &o->contents);
 }
 
 /* Rows are written a block at a time: row by row, a writer would spend a twentieth of the tool's time on
@@ -73,40 +67,18 @@ stream_samples(const ss_sample *s, size_t n, void *user)
     output *o = user;
     size_t columns = o->req->columns.n, rows;
     double block[SS_SIM_COLUMNS][BLOCK], row[SS_SIM_COLUMNS], *column[SS_SIM_COLUMNS];
-    begin_samples(o);
+    begin(o);
     for (size_t c = 0; c < columns; c++)
         column[c] = block[c];
-    for (; n > 0; s += rows, n -= rows) {
+    for (o->samples += n; n > 0; s += rows, n -= rows) {
         rows = n < BLOCK ? n : BLOCK;
         for (size_t i = 0; i < rows; i++) {
             ss_sim_row(&o->req->columns, &s[i], row);
             for (size_t c = 0; c < columns; c++)
                 block[c][i] = row[c];
         }
-        if (tool_stopping() || ss_writer_rows(o->writer, column, rows, NULL) != SS_OK)
+        if (tool_stopping() || ss_writer_rows(o->writer, column, rows, &o->error) != SS_OK)
             return 1;
-    }
-    return 0;
-}
-
-static void
-begin_events(output *o)
-{
-    ss_error err = { 0 };
-    if (o->event_writer == NULL)
-        tool_check(ss_event_writer_new(&o->event_writer, tool_output(o->req->path),
-                                       tool_stream(o->req->kind), o->head, &err), &err);
-}
-
-static int
-keep_samples(const ss_sample *s, size_t n, void *user)
-{
-    output *o = user;
-    double row[SS_SIM_COLUMNS];
-    for (size_t i = 0; i < n; i++, o->n_samples++) {
-        ss_sim_row(&o->req->columns, &s[i], row);
-        for (size_t c = 0; c < o->req->columns.n; c++)
-            o->signal->values[c * o->signal->n + o->n_samples] = row[c];
     }
     return 0;
 }
@@ -115,20 +87,8 @@ static int
 stream_event(const ss_event *e, void *user)
 {
     output *o = user;
-    begin_events(o);
-    return ss_event_writer_row(o->event_writer, e, NULL) != SS_OK;
-}
-
-static int
-keep_event(const ss_event *e, void *user)
-{
-    output *o = user;
-    if (o->n_events == o->room) {
-        o->room = o->room > 0 ? 2 * o->room : 64;
-        o->events = tool_room(o->events, o->room, sizeof *o->events);
-    }
-    o->events[o->n_events++] = *e;
-    return 0;
+    begin(o);
+    return ss_writer_events(o->writer, e, 1, &o->error) != SS_OK;
 }
 
 static void
@@ -279,45 +239,20 @@ simulate(request *req, const ss_scene *scene, output *o)
     ss_sim_stats stats = { 0 };
     ss_error err = { 0 };
     req->opts.user = req->opts.progress.user = o;
-    if (req->kind == TOOL_H5)
-        tool_check(ss_signal_new(&o->signal, o->head, ss_scene_samples(scene), NULL), NULL);
-    if (req->events || req->kind == TOOL_H5)
-        req->opts.events = req->events ? stream_event : keep_event;
+    if (o->contents.events)
+        req->opts.events = stream_event;
     if (!req->events)
-        req->opts.samples = req->kind == TOOL_H5 ? keep_samples : stream_samples;
+        req->opts.samples = stream_samples;
     tool_end_at_rows(req->path);
     ss_status st = ss_sim_run(scene, &req->opts, &stats, &err);
     if (st == SS_STOP && !tool_stopping())
-        tool_die("write error: %s", strerror(errno));
+        tool_check(SS_EIO, &o->error);
     tool_check(st, &err);
     tool_note("%s at tol %g: steps: %lu, right-hand sides: %lu, events: %lu", req->opts.method,
               req->opts.tol, stats.steps, stats.rhs, stats.events);
     if (stats.unresolved > 0 && req->accuracy == 0)     /* an accuracy was checked by two methods */
         tool_warn("slips and touches of the limit smaller than the error of x: %lu; x is right, "
                   "their number and times are not resolved", stats.unresolved);
-}
-
-/* Write what is left of the output. */
-static void
-finish(output *o, int has_events)
-{
-    ss_error err = { 0 };
-    if (o->signal != NULL) {
-        ss_record record = { .signal = o->signal, .events = o->events, .n_events = o->n_events,
-                             .has_events = has_events };
-        tool_check(ss_store_write(tool_output_path(o->req->path), &record, &err), &err);
-    } else if (o->req->events) {
-        begin_events(o);
-        tool_check(ss_event_writer_flush(o->event_writer, &err), &err);
-    } else {
-        begin_samples(o);
-        tool_check(ss_writer_flush(o->writer, &err), &err);
-    }
-    ss_writer_free(o->writer);
-    ss_event_writer_free(o->event_writer);
-    ss_signal_free(o->signal);
-    ss_header_free(o->head);
-    free(o->events);
 }
 
 int
@@ -341,12 +276,18 @@ main(int argc, char *argv[])
     check_samples(&req, &scene);
     set_method(&req.opts, &scene, req.accuracy);
     ss_error err = { 0 };
-    tool_check(ss_sim_header(&o.head, &scene, &req.columns, &err), &err);
-    note_origin(o.head, &req);
-    if (req.events && !ss_model_has_events(scene.model))
+    ss_header *head;
+    int has_events = ss_model_has_events(scene.model);
+    tool_check(ss_sim_header(&head, &scene, &req.columns, &err), &err);
+    note_origin(head, &req);
+    if (req.events && !has_events)
         tool_warn("the %s model has no events", ss_model_name(scene.model));
+    o.contents = (ss_contents){ .signal = head, .n = ss_scene_samples(&scene),
+                                .events = req.kind == TOOL_H5 ? has_events : req.events };
     simulate(&req, &scene, &o);
-    finish(&o, ss_model_has_events(scene.model));
+    begin(&o);
+    tool_write_end(o.writer, o.samples);
+    ss_header_free(head);
     free(req.settings.text);
     tool_end();
     return 0;

@@ -238,8 +238,6 @@ struct ss_coefficients {
  * ss_coefficients_free. */
 ss_status ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
                        const ss_morlet_opts *opts, ss_error *err);
-ss_status ss_coefficients_write(const ss_coefficients *coefficients, FILE *out, ss_format format,
-                                ss_error *err);
 /* Read text or AU, told apart by the first bytes, of a record or of a stream that has ended.  The
  * reader may read more of in than it needs, and nothing may have been read from a pipe before. */
 ss_status ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err);
@@ -273,18 +271,6 @@ ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients
  * number of samples is not known yet, and the end of the text will give it. */
 ss_status ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
                                  const ss_morlet_opts *opts, ss_error *err);
-/* A writer of coefficients as they arrive.  The caller keeps and closes out. */
-typedef struct ss_coefficient_writer ss_coefficient_writer;
-ss_status ss_coefficient_writer_new(ss_coefficient_writer **out_writer, FILE *out, ss_format format,
-                                    const ss_header *head, ss_error *err);
-/* Append coefficients; the arguments are those of an ss_coefficient_sink.  SS_EIO: out refuses them. */
-ss_status ss_coefficient_writer_rows(ss_coefficient_writer *writer, const ss_scale *scale,
-                                     size_t first, size_t n, const double *w, size_t samples,
-                                     ss_error *err);
-/* End the text of a record of so many samples, and flush out. */
-ss_status ss_coefficient_writer_end(ss_coefficient_writer *writer, size_t samples, ss_error *err);
-void ss_coefficient_writer_free(ss_coefficient_writer *writer);     /* NULL is allowed */
-
 /* The largest |W| outside the cone of influence (or of all, if all lie inside): 0 dB of the contours.
  * NaN if they cannot be read. */
 double ss_coefficients_max(const ss_coefficients *coefficients);

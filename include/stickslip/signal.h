@@ -184,37 +184,22 @@ ss_status ss_signal_select(ss_signal **out, const ss_signal *signal, const size_
                            size_t n_columns, size_t first, size_t end, ss_error *err);
 void ss_signal_free(ss_signal *signal);         /* NULL is allowed */
 
-/* --- writing ------------------------------------------------------------------------------- */
+/* --- formats --------------------------------------------------------------------------------- */
 
 typedef enum ss_format {
     SS_TSV,                     /* text with tabs, of the fewest digits that give the same double */
     SS_AU,                      /* Sun AU with 64-bit floats and the header as its annotation */
-    SS_CSV                      /* for other programs: a line of names, then rows with commas */
+    SS_CSV,                     /* for other programs: a line of names, then rows with commas */
+    SS_H5                       /* HDF5, which is no stream: see stickslip/store.h */
 } ss_format;
 
-/* The name of the i-th format that can be written, which is also the ending of its files: "tsv",
+/* The name of the i-th format in which streams can be written, which is also the ending of its files: "tsv",
  * "au", "csv"; NULL after the last. */
 const char *ss_format_name(size_t i);
 /* If a format of this name can be written, return 1 and store it in *found; else return 0. */
 int ss_format_find(ss_format *found, const char *name);
 /* 1 if the format holds words, 0 if it holds only numbers or cannot be written. */
 int ss_format_has_words(ss_format format);
-
-typedef struct ss_writer ss_writer;
-
-/* Start a stream on out with its header; head is copied.  The caller keeps and closes out.
- * SS_EINVAL: AU allows no more than 4096 columns and a header of 1 MiB. */
-ss_status ss_writer_new(ss_writer **out_writer, FILE *out, ss_format format, const ss_header *head,
-                        ss_error *err);
-/* Append n rows, whose values in column c are column[c][0] ... column[c][n - 1].  SS_EIO: out refuses
- * them. */
-ss_status ss_writer_rows(ss_writer *writer, double *const column[], size_t n, ss_error *err);
-/* Flush out.  SS_EIO: this or an earlier write failed. */
-ss_status ss_writer_flush(ss_writer *writer, ss_error *err);
-void ss_writer_free(ss_writer *writer);         /* NULL is allowed; does not flush */
-
-/* The simple case: write a whole signal. */
-ss_status ss_signal_write(const ss_signal *signal, FILE *out, ss_format format, ss_error *err);
 
 /* Copy a signal to another rate [Hz], by the cubic spline through each column; a long signal is
  * interpolated part by part, which is as exact.  Frequencies above

@@ -75,18 +75,5 @@ const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL
  * series; else rk8pd.  *why, unless why is NULL, becomes the reason in words. */
 const char *ss_sim_method_for(const ss_scene *scene, const char **why);
 
-/* --- as text ------------------------------------------------------------------------------- */
-
-/* A writer of events: the notes of head, then a row for each event as it arrives, as ss-sim(1)
- * describes.  The caller keeps and closes out.  SS_EINVAL: the format holds numbers only; SS_EIO.
- */
-typedef struct ss_event_writer ss_event_writer;
-ss_status ss_event_writer_new(ss_event_writer **writer, FILE *out, ss_format format,
-                              const ss_header *head, ss_error *err);
-ss_status ss_event_writer_row(ss_event_writer *writer, const ss_event *event, ss_error *err);
-/* Flush out.  SS_EIO: this or an earlier write failed. */
-ss_status ss_event_writer_flush(ss_event_writer *writer, ss_error *err);
-void ss_event_writer_free(ss_event_writer *writer);     /* NULL is allowed; does not flush */
-
 SS_END_DECLARATIONS
 #endif

@@ -3,6 +3,7 @@
  * cost_sim compare SECONDS: rows as in bench.h, our methods on the paper's scenes.
  * cost_sim cost SCRATCH.h5: against length, contact stiffness, rate, columns and output form.
  * As a shared library: cost_taylor() for cost_heyoka.py. */
+#include <stickslip/store.h>
 #include "bench.h"
 
 static double
@@ -228,7 +229,8 @@ cost_of_columns(void)
             ss_header *head = NULL;
             ss_sim_header(&head, &s, &r.columns, NULL);
             if (out == NULL || head == NULL
-                || ss_writer_new(&r.writer, out, form == 0 ? SS_AU : SS_TSV, head, NULL) != SS_OK)
+                || ss_writer_new(&r.writer, out, NULL, form == 0 ? SS_AU : SS_TSV,
+                                 &(ss_contents){ .signal = head }, NULL) != SS_OK)
                 exit(1);
             printf("\t%.3g", 1e3 * time_to(write_rows, &r, &s, "exact", 0, NULL, NULL));
             ss_writer_free(r.writer);
@@ -255,10 +257,11 @@ cost_of_form(const char *h5)
             double began = bench_seconds();
             if (form < 2) {
                 FILE *out = fopen("/dev/null", "w");
-                if (out == NULL || ss_signal_write(signal, out, form == 0 ? SS_TSV : SS_AU, NULL) != SS_OK)
+                if (out == NULL || ss_record_write(&(ss_record){ .signal = signal }, out, NULL,
+                                                   form == 0 ? SS_TSV : SS_AU, NULL) != SS_OK)
                     exit(1);
                 fclose(out);
-            } else if (ss_store_write(h5, &(ss_record){ .signal = signal }, NULL) != SS_OK) {
+            } else if (ss_record_write(&(ss_record){ .signal = signal }, NULL, h5, SS_H5, NULL) != SS_OK) {
                 exit(1);
             }
             seconds[i] = bench_seconds() - began;

@@ -51,8 +51,8 @@ main(int argc, char *argv[])
         status = ss_morlet_transform(&coefficients, signal, column, NULL, &err);
     }
     if (status == SS_OK)
-        status = ss_store_write("contour.h5", &(ss_record){ .signal = signal,
-                                .coefficients = coefficients }, &err);
+        status = ss_record_write(&(ss_record){ .signal = signal, .coefficients = coefficients }, NULL,
+                                 "contour.h5", SS_H5, &err);
     if (status == SS_OK)
         status = write_plot("contour.gp", coefficients, signal, column, &err);
     if (status == SS_OK)

@@ -1,4 +1,5 @@
 /* common.c -- what the harnesses of the readers share. */
+#include <stickslip/store.h>
 #include "fuzz.h"
 
 #include <math.h>
@@ -73,7 +74,7 @@ fuzz_check_signal(const ss_signal *signal)
 
     FILE *out = open_memstream(&text, &length);
     fuzz_check(out != NULL, "memory for a stream");
-    fuzz_check(ss_signal_write(signal, out, SS_TSV, NULL) == SS_OK, "written");
+    fuzz_check(ss_record_write(&(ss_record){ .signal = signal }, out, NULL, SS_TSV, NULL) == SS_OK, "written");
     fclose(out);
     fuzz_check(read_signal(&back, text, length, NULL, &err) == SS_OK, err.text);
     free(text);
@@ -108,7 +109,7 @@ check_reads_back(const ss_coefficients *c, size_t total, ss_format format)
     ss_error err = { 0 };
     FILE *out = open_memstream(&text, &length);
     fuzz_check(out != NULL, "memory for a stream");
-    ss_status status = ss_coefficients_write(c, out, format, NULL);
+    ss_status status = ss_record_write(&(ss_record){ .coefficients = c }, out, NULL, format, NULL);
     fclose(out);
     if (format == SS_AU && status == SS_EINVAL) {       /* its header is too long for AU */
         free(text);

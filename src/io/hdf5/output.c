@@ -46,14 +46,8 @@ open_disk(h5_output *out)
 }
 
 ss_status
-ss_h5_output_open(h5_output *out, const char *path)
+ss_h5_output_open(h5_output *out)
 {
-    out->file = (h5_file){ .id = -1, .path = path, .err = &out->error };
-    out->disk.fd = -1;
-    out->path = strdup(path);
-    if (out->path == NULL)
-        return SS_ENOMEM;
-    out->file.path = out->path;
     ss_status st = open_disk(out);
     if (st != SS_OK)
         return st;

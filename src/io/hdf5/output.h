@@ -12,8 +12,8 @@ typedef struct h5_output {
     ss_error error;
 } h5_output;
 
-/* Make the file; to be closed even after a failure. */
-ss_status ss_h5_output_open(h5_output *out, const char *path);
+/* Make the file at out->path, whose file.id and disk.fd are -1; to be closed even after a failure. */
+ss_status ss_h5_output_open(h5_output *out);
 /* The status of a step, or that of the disk if this has failed since; its text is in out->error. */
 ss_status ss_h5_output_check(h5_output *out, ss_status st);
 /* Close everything.  An incomplete file, by the status until now or that of the disk, is removed.

@@ -1,21 +1,34 @@
-/* write.c -- write a record as an HDF5 file, at once or in pieces.
+/* write.c -- a file in HDF5: samples, events and coefficients as they come.
  *
  * If the number of samples and coefficients is not known, all datasets stay open, with chunks so
- * short that one of each fits into memory. */
+ * short that one of each fits into memory.  Rows of a signal alone are put together first: then the length
+ * of most signals is known when the file is made. */
 #include <stdlib.h>
 #include <string.h>
+#include "base/columns.h"
 #include "base/error.h"
+#include "base/list.h"
 #include "signal/header.h"
 #include "io/hdf5/groups.h"
 #include "io/hdf5/output.h"
 #include "io/store.h"
+#include "io/writer.h"
 
-struct ss_store_writer {
+enum { TOGETHER = 1 << 20 };    /* values of a signal that are written at a time */
+
+struct h5_writer {
+    ss_writer base;
     h5_output output;
     h5_pieces pieces;
     ss_status status;           /* the first failure */
     signal_writer signal;
     wavelet_writer wavelet;
+    ss_header *head;            /* of a signal alone, and its rows that were not written yet; or NULL */
+    double **row;
+    size_t length, n_rows;      /* length: of the record; 0: not known */
+    int has_events, ended;
+    ss_event *event;
+    size_t n_events, room;
 };
 
 static ss_status
@@ -38,226 +51,237 @@ write_notes(h5_file *file, const ss_header *head)
     return SS_OK;
 }
 
-/* Make the file, write the notes, and keep the clock for the groups that follow. */
+/* Make the file of a record of n samples, or, if it grows, of an unknown number. */
 static ss_status
-begin(ss_store_writer **out, const char *path, const ss_header *head)
+begin(struct h5_writer *w, const ss_header *signal, const ss_coefficients *grid, size_t n, int growing)
 {
-    ss_store_writer *w = *out = calloc(1, sizeof *w);
-    if (w == NULL)
-        return SS_ENOMEM;
+    const ss_header *head = grid != NULL ? grid->head : signal;
     w->pieces.file = &w->output.file;
     w->pieces.rate = head != NULL ? head->rate : 1;
     w->pieces.start = head != NULL ? head->start : 0;
-    ss_status st = ss_h5_output_open(&w->output, path);
-    return st == SS_OK ? write_notes(&w->output.file, head) : st;
-}
-
-static ss_status
-begin_empty(ss_store_writer **out, const char *path, const ss_header *signal,
-            const ss_coefficients *grid)
-{
-    size_t n = grid != NULL ? grid->n : 0;
-    ss_status st = begin(out, path, grid != NULL ? grid->head : signal);
-    ss_store_writer *w = *out;
-    if (st != SS_OK)
-        return st;
-    w->pieces.growing = n == 0;
-    if (signal != NULL)
+    w->pieces.growing = growing;
+    ss_status st = ss_h5_output_open(&w->output);
+    if (st == SS_OK)
+        st = write_notes(&w->output.file, head);
+    if (st == SS_OK && signal != NULL)
         st = ss_signal_writer_open(&w->signal, &w->pieces, signal, n);
-    if (grid == NULL)
+    if (st != SS_OK || grid == NULL)
         return st;
-    const char *rounded = ss_header_find_note(grid->head, "rounded");
     const char *accuracy = ss_header_find_note(grid->head, "accuracy");
-    if (rounded != NULL && accuracy != NULL)
+    if (ss_header_find_note(grid->head, "rounded") != NULL && accuracy != NULL)
         w->wavelet.tolerance = strtod(accuracy, NULL);
-    return st == SS_OK ? ss_wavelet_writer_open(&w->wavelet, &w->pieces, grid) : st;
+    return ss_wavelet_writer_open(&w->wavelet, &w->pieces, grid);
 }
 
-/* Store the first failure, which may be the disk's, for later calls. */
+/* Run a step of a writer that has not failed.  The first failure, which may be the disk's, is kept for all calls
+ * that follow. */
+#define STEP(w, err, work) do { \
+        ss_status st = (w)->status; \
+        H5E_BEGIN_TRY { \
+            if (st == SS_OK) \
+                st = work; \
+            (w)->status = ss_h5_output_check(&(w)->output, st); \
+        } H5E_END_TRY \
+        if ((w)->status != SS_OK && (err) != NULL) \
+            *(err) = (w)->output.error; \
+        return (w)->status; \
+    } while (0)
+
+/* Append rows to the file. */
 static ss_status
-keep(ss_store_writer *w, ss_status st)
+append(struct h5_writer *w, double *const column[], size_t n)
 {
-    st = ss_h5_output_check(&w->output, st);
-    if (st != SS_OK)
-        w->status = st;
+    const signal_writer *signal = &w->signal;
+    if (signal->column == NULL || (!w->pieces.growing && n > signal->length - signal->samples))
+        return ss_fail(&w->output.error, SS_EINVAL, "more samples than the file was begun with");
+    return ss_signal_writer_append(&w->signal, column, n);
+}
+
+/* Write the rows that were put together; all: there are no more. */
+static ss_status
+write_together(struct h5_writer *w, int all)
+{
+    size_t n = w->length > 0 || !all ? w->length : w->n_rows;
+    ss_status st = w->signal.column == NULL ? begin(w, w->head, NULL, n, n == 0 && !all) : SS_OK;
+    if (st == SS_OK)
+        st = append(w, w->row, w->n_rows);
+    w->n_rows = 0;
+    return st;
+}
+
+static size_t
+room_of(const ss_header *head)
+{
+    return TOGETHER / (head->n_columns + 1) + 1;
+}
+
+static ss_status
+put_together(struct h5_writer *w, double *const column[], size_t n)
+{
+    size_t columns = w->head->n_columns, room = room_of(w->head);
+    ss_status st = SS_OK;
+    for (size_t i = 0, m; st == SS_OK && i < n; i += m) {
+        m = n - i < room - w->n_rows ? n - i : room - w->n_rows;
+        if (m == 0)
+            st = write_together(w, 0);
+        for (size_t c = 0; c < columns; c++)
+            memcpy(w->row[c] + w->n_rows, column[c] + i, m * sizeof *column[c]);
+        w->n_rows += m;
+    }
     return st;
 }
 
 static ss_status
-report(const ss_store_writer *w, ss_status st, ss_error *err)
+write_rows(ss_writer *base, double *const column[], size_t n, ss_error *err)
 {
-    if (st != SS_OK && err != NULL)
-        *err = w->output.error;
-    return st;
+    struct h5_writer *w = (struct h5_writer *)base;
+    STEP(w, err, w->head != NULL ? put_together(w, column, n) : append(w, column, n));
 }
 
-/* --- what ss_store_writer_new and the rest call, whose arguments have been checked ------------ */
+static ss_status
+append_coefficients(struct h5_writer *w, const ss_scale *scale, size_t first, size_t n, const double *c, size_t samples)
+{
+    size_t i = ss_wavelet_writer_find(&w->wavelet, scale, first, n);
+    if (i == w->wavelet.n_scales)
+        return ss_fail(&w->output.error, SS_EINVAL, "coefficients that are not the next of a scale");
+    return ss_wavelet_writer_append(&w->wavelet, i, n, c, samples);
+}
+
+static ss_status
+write_coefficients(ss_writer *base, const ss_scale *scale, size_t first, size_t n, const double *c, size_t samples,
+                   ss_error *err)
+{
+    struct h5_writer *w = (struct h5_writer *)base;
+    STEP(w, err, append_coefficients(w, scale, first, n, c, samples));
+}
+
+/* Events are written at the end, as their number is known then. */
+static ss_status
+keep_events(struct h5_writer *w, const ss_event *event, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        ss_event *more = ss_list_room(w->event, &w->room, w->n_events, sizeof *more);
+        if (more == NULL)
+            return SS_ENOMEM;
+        w->event = more;
+        more[w->n_events++] = event[i];
+    }
+    return SS_OK;
+}
+
+static ss_status
+write_events(ss_writer *base, const ss_event *event, size_t n, ss_error *err)
+{
+    struct h5_writer *w = (struct h5_writer *)base;
+    STEP(w, err, keep_events(w, event, n));
+}
+
+static ss_status
+append_note(struct h5_writer *w, const char *key, const char *value)
+{
+    h5_file *file = &w->output.file;
+    if (file->id < 0)
+        return ss_header_note(w->head, key, value, NULL);
+    int good = H5Aexists(file->id, key) <= 0 || H5Adelete(file->id, key) >= 0;
+    return good && ss_h5_write_text(file->id, key, value) ? SS_OK : ss_h5_fail_write(file, 0, key);
+}
+
+static ss_status
+write_note(ss_writer *base, const char *key, const char *value, ss_error *err)
+{
+    struct h5_writer *w = (struct h5_writer *)base;
+    STEP(w, err, append_note(w, key, value));
+}
+
+/* Write what is left, and check that all samples of the file have been given. */
+static ss_status
+complete(struct h5_writer *w, size_t samples)
+{
+    const signal_writer *signal = &w->signal;
+    const int has_wavelet = w->wavelet.n_scales > 0;
+    ss_status st = w->head != NULL ? write_together(w, 1) : SS_OK;
+    size_t length = w->pieces.growing ? samples : signal->length;
+    if (st == SS_OK && ((has_wavelet && (samples < 1 || (!w->pieces.growing && samples != w->wavelet.n)))
+                        || (signal->column != NULL && (signal->samples != length || length != samples))))
+        st = ss_fail(&w->output.error, SS_EINVAL, "%zu samples are not what the file has", samples);
+    if (st == SS_OK && w->has_events)
+        st = ss_h5_write_events(&w->output.file, w->event, w->n_events);
+    return st == SS_OK && has_wavelet ? ss_wavelet_writer_end(&w->wavelet, samples) : st;
+}
+
+static ss_status
+end(struct h5_writer *w, size_t samples)
+{
+    if (w->ended)
+        return ss_fail(&w->output.error, SS_EINVAL, "the file is complete");
+    w->ended = 1;
+    return ss_h5_output_close(&w->output, complete(w, samples));
+}
+
+static ss_status
+end_file(ss_writer *base, size_t samples, ss_error *err)
+{
+    struct h5_writer *w = (struct h5_writer *)base;
+    STEP(w, err, end(w, samples));
+}
 
 static void
-writer_free(ss_store_writer *w)
+free_writer(ss_writer *base)
 {
-    if (w == NULL)
-        return;
+    struct h5_writer *w = (struct h5_writer *)base;
     H5E_BEGIN_TRY {
         ss_h5_output_close(&w->output, SS_STOP);     /* does nothing if it has ended */
     } H5E_END_TRY
     ss_wavelet_writer_free(&w->wavelet);
+    ss_header_free(w->head);
+    free(w->row);
+    free(w->event);
     free(w->signal.column);
     free(w->output.path);
     free(w);
 }
 
+/* A signal alone is put together first, anything else begins at once. */
 static ss_status
-writer_new(ss_store_writer **out, const char *path, const ss_header *signal, const ss_coefficients *grid,
-           ss_error *err)
+prepare(struct h5_writer *w, const ss_contents *what)
 {
-    ss_store_writer *w = NULL;
-    ss_status st = ss_header_check_notes(grid != NULL ? grid->head : signal, err);
+    const ss_header *signal = what->signal;
+    w->length = what->n;
+    w->has_events = what->events;
+    if (w->output.path == NULL)
+        return SS_ENOMEM;
+    if (signal == NULL || what->grid != NULL)
+        return begin(w, signal, what->grid, what->n, what->n == 0);
+    w->row = ss_columns_new(signal->n_columns, room_of(signal));
+    return w->row != NULL ? ss_header_copy(&w->head, signal, NULL) : SS_ENOMEM;
+}
+
+static ss_status
+writer_new(ss_writer **out, const char *path, const ss_contents *what, ss_error *err)
+{
+    static const struct writer_calls calls = {
+        write_rows, write_coefficients, write_events, write_note, end_file, free_writer };
+    const ss_header *head = what->grid != NULL ? what->grid->head : what->signal;
+    ss_status st = head != NULL ? ss_header_check_notes(head, err) : SS_OK;
     if (st != SS_OK)
         return st;
+    struct h5_writer *w = calloc(1, sizeof *w);
+    if (w == NULL)
+        return ss_fail_memory(err, path);
+    w->base.calls = &calls;
+    w->output.path = strdup(path);
+    w->output.disk.fd = -1;
+    w->output.file = (h5_file){ .id = -1, .path = path, .err = &w->output.error };
     H5E_BEGIN_TRY {
-        st = begin_empty(&w, path, signal, grid);
-        if (w != NULL)
-            st = keep(w, st);
+        st = ss_h5_output_check(&w->output, prepare(w, what));
     } H5E_END_TRY
+    w->output.file.path = w->output.path;
     if (st == SS_OK)
-        *out = w;
-    else if (w != NULL)
-        report(w, st, err);
-    else
-        ss_fail_memory(err, path);
+        *out = &w->base;
+    else if (err != NULL)
+        *err = w->output.error;
     if (st != SS_OK)
-        writer_free(w);
-    return st;
-}
-
-static ss_status
-writer_signal(ss_store_writer *w, double *const column[], size_t n, ss_error *err)
-{
-    ss_status st = w->status;
-    signal_writer *signal = &w->signal;
-    H5E_BEGIN_TRY {
-        if (st == SS_OK && (signal->column == NULL
-                            || (!w->pieces.growing && n > signal->length - signal->samples)))
-            st = ss_fail(&w->output.error, SS_EINVAL, "more samples than the file was begun with");
-        if (st == SS_OK)
-            st = ss_signal_writer_append(signal, column, n);
-        st = keep(w, st);
-    } H5E_END_TRY
-    return report(w, st, err);
-}
-
-static ss_status
-writer_rows(ss_store_writer *writer, const ss_scale *scale, size_t first, size_t n, const double *w,
-            size_t samples, ss_error *err)
-{
-    ss_status st = writer->status;
-    size_t i = ss_wavelet_writer_find(&writer->wavelet, scale, first, n);
-    H5E_BEGIN_TRY {
-        if (st == SS_OK && i == writer->wavelet.n_scales)
-            st = ss_fail(&writer->output.error, SS_EINVAL,
-                         "coefficients that are not the next of a scale");
-        if (st == SS_OK)
-            st = ss_wavelet_writer_append(&writer->wavelet, i, n, w, samples);
-        st = keep(writer, st);
-    } H5E_END_TRY
-    return report(writer, st, err);
-}
-
-static ss_status
-writer_note(ss_store_writer *w, const char *key, const char *value, ss_error *err)
-{
-    ss_status st = w->status;
-    h5_file *file = &w->output.file;
-    H5E_BEGIN_TRY {
-        if (st == SS_OK && ((H5Aexists(file->id, key) > 0 && H5Adelete(file->id, key) < 0)
-                            || !ss_h5_write_text(file->id, key, value)))
-            st = ss_h5_fail_write(file, 0, key);
-        st = keep(w, st);
-    } H5E_END_TRY
-    return report(w, st, err);
-}
-
-/* 1 if all samples of the file have been given. */
-static int
-is_whole(const ss_store_writer *w, size_t samples)
-{
-    const signal_writer *signal = &w->signal;
-    size_t length = w->pieces.growing ? samples : signal->length;
-    return samples >= 1 && (w->pieces.growing || samples == w->wavelet.n)
-           && (signal->column == NULL || signal->samples == length);
-}
-
-static ss_status
-complete(ss_store_writer *w, size_t samples)
-{
-    if (!is_whole(w, samples))
-        return ss_fail(&w->output.error, SS_EINVAL, "%zu samples are not what the file has", samples);
-    return w->wavelet.n_scales > 0 ? ss_wavelet_writer_end(&w->wavelet, samples) : SS_OK;
-}
-
-static ss_status
-writer_end(ss_store_writer *w, size_t samples, ss_error *err)
-{
-    ss_status st = w->status;
-    H5E_BEGIN_TRY {
-        if (st == SS_OK && w->output.file.id < 0)
-            st = ss_fail(&w->output.error, SS_EINVAL, "the file is complete");
-        if (st == SS_OK)
-            st = complete(w, samples);
-        st = keep(w, ss_h5_output_close(&w->output, st));
-    } H5E_END_TRY
-    return report(w, st, err);
-}
-
-static ss_status
-write_signal(ss_store_writer *w, const ss_signal *signal)
-{
-    ss_status st = ss_signal_writer_open(&w->signal, &w->pieces, signal->head, signal->n);
-    double **column = malloc((signal->head->n_columns + 1) * sizeof *column);
-    for (size_t c = 0; column != NULL && c < signal->head->n_columns; c++)
-        column[c] = signal->values + c * signal->n;
-    if (st == SS_OK)
-        st = column != NULL ? ss_signal_writer_append(&w->signal, column, signal->n) : SS_ENOMEM;
-    free(column);
-    return st;
-}
-
-static ss_status
-write_all(ss_store_writer **out, const char *path, const ss_record *r)
-{
-    const ss_signal *signal = r->signal;
-    const ss_coefficients *c = r->coefficients;
-    ss_status st = begin(out, path, c != NULL ? c->head : signal != NULL ? signal->head : NULL);
-    ss_store_writer *w = *out;
-    if (st == SS_OK && signal != NULL)
-        st = write_signal(w, signal);
-    if (st == SS_OK && (r->has_events || r->n_events > 0))
-        st = ss_h5_write_events(&w->output.file, r->events, r->n_events);
-    if (st != SS_OK || c == NULL)
-        return st;
-    st = ss_wavelet_writer_open(&w->wavelet, &w->pieces, c);
-    for (size_t i = 0; st == SS_OK && i < c->n_scales; i++)
-        st = ss_wavelet_writer_append(&w->wavelet, i, c->scale[i].n, c->w + 2 * c->scale[i].offset,
-                                      c->n);
-    return st == SS_OK ? complete(w, c->n) : st;
-}
-
-static ss_status
-write_record(const char *path, const ss_record *r, ss_error *err)
-{
-    ss_store_writer *w = NULL;
-    ss_status st;
-    H5E_BEGIN_TRY {
-        st = write_all(&w, path, r);
-        if (w != NULL)
-            st = keep(w, ss_h5_output_close(&w->output, st));
-    } H5E_END_TRY
-    if (w != NULL)
-        report(w, st, err);
-    else
-        ss_fail(err, st, "%s: %s", path, ss_strerror(st));
-    writer_free(w);
+        free_writer(&w->base);
     return st;
 }
 
@@ -265,9 +289,7 @@ const struct ss_store_calls *
 ss_store_calls(ss_error *err)
 {
     static const struct ss_store_calls calls = {
-        .open_signal = ss_h5_open_signal, .open_coefficients = ss_h5_open_coefficients, .write = write_record,
-        .writer_new = writer_new, .writer_signal = writer_signal, .writer_rows = writer_rows,
-        .writer_note = writer_note, .writer_end = writer_end, .writer_free = writer_free };
+        .open_signal = ss_h5_open_signal, .open_coefficients = ss_h5_open_coefficients, .writer_new = writer_new };
     (void)err;
     return &calls;
 }
