@@ -1,67 +1,293 @@
 /* stream.c -- transform a signal whose end is not known, window by window.
  *
- * A window of a group of scales begins where the next coefficient of the group needs it to begin.
- * It gives all coefficients of the group whose wavelets lie inside.  The next window overlaps it
- * by the length of the longest wavelet, so only samples are kept from one window to the next.  In
- * blocks each level keeps one window, which is computed when it is full.  When complete
- * coefficients are wanted at once, windows are filled up with zeros and computed. */
+ * The longest scales, as a rule all, are computed in blocks, as those of a record are (fft/windows.c): each level
+ * keeps one window, which is computed when it is full.  Other scales are computed by the definition, from windows
+ * that they share: one begins where the next coefficient needs it to begin, has at least eight times the reach of
+ * the longest wavelet, and gives all coefficients whose wavelets lie inside.  So only samples are kept from
+ * one window to the next.  When complete coefficients are wanted at once, windows are filled up with zeros
+ * and computed.
+ *
+ * All samples within REACH a of b are in the window, so a window adds at most exp(-REACH^2/2) to the
+ * error of its coefficients, nothing compared with the promise.  The definition holds TOL against the
+ * largest |W| of a scale so far, which is at most the record's. */
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "map/stream.h"
+#include "base/pool.h"
+#include "map/fft/blocks.h"
+#include "map/plan.h"
 
-/* --- samples ---------------------------------------------------------------------------------- */
+enum {
+    PIECE = 1 << 14,            /* samples processed at a time, at most */
+    LEAST = 1 << 13,            /* a window of the definition has at least so many samples */
+    GIVEN = 1 << 17,            /* coefficients computed and passed to the sink at a time, at most */
+    TABLES = 32 << 20,          /* most bytes of wavelets that are stored */
+    WORTH_THREADS = 64,         /* the caller's thread alone computes fewer coefficients than these, */
+    BLOCK_WORTH_THREADS = 1 << 14       /* and in blocks fewer than these */
+};
 
-/* Make room for n more samples; samples that no window needs any more are discarded. */
+typedef struct scale_state {
+    size_t next;                /* its next translation */
+    ptrdiff_t due;              /* the samples that it needs, from the first on */
+    size_t count;               /* in the record; SIZE_MAX until that has ended */
+    ptrdiff_t reach;            /* samples that a coefficient needs on either side, and one */
+    double most;                /* the largest |W| so far is most 2^exponent, in units of a^1/2 */
+    int exponent;
+    wavelet *wave;              /* by the definition; NULL: made when needed */
+} scale_state;
+
+/* A part of a scale, whose coefficients go to 2 * at of the stream's w. */
+typedef struct task {
+    size_t scale, at;
+    span part;
+} task;
+
+/* What is computed of one window: the scales first ... end - 1. */
+typedef struct window {
+    ss_stream *stream;
+    size_t first, end;
+    ptrdiff_t limit;            /* a coefficient is complete if it needs no sample from here on */
+    record rec;
+    const spectra *spectra;     /* of blocks; NULL: by the definition */
+    size_t number;              /* of a window of blocks */
+    ss_error *err;
+} window;
+
+/* The work of one thread: every step-th task from the first on. */
+typedef struct worker {
+    const window *window;
+    double *scratch;
+    size_t first, step;
+    ss_status status;
+    ss_error error;
+} worker;
+
+struct ss_stream {
+    ss_morlet *plan;            /* as of the longest record that a plan allows */
+    ss_coefficient_sink *sink;
+    void *user;
+    ss_grid grid;               /* for callers */
+    size_t samples, in_blocks;  /* in_blocks: so many scales, the first, are */
+    size_t full;                /* no window is full before there are so many samples */
+    scale_state *state;
+    cascade *cascade;           /* NULL: no scale is in blocks */
+    size_t length;              /* of a window of the definition */
+    double *x, x_max;           /* the last samples / 2^exponent, for it; max|x| of all */
+    int exponent;
+    ptrdiff_t origin;           /* x[0] is this sample; there are zeros before the first */
+    size_t room;                /* in x */
+    double *w;
+    task *task;
+    size_t n_tasks;
+    worker *worker;             /* as many as threads */
+    int ended;
+    ss_status status;           /* of what failed first */
+    ss_error error;
+};
+
+/* --- what a window gives ---------------------------------------------------------------------- */
+
+/* Continue scale i at this translation; places are at most 2^60. */
 static void
-make_room(ss_stream *s, size_t n)
+go_on(ss_stream *s, size_t i, size_t next)
 {
-    ptrdiff_t keep = (ptrdiff_t)s->samples;
-    size_t held = (size_t)(keep - s->origin);
-    if (held + n <= s->room)
-        return;
-    for (size_t i = 0; i < s->n_groups; i++) {
-        ptrdiff_t start = ss_group_start(s, &s->group[i]);
-        keep = start < keep ? start : keep;
-    }
-    size_t drop = (size_t)(keep - s->origin);
-    memmove(s->x, s->x + drop, (held - drop) * sizeof *s->x);
-    s->origin = keep;
+    scale_state *r = &s->state[i];
+    r->next = next;
+    r->due = (ptrdiff_t)fmin(floor(ss_scale_b(&s->grid.scale[i], next) * s->plan->rate), 0x1p60) + r->reach;
 }
 
-/* Compute the full windows, and set the number of samples at which the next will be full.  A window is
- * computed as soon as it has its last sample, so its coefficients do not depend on how samples arrive. */
-static ss_status
-transform_full(ss_stream *s, ss_error *err)
+/* The next translations of scale i that need no sample from limit on. */
+static size_t
+count_ready(const ss_stream *s, size_t i, ptrdiff_t limit)
 {
-    ss_status st = ss_blocks_transform_full(s, err);
-    s->full = s->cascade != NULL ? s->samples + ss_cascade_room(s->cascade) : SIZE_MAX;
-    for (size_t i = 0; i < s->n_groups; i++) {
-        const group *g = &s->group[i];
-        ptrdiff_t start, n = (ptrdiff_t)g->plan->n;
-        while ((start = ss_group_start(s, g)) <= (ptrdiff_t)s->samples - n && st == SS_OK)
-            st = ss_group_transform(s, g, start, err);
-        s->full = (size_t)(start + n) < s->full ? (size_t)(start + n) : s->full;
+    const scale_state *r = &s->state[i];
+    if (limit < r->reach || limit < r->due)
+        return 0;
+    size_t count = ss_scale_count(&s->grid.scale[i], (double)(limit - r->reach) / s->plan->rate);
+    count = count < r->count ? count : r->count;
+    return count > r->next ? count - r->next : 0;
+}
+
+/* The next translations of scale i that a window gives. */
+static size_t
+count_given(const window *win, size_t i)
+{
+    const ss_stream *s = win->stream;
+    const scale_state *r = &s->state[i];
+    size_t ready = win->limit < PTRDIFF_MAX ? count_ready(s, i, win->limit) : SIZE_MAX;
+    if (win->spectra == NULL)
+        return ready;
+    size_t end = ss_blocks_end(s->plan->blocks, i, win->number);
+    end = end < r->count ? end : r->count;
+    size_t n = end > r->next ? end - r->next : 0;
+    return n < ready ? n : ready;
+}
+
+/* --- computing and sending -------------------------------------------------------------------- */
+
+static void
+compute(void *user)
+{
+    worker *wk = user;
+    const window *win = wk->window;
+    ss_stream *s = win->stream;
+    wk->status = SS_OK;
+    for (size_t t = wk->first; wk->status == SS_OK && t < s->n_tasks; t += wk->step) {
+        const task *of = &s->task[t];
+        scale_state *r = &s->state[of->scale];
+        double most = ldexp(r->most, r->exponent - win->rec.exponent);
+        wk->status = ss_morlet_part(s->plan, of->scale, &win->rec, win->spectra, wk->scratch, r->wave, of->part, &most,
+                                    s->w + 2 * of->at, &wk->error);
+        r->most = most;
+        r->exponent = win->rec.exponent;
+    }
+}
+
+/* Compute the tasks, n coefficients in all, and pass them to the sink in their order. */
+static ss_status
+run_tasks(const window *win, size_t n)
+{
+    ss_stream *s = win->stream;
+    size_t threads = n < (win->spectra != NULL ? BLOCK_WORTH_THREADS : WORTH_THREADS) ? 1
+        : (size_t)s->plan->opts.threads;
+    ss_status st = SS_OK;
+    threads = threads < s->n_tasks ? threads : s->n_tasks;
+    for (size_t t = 0; t < threads; t++) {
+        s->worker[t].window = win;
+        s->worker[t].first = t;
+        s->worker[t].step = threads;
+    }
+    ss_pool_run(compute, s->worker, sizeof *s->worker, threads);
+    for (size_t t = 0; st == SS_OK && t < threads; t++)
+        if ((st = s->worker[t].status) != SS_OK && win->err != NULL)
+            *win->err = s->worker[t].error;
+    for (size_t t = 0; st == SS_OK && t < s->n_tasks; t++) {
+        const task *of = &s->task[t];
+        go_on(s, of->scale, of->part.first + of->part.n);
+        if (s->sink(&s->grid.scale[of->scale], of->part.first, of->part.n, s->w + 2 * of->at, s->samples, s->user))
+            st = SS_STOP;
     }
     return st;
 }
 
-/* Samples are stored divided by 2^exponent, so that their squares neither overflow nor underflow.  It is 0
- * except for signals near the limits of a double. */
-static int
-exponent_of(double x_max)
+/* Compute and send all coefficients of a window, scale by scale in parts of at most GIVEN, whatever the number of
+ * threads.  One thread computes part by part, so that each stays in the cache; several threads share as many parts
+ * as there is room for. */
+static ss_status
+run_window(const window *win)
 {
-    enum { FAR = 300 };
-    return x_max > 0 ? FAR * (ilogb(x_max) / FAR) : 0;
+    ss_stream *s = win->stream;
+    ss_status st = SS_OK;
+    for (size_t i = win->first; st == SS_OK && i < win->end;) {
+        size_t all = 0, most = s->plan->opts.threads > 1 ? s->grid.n_scales : 1;
+        for (s->n_tasks = 0; i < win->end && s->n_tasks < most; i++) {
+            size_t n = count_given(win, i), part = n < GIVEN ? n : GIVEN;
+            if (all + part > GIVEN)
+                break;
+            if (part > 0)
+                s->task[s->n_tasks++] = (task){ i, all, { s->state[i].next, part } };
+            all += part;
+            if (part < n)
+                break;                  /* the rest comes next */
+        }
+        if (s->n_tasks > 0)
+            st = run_tasks(win, all);
+    }
+    return st;
 }
 
-/* Divide the samples that are there so that they suit x_max; `held` are in s->x. */
+/* --- windows of blocks ------------------------------------------------------------------------ */
+
+/* The user data of run_level. */
+typedef struct demand {
+    ss_stream *stream;
+    ptrdiff_t limit;
+    ss_error *err;
+} demand;
+
+/* Compute and send all coefficients of a window of a level. */
+static ss_status
+run_level(size_t level, size_t number, double *spectrum, void *user)
+{
+    const demand *asked = user;
+    ss_stream *s = asked->stream;
+    const struct blocks *b = s->plan->blocks;
+    spectra made = { .first = number };
+    made.level[level] = spectrum;
+    window win = { .stream = s, .number = number, .limit = asked->limit, .rec.exponent = s->exponent,
+                   .spectra = &made, .err = asked->err };
+    while (win.first < s->in_blocks && ss_blocks_level(b, win.first) > level)
+        win.first++;
+    win.end = win.first;
+    while (win.end < s->in_blocks && ss_blocks_level(b, win.end) == level)
+        win.end++;
+    return run_window(&win);
+}
+
+/* All coefficients in blocks that need no sample from limit on, PTRDIFF_MAX: all. */
+static ss_status
+run_blocks_to(ss_stream *s, ptrdiff_t limit, ss_error *err)
+{
+    demand asked = { s, limit, err };
+    return s->cascade != NULL ? ss_cascade_end(s->cascade, s->samples, run_level, &asked) : SS_OK;
+}
+
+/* --- windows of the definition ---------------------------------------------------------------- */
+
+/* The start of the next window; PTRDIFF_MAX if no coefficient is left. */
+static ptrdiff_t
+next_start(const ss_stream *s)
+{
+    ptrdiff_t start = PTRDIFF_MAX;
+    for (size_t i = s->in_blocks; i < s->grid.n_scales; i++) {
+        const scale_state *r = &s->state[i];
+        ptrdiff_t from = r->due - 2 * r->reach - 1;
+        start = r->next < r->count && from < start ? from : start;
+    }
+    return start;
+}
+
+/* Compute and send the coefficients of the window at start, of those that have arrived. */
+static ss_status
+run_sums(ss_stream *s, ptrdiff_t start, ss_error *err)
+{
+    ptrdiff_t limit = start + (ptrdiff_t)s->length, samples = (ptrdiff_t)s->samples;
+    size_t there = samples > start ? (size_t)(samples - start) : 0;
+    const record rec = { .n = there < s->length ? there : s->length, .x = s->x + (start - s->origin),
+                         .x_max = ldexp(s->x_max, -s->exponent), .exponent = s->exponent, .origin = start };
+    const window win = { .stream = s, .first = s->in_blocks, .end = s->grid.n_scales, .rec = rec,
+                         .limit = s->ended || limit < samples ? limit : samples, .err = err };
+    return run_window(&win);
+}
+
+/* --- samples ---------------------------------------------------------------------------------- */
+
+/* Compute the full windows, and set the number of samples at which the next will be full.  A window is
+ * computed as soon as it has its last sample, so its coefficients do not depend on how samples arrive. */
+static ss_status
+run_full(ss_stream *s, ss_error *err)
+{
+    demand asked = { s, PTRDIFF_MAX, err };
+    ptrdiff_t start, n = (ptrdiff_t)s->length;
+    ss_status st = s->cascade != NULL ? ss_cascade_run(s->cascade, run_level, &asked) : SS_OK;
+    s->full = s->cascade != NULL ? s->samples + ss_cascade_room(s->cascade) : SIZE_MAX;
+    while ((start = next_start(s)) <= (ptrdiff_t)s->samples - n && st == SS_OK)
+        st = run_sums(s, start, err);
+    if (start < PTRDIFF_MAX && (size_t)(start + n) < s->full)
+        s->full = (size_t)(start + n);
+    return st;
+}
+
+/* Divide the samples that are there so that their squares neither overflow nor underflow, now that x_max is the
+ * largest; `held` are in s->x.  The exponent is 0 except for signals near the limits of a double. */
 static void
 follow_exponent(ss_stream *s, size_t held)
 {
-    int more = exponent_of(s->x_max) - s->exponent;
+    enum { FAR = 300 };
+    int more = (s->x_max > 0 ? FAR * (ilogb(s->x_max) / FAR) : 0) - s->exponent;
     double most = ldexp(s->x_max, -s->exponent);
     if (more == 0)
         return;
@@ -71,14 +297,20 @@ follow_exponent(ss_stream *s, size_t held)
     s->exponent += more;
 }
 
+/* Append n samples, at most as many as complete a window; those that no window needs any more are discarded. */
 static ss_status
-append_samples(ss_stream *s, const double *x, size_t n, ss_error *err)
+append(ss_stream *s, const double *x, size_t n, ss_error *err)
 {
     double most;
-    size_t good = ss_morlet_finite(x, n, &most);
+    size_t good = ss_morlet_finite(x, n, &most), held = (size_t)((ptrdiff_t)s->samples - s->origin);
     s->x_max = fmax(most, s->x_max);
-    make_room(s, good);
-    size_t held = (size_t)((ptrdiff_t)s->samples - s->origin);
+    if (held + good > s->room) {
+        ptrdiff_t start = next_start(s), keep = start < (ptrdiff_t)s->samples ? start : (ptrdiff_t)s->samples;
+        size_t drop = (size_t)(keep - s->origin);
+        held -= drop;
+        memmove(s->x, s->x + drop, held * sizeof *s->x);
+        s->origin = keep;
+    }
     double *to = s->x + held;
     follow_exponent(s, held);
     memcpy(to, x, good * sizeof *x);
@@ -86,7 +318,7 @@ append_samples(ss_stream *s, const double *x, size_t n, ss_error *err)
     if (s->cascade != NULL)
         ss_cascade_append(s->cascade, to, good);
     s->samples += good;
-    ss_status st = s->samples == s->full ? transform_full(s, err) : SS_OK;
+    ss_status st = s->samples == s->full ? run_full(s, err) : SS_OK;
     return st == SS_OK && good < n ? ss_morlet_not_finite(err, s->samples + 1, x[good]) : st;
 }
 
@@ -113,23 +345,13 @@ ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
     if (st == SS_OK && s->ended)
         st = ss_fail(&why, SS_EINVAL, "the stream has ended");
     while (st == SS_OK && n > 0) {
-        size_t left = s->full - s->samples, piece = left < STREAM_PIECE ? left : STREAM_PIECE;
+        size_t left = s->full - s->samples, piece = left < PIECE ? left : PIECE;
         piece = n < piece ? n : piece;
-        st = append_samples(s, x, piece, &why);
+        st = append(s, x, piece, &why);
         x += piece;
         n -= piece;
     }
     return keep(s, st, &why, err);
-}
-
-/* 1 if a coefficient of the group is complete and has not been sent. */
-static int
-any_ready(const ss_stream *s, const group *g)
-{
-    for (size_t i = g->first; i < g->first + g->plan->n_scales; i++)
-        if (ss_stream_ready(s, i, (ptrdiff_t)s->samples) > 0)
-            return 1;
-    return 0;
 }
 
 ss_status
@@ -139,29 +361,14 @@ ss_stream_drain(ss_stream *s, ss_error *err)
         return SS_FAIL_NULL(err);
     ss_error why = { 0 };
     ss_status st = s->status;
+    size_t ready = 0;
     if (st == SS_OK)
-        st = ss_blocks_transform_rest(s, (ptrdiff_t)s->samples, &why);
-    for (size_t i = 0; st == SS_OK && i < s->n_groups; i++) {
-        const group *g = &s->group[i];
-        if (any_ready(s, g))
-            st = ss_group_transform(s, g, ss_group_start(s, g), &why);
-    }
+        st = run_blocks_to(s, (ptrdiff_t)s->samples, &why);
+    for (size_t i = s->in_blocks; i < s->grid.n_scales; i++)
+        ready += count_ready(s, i, (ptrdiff_t)s->samples);
+    if (st == SS_OK && ready > 0)
+        st = run_sums(s, next_start(s), &why);
     return keep(s, st, &why, err);
-}
-
-static ss_status
-transform_rest(ss_stream *s, ss_error *err)
-{
-    for (size_t i = 0; i < s->n_scales; i++)
-        s->state[i].count = ss_scale_count(&s->scale[i], (double)(s->samples - 1) / s->rate);
-    ss_status st = ss_blocks_transform_rest(s, PTRDIFF_MAX, err);
-    s->ended = 1;
-    for (size_t i = 0; i < s->n_groups; i++) {
-        ptrdiff_t start;
-        while (st == SS_OK && (start = ss_group_start(s, &s->group[i])) < PTRDIFF_MAX)
-            st = ss_group_transform(s, &s->group[i], start, err);
-    }
-    return st;
 }
 
 ss_status
@@ -173,19 +380,91 @@ ss_stream_end(ss_stream *s, ss_error *err)
     ss_status st = s->status;
     if (st == SS_OK && s->samples == 0)
         st = ss_fail(&why, SS_EINVAL, "the record is empty");
+    for (size_t i = 0; st == SS_OK && !s->ended && i < s->grid.n_scales; i++)
+        s->state[i].count = ss_scale_count(&s->grid.scale[i], (double)(s->samples - 1) / s->plan->rate);
     if (st == SS_OK && !s->ended)
-        st = transform_rest(s, &why);
+        st = run_blocks_to(s, PTRDIFF_MAX, &why);
     s->ended = 1;
+    for (ptrdiff_t start; st == SS_OK && (start = next_start(s)) < PTRDIFF_MAX;)
+        st = run_sums(s, start, &why);
     return keep(s, st, &why, err);
 }
 
 /* --- making and freeing ----------------------------------------------------------------------- */
+
+/* The grid, and the scales that are in blocks. */
+static ss_status
+make_plan(ss_stream *s, double rate, const ss_morlet_opts *opts, ss_error *err)
+{
+    ss_morlet *plan = s->plan = calloc(1, sizeof *plan);
+    if (plan == NULL)
+        return SS_ENOMEM;
+    *plan = (ss_morlet){ .opts = *opts, .n = INT_MAX / 2, .rate = rate, .window = 1 };
+    ss_status st = ss_grid_make(&plan->scale, &plan->n_scales, 0, rate, opts, err);
+    ss_morlet_leave_rounding(&plan->opts);
+    if (st == SS_OK)
+        st = ss_blocks_new(plan);
+    s->grid = (ss_grid){ plan->n_scales, plan->scale, 0 };
+    while (st == SS_OK && s->in_blocks < plan->n_scales && ss_blocks_covers(plan->blocks, s->in_blocks))
+        s->in_blocks++;
+    return st == SS_OK && s->in_blocks > 0 && (s->cascade = ss_cascade_new(plan->blocks)) == NULL ? SS_ENOMEM : st;
+}
+
+/* The state of each scale.  Of those by the definition, as many wavelets are kept as TABLES allows, the shortest;
+ * *reach becomes that of the longest. */
+static ss_status
+make_states(ss_stream *s, double *longest)
+{
+    const ss_morlet *plan = s->plan;
+    size_t bytes = 0;
+    s->state = calloc(plan->n_scales, sizeof *s->state);
+    if (s->state == NULL)
+        return SS_ENOMEM;
+    for (size_t i = plan->n_scales; i-- > 0;) {
+        scale_state *r = &s->state[i];
+        double a = plan->scale[i].a, reach = ceil(REACH * a * plan->rate) + 1;
+        r->reach = (ptrdiff_t)fmin(reach, 0x1p50);
+        r->count = SIZE_MAX;
+        go_on(s, i, 0);
+        if (i < s->in_blocks)
+            continue;
+        *longest = reach;
+        bytes += bytes <= TABLES ? ss_wavelet_bytes(&plan->opts, a, plan->rate, plan->n) : 0;
+        if (bytes <= TABLES && (r->wave = ss_wavelet_new(&plan->opts, a, plan->rate, plan->n)) == NULL)
+            return SS_ENOMEM;
+    }
+    return SS_OK;
+}
+
+/* Room for samples, of which the first window has zeros before the record, and for what threads need. */
+static ss_status
+make_room(ss_stream *s, double longest)
+{
+    double n = exp2(ceil(log2(fmax(8 * longest, LEAST))));
+    size_t threads = (size_t)s->plan->opts.threads;
+    if (!(n < 0x1p58))
+        return SS_ENOMEM;
+    if (longest > 0) {
+        s->length = (size_t)n;
+        s->origin = next_start(s);
+    }
+    s->room = s->length + PIECE;
+    s->x = calloc(s->room, sizeof *s->x);
+    s->w = malloc(2 * GIVEN * sizeof *s->w);
+    s->task = malloc(s->grid.n_scales * sizeof *s->task);
+    s->worker = calloc(threads, sizeof *s->worker);
+    ss_status st = s->x != NULL && s->w != NULL && s->task != NULL && s->worker != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t t = 0; st == SS_OK && t < threads; t++)
+        st = ss_morlet_scratch(s->plan, &s->worker[t].scratch);
+    return st;
+}
 
 ss_status
 ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *given, ss_coefficient_sink *sink,
               void *user, ss_error *err)
 {
     ss_morlet_opts opts;
+    double longest = 0;
     if (out == NULL || sink == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_morlet_take(&opts, given, err);
@@ -201,10 +480,15 @@ ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *given, ss_coef
     ss_stream *s = calloc(1, sizeof *s);
     if (s == NULL)
         return SS_ENOMEM;
-    *s = (ss_stream){ .opts = opts, .rate = rate, .sink = sink, .user = user };
-    if ((st = ss_stream_plan(s, err)) == SS_OK)
-        st = transform_full(s, err);
-    s->grid = (ss_grid){ s->n_scales, s->scale, 0 };
+    s->sink = sink;
+    s->user = user;
+    st = make_plan(s, rate, &opts, err);
+    if (st == SS_OK)
+        st = make_states(s, &longest);
+    if (st == SS_OK)
+        st = make_room(s, longest);
+    if (st == SS_OK)
+        st = run_full(s, err);
     if (st == SS_OK)
         *out = s;
     else
@@ -217,25 +501,19 @@ ss_stream_free(ss_stream *s)
 {
     if (s == NULL)
         return;
-    for (size_t i = 0; i < s->n_groups; i++)
-        ss_morlet_free(s->group[i].plan);
     ss_cascade_free(s->cascade);
-    ss_morlet_free(s->blocks.plan);
-    for (size_t i = 0; s->state != NULL && i < s->n_scales; i++)
+    for (size_t i = 0; s->state != NULL && i < s->grid.n_scales; i++)
         ss_wavelet_free(s->state[i].wave);
-    for (int t = 0; s->worker != NULL && t < s->opts.threads; t++) {
+    for (int t = 0; s->worker != NULL && t < s->plan->opts.threads; t++)
         ss_fft_scratch_free(s->worker[t].scratch);
-        free(s->worker[t].w);
-    }
-    free(s->group);
+    ss_morlet_free(s->plan);
     free(s->state);
-    free(s->scale);
     free(s->worker);
+    free(s->task);
+    free(s->w);
     free(s->x);
     free(s);
 }
-
-/* --- what it does ----------------------------------------------------------------------------- */
 
 const ss_grid *
 ss_stream_grid(const ss_stream *s)
@@ -252,12 +530,7 @@ ss_stream_samples(const ss_stream *s)
 size_t
 ss_stream_window(const ss_stream *s, size_t i)
 {
-    if (s == NULL || i >= s->n_scales)
+    if (s == NULL || i >= s->grid.n_scales)
         return 0;
-    if (i < s->blocks.plan->n_scales)
-        return (size_t)ss_blocks_delay(s->blocks.plan->blocks, i);
-    const group *g = s->group;
-    while (i - g->first >= g->plan->n_scales)
-        g++;
-    return g->plan->n;
+    return i < s->in_blocks ? (size_t)ss_blocks_delay(s->plan->blocks, i) : s->length;
 }
