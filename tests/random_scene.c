@@ -37,8 +37,8 @@ draw_own(rng *r, ss_scene *s)
     if (ss_scene_get(s, "static_friction") == 0 && !s->model->linear)
         s->static_friction = draw(r, "f_s/f_k") * s->friction;
     for (size_t i = 0; (range = ss_model_range(s->model, i)) != NULL; i++)
-        if (range->set != NULL)
-            range->set(s, draw_within(r, range));
+        if (ss_key_is_own(range->offset))
+            ss_range_set(range, s, draw_within(r, range));
 }
 
 /* The fastest motion of the scene, in units of its own frequency. */
@@ -58,10 +58,10 @@ random_scene(uint64_t number)
     rng r = { number * UINT64_C(0xd1342543de82ef95) + 1 };
     ss_scene s = ss_scene_defaults;
     double omega = 2 * M_PI * draw(&r, "omega_n/(2 pi)"), X = draw(&r, "X");
-    size_t models = 0;
-    while (ss_model_at(models) != NULL)
+    size_t models = 0, first = number < RANDOM_NEWER ? 0 : RANDOM_OLDER;
+    while (ss_model_at(first + models) != NULL && (first > 0 || models < RANDOM_OLDER))
         models++;
-    s.model = ss_model_at((size_t)((double)models * uniform(&r)));
+    s.model = ss_model_at(first + (size_t)((double)models * uniform(&r)));
     s.mass = draw(&r, "m");
     s.stiffness = s.mass * omega * omega;
     double base = draw(&r, "Omega/omega_n"), start = uniform(&r), angle = 2 * M_PI * uniform(&r);

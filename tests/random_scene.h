@@ -37,7 +37,10 @@ perhaps(rng *r, double from, double to, int is_signed)
 
 enum { RIG_PERIODS = 30, RIG_SAMPLES = 300 };
 
-/* A scene of any model in the list, within the ranges of the model. */
+/* Scenes from this number on are of the models behind the first RANDOM_OLDER of the list, those before it of
+ * these: some were measured, and are known by their numbers. */
+enum { RANDOM_NEWER = 1000000, RANDOM_OLDER = 4 };
+/* A scene of any of these models, within the ranges of the model. */
 ss_scene random_scene(uint64_t number);
 /* A Coulomb or compliant scene with all keys, each of which one time in two does nothing. */
 ss_scene random_rig(uint64_t number);

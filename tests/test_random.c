@@ -181,8 +181,10 @@ does_not_depend_on_the_unit_of_mass(const trial *t)
     s.stiffness *= unit;
     s.friction *= unit;
     s.static_friction *= unit;
-    ss_scene_set(&s, "contact_stiffness", ss_scene_get(&s, "contact_stiffness") * unit, NULL);
-    ss_scene_set(&s, "contact_damping", ss_scene_get(&s, "contact_damping") * unit, NULL);
+    const scene_key *k;
+    for (size_t i = 0; (k = ss_key_at(s.model, i)) != NULL; i++)
+        if (ss_key_is_own(k->offset) && k->unit[0] == 'N')
+            ss_scene_set(&s, k->name, ss_scene_get(&s, k->name) * unit, NULL);
     run b = run_alike(t, &s, 1e-12);
     if (ended(t, &b))
         demand(t, "x over its scale in another unit of mass",

@@ -174,7 +174,7 @@ ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
     m->unresolved += (unsigned long)(still && barely_sticks(m, s));
     now->u += s;
     ss_motion_rebase(m);
-    if (now->mode != 0 && fabs(now->x_ref + now->q[0] - m->x_begin) <= m->doubt)
+    if (!now->model->kinks && now->mode != 0 && fabs(now->x_ref + now->q[0] - m->x_begin) <= m->doubt)
         m->unresolved++;
     if (!now->model->next(now, event))
         return 0;

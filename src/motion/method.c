@@ -105,8 +105,8 @@ ss_method_named(const struct method **how, const char *name, const ss_scene *sce
     if (kind == CLOSED_FORM && scene->base != NULL)
         return ss_fail(err, SS_EINVAL, "method %s: a measured base has no closed form", name);
     if (kind == MULTISTEP && model->guard != NULL && model->derivatives == NULL)
-        return ss_fail(err, SS_EINVAL, "method %s does not repeat a step, by which alone events of "
-                       "the %s model are found", name, model->name);
+        return ss_fail(err, SS_EINVAL, "method %s does not repeat a step, by which alone %s of "
+                       "the %s model are found", name, model->kinks ? "kinks" : "events", model->name);
     *how = &list[i];
     return SS_OK;
 }

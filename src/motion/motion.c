@@ -87,7 +87,7 @@ int
 ss_motion_fades(const motion *m)
 {
     const state *now = &m->now;
-    return now->model->guard != NULL && now->mode != 0
+    return ss_model_has_events(now->model) && now->mode != 0
         && fabs(now->q[1]) <= m->doubt * now->model->fastest(now, NULL);
 }
 

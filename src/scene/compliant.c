@@ -28,33 +28,14 @@ static const vanishing vanishing_terms[] = {
 };
 
 static double
-stiffness_ratio(const ss_scene *s)
+critical(const ss_scene *s)
 {
-    return s->own[STIFFNESS] / s->stiffness;
-}
-
-static double
-damping_ratio(const ss_scene *s)
-{
-    double k = s->stiffness + s->own[STIFFNESS];
-    return s->own[DAMPING] / (2 * sqrt(k) * sqrt(s->mass));
-}
-
-static void
-set_stiffness_ratio(ss_scene *s, double x)
-{
-    s->own[STIFFNESS] = x * s->stiffness;
-}
-
-static void
-set_damping_ratio(ss_scene *s, double x)
-{
-    s->own[DAMPING] = x * 2 * sqrt(s->stiffness + s->own[STIFFNESS]) * sqrt(s->mass);
+    return 2 * sqrt(s->stiffness + s->own[STIFFNESS]) * sqrt(s->mass);
 }
 
 static const ss_scene_range ranges[] = {
-    { "K_y/k", "1", 1e-2, 1e8, 0, stiffness_ratio, set_stiffness_ratio },
-    { "c/(2 sqrt((k + K_y) m))", "1", 1e-4, 100, 1, damping_ratio, set_damping_ratio },
+    { "K_y/k", "1", 1e-2, 1e8, 0, OWN_AT(STIFFNESS), ss_unit_stiffness },
+    { "c/(2 sqrt((k + K_y) m))", "1", 1e-4, 100, 1, OWN_AT(DAMPING), critical },
 };
 
 static double

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stickslip/scene.h>
 
-enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE, RATE };  /* ranges of numbers; all are finite */
+enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE, RATE, FROM_HALF, HALF_TO_ONE };  /* ranges of numbers; all are finite */
 enum { ANY_TEXT, PATH };                           /* of texts; a PATH does not leave its folder */
 /* TERM: a term of the equation of motion that most scenes do not have; it is 0 if the key is left
  * out, and a scene is then written without it.  FORCING: either all these keys are left out, or
@@ -28,6 +28,20 @@ static inline double *
 number_at(ss_scene *scene, size_t offset)
 {
     return (double *)(void *)((char *)scene + offset);
+}
+
+static inline double
+number_of(const ss_scene *scene, size_t offset)
+{
+    return *(const double *)(const void *)((const char *)scene + offset);
+}
+
+/* Does the value at an offset stand in ss_scene.own? */
+static inline int
+ss_key_is_own(size_t offset)
+{
+    const size_t first = offsetof(ss_scene, own);
+    return offset >= first && offset < first + sizeof ((ss_scene *)0)->own;
 }
 
 #define KEY_NUMBER(field, required, range, unit) \
@@ -59,7 +73,6 @@ const scene_key *ss_key_of_any(const char *name);
 /* What is wrong with a name that no model has, with the key that is probably meant; returns text. */
 enum { KEY_UNKNOWN_ROOM = 160 };
 const char *ss_key_unknown(char text[KEY_UNKNOWN_ROOM], const char *name);
-int ss_key_is_own(const scene_key *k);             /* does its value stand in ss_scene.own? */
 int ss_key_is_named(const ss_scene *scene, const scene_key *k);    /* has it this TERM? */
 /* The first TERM that a scene has; NULL if none. */
 const char *ss_scene_term(const ss_scene *scene);
@@ -75,11 +88,20 @@ typedef struct ss_scene_range {
     const char *name, *unit;    /* "Omega/omega_n"; stickslip-scene(5) defines X */
     double from, to;
     int zero;                   /* 1: 0 belongs to the range too */
-    double (*value)(const ss_scene *scene);     /* NaN where it has no meaning */
-    void (*set)(ss_scene *scene, double x);     /* change a key so that the value is x; NULL: not one alone */
+    size_t offset;              /* in ss_scene, of a number; 0: it is computed by `of` alone */
+    double (*of)(const ss_scene *scene);        /* the number's unit, 0 where it has no meaning */
 } ss_scene_range;
 /* The i-th range of the scenes of a model; NULL after the last. */
 const ss_scene_range *ss_model_range(const ss_model *model, size_t i);
+double ss_range_value(const ss_scene_range *range, const ss_scene *scene);      /* NaN where it has no meaning */
+/* Change the model's own number of which this is the range so that the value is x; 0: there is none. */
+int ss_range_set(const ss_scene_range *range, ss_scene *scene, double x);
+/* Units of numbers: 1, k, omega_n X. */
+double ss_unit_one(const ss_scene *scene);
+double ss_unit_stiffness(const ss_scene *scene);
+double ss_unit_length(const ss_scene *scene);
+double ss_unit_speed(const ss_scene *scene);
+double ss_unit_damping(const ss_scene *scene);
 
 /* --- simpler.c ----------------------------------------------------------------------------- */
 

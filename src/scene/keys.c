@@ -86,13 +86,6 @@ ss_key_is_named(const ss_scene *scene, const scene_key *k)
 }
 
 int
-ss_key_is_own(const scene_key *k)
-{
-    const size_t first = offsetof(ss_scene, own);
-    return k->offset >= first && k->offset < first + sizeof ((ss_scene *)0)->own;
-}
-
-int
 ss_key_is_of_record(const char *name)
 {
     for (size_t i = 0; i < OF_RECORD; i++)

@@ -99,13 +99,13 @@ read_setting(ss_scene *scene, char *text, struct key_origin at, given *g, ss_err
     else if (at.line > 0)               /* a setting may replace a line of the file */
         return fail_at(at, err, "repeated key '%s', first given on line %ld", name, found->line);
     found->line = at.line;
-    if (ss_key_is_own(k) && k->word != NULL) {
+    if (ss_key_is_own(k->offset) && k->word != NULL) {
         snprintf(found->word, WORD_ROOM, "%s", value);
         return SS_OK;
     }
     if (!ss_value_read(scene, k, value, wrong))
         return fail_at(at, err, "%s", wrong);
-    if (ss_key_is_own(k))
+    if (ss_key_is_own(k->offset))
         found->value = *number_at(scene, k->offset);
     return SS_OK;
 }
@@ -125,7 +125,7 @@ set_own(ss_scene *scene, given *g, struct key_origin last, ss_error *err)
             at.line = -1;               /* the setting that chose the model is at fault, not the file */
         if (k == NULL)
             return fail_at(at, err, "model %s has no key '%s'", model->name, one->key->name);
-        if (!ss_key_is_own(k))
+        if (!ss_key_is_own(k->offset))
             continue;
         if (k->word == NULL)
             *number_at(scene, k->offset) = one->value;

@@ -47,6 +47,7 @@ typedef struct state {
     double tol;                     /* of the integrator */
 
     int mode;
+    int side;                       /* of its play on which a contact is: 1, -1, or 0 in the gap */
     double k, c, f0;                /* coefficients of the mode's equation, see above */
     double x_ref;                   /* the position is x_ref + q[0]; in microstick q[0] is y */
     double graze;                   /* a contact no farther beyond its limit only touches it [m] */
@@ -109,6 +110,7 @@ struct ss_model {
     int linear;                     /* 1: each mode is linear, with the coefficients k, c and f0 */
     int has_contact;                /* 1: it has an elastic contact, with contact_stiffness and
                                        contact_damping */
+    int kinks;                      /* 1: modes end where the law has a kink, which is no event */
     unsigned force_varies;          /* IN_STICK, IN_SLIP */
 
     /* Change a scene to one with the same motion that keeps the shape of this motion when f_k and Z_e
@@ -345,5 +347,11 @@ int ss_stick_next(state *m, ss_event *e);
 /* f in slip is f0. */
 void ss_stick_sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s);
 extern const struct variation ss_stick_variation;
+
+/* --- kink.c: laws of three numbers x, v, z that are smooth but for kinks ------------------------- */
+
+int ss_kink_start(state *m);
+int ss_kink_next(state *m, ss_event *e);
+extern const struct variation ss_kink_variation;
 
 #endif

@@ -10,7 +10,9 @@
     row(coulomb) \
     row(state_variable) \
     row(compliant) \
-    row(stribeck)
+    row(stribeck) \
+    row(lugre) \
+    row(bouc_wen)
 
 #define MODEL_DECLARATION(name) extern const ss_model ss_##name##_model;
 MODEL_LIST(MODEL_DECLARATION)

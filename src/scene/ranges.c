@@ -6,10 +6,35 @@
 #include "base/error.h"
 #include "scene/model.h"
 
-static double
-mass(const ss_scene *s)
+double
+ss_unit_one(const ss_scene *s)
 {
-    return s->mass;
+    (void)s;
+    return 1;
+}
+
+double
+ss_unit_stiffness(const ss_scene *s)
+{
+    return s->stiffness;
+}
+
+double
+ss_unit_length(const ss_scene *s)
+{
+    return amplitude_of(s);
+}
+
+double
+ss_unit_speed(const ss_scene *s)
+{
+    return own_frequency(s) * amplitude_of(s);
+}
+
+double
+ss_unit_damping(const ss_scene *s)
+{
+    return 2 * sqrt(s->stiffness) * sqrt(s->mass);
 }
 
 static double
@@ -19,41 +44,9 @@ hertz(const ss_scene *s)
 }
 
 static double
-base_speed(const ss_scene *s)
+force(const ss_scene *s)
 {
-    return 2 * M_PI * s->base_frequency / own_frequency(s);
-}
-
-static double
-friction(const ss_scene *s)
-{
-    double X = amplitude_of(s);
-    return X > 0 ? s->friction / s->stiffness / X : NAN;
-}
-
-static double
-damping(const ss_scene *s)
-{
-    return s->damping / (2 * sqrt(s->stiffness) * sqrt(s->mass));
-}
-
-static double
-speed(const ss_scene *s, double v)
-{
-    double X = amplitude_of(s);
-    return X > 0 ? fabs(v) / own_frequency(s) / X : NAN;
-}
-
-static double
-base_velocity(const ss_scene *s)
-{
-    return speed(s, s->base_velocity);
-}
-
-static double
-surface_velocity(const ss_scene *s)
-{
-    return speed(s, s->surface_velocity);
+    return s->stiffness * amplitude_of(s);
 }
 
 static double
@@ -62,16 +55,17 @@ hold(const ss_scene *s)
     return s->static_friction > 0 && s->friction > 0 ? s->static_friction / s->friction : NAN;
 }
 
+#define NUMBER(field) offsetof(ss_scene, field)
 static const ss_scene_range of_every[] = {
-    { "m", "kg", 1e-12, 1e12, 0, mass, NULL },
-    { "omega_n/(2 pi)", "Hz", 1e-9, 1e9, 0, hertz, NULL },
-    { "X", "m", 1e-15, 1e9, 1, amplitude_of, NULL },
-    { "Omega/omega_n", "1", 1e-3, 1e3, 1, base_speed, NULL },
-    { "f_k/(k X)", "1", 1e-3, 10, 1, friction, NULL },
-    { "f_s/f_k", "1", 1, 10, 0, hold, NULL },
-    { "d/(2 sqrt(k m))", "1", 1e-4, 100, 1, damping, NULL },
-    { "|U|/(omega_n X)", "1", 1e-3, 1, 1, base_velocity, NULL },
-    { "|S|/(omega_n X)", "1", 1e-3, 1, 1, surface_velocity, NULL },
+    { "m", "kg", 1e-12, 1e12, 0, NUMBER(mass), ss_unit_one },
+    { "omega_n/(2 pi)", "Hz", 1e-9, 1e9, 0, 0, hertz },
+    { "X", "m", 1e-15, 1e9, 1, 0, ss_unit_length },
+    { "Omega/omega_n", "1", 1e-3, 1e3, 1, NUMBER(base_frequency), hertz },
+    { "f_k/(k X)", "1", 1e-3, 10, 1, NUMBER(friction), force },
+    { "f_s/f_k", "1", 1, 10, 0, 0, hold },
+    { "d/(2 sqrt(k m))", "1", 1e-4, 100, 1, NUMBER(damping), ss_unit_damping },
+    { "|U|/(omega_n X)", "1", 1e-3, 1, 1, NUMBER(base_velocity), ss_unit_speed },
+    { "|S|/(omega_n X)", "1", 1e-3, 1, 1, NUMBER(surface_velocity), ss_unit_speed },
 };
 enum { OF_EVERY = sizeof of_every / sizeof *of_every };
 
@@ -85,6 +79,25 @@ ss_model_range(const ss_model *m, size_t i)
     return i - OF_EVERY < m->n_ranges ? &m->ranges[i - OF_EVERY] : NULL;
 }
 
+double
+ss_range_value(const ss_scene_range *r, const ss_scene *s)
+{
+    double of = r->of(s);
+    if (r->offset == 0)
+        return of;
+    return of > 0 ? fabs(number_of(s, r->offset)) / of : NAN;
+}
+
+int
+ss_range_set(const ss_scene_range *r, ss_scene *s, double x)
+{
+    double of = r->of(s);
+    if (!ss_key_is_own(r->offset))
+        return 0;
+    *number_at(s, r->offset) = x * (of > 0 ? of : 1);
+    return 1;
+}
+
 ss_status
 ss_scene_supported(const ss_scene *scene, ss_error *err)
 {
@@ -94,7 +107,7 @@ ss_scene_supported(const ss_scene *scene, ss_error *err)
         return ss_fail(err, SS_EINVAL, "model is no known choice");
     const ss_scene_range *r;
     for (size_t i = 0; (r = ss_model_range(scene->model, i)) != NULL; i++) {
-        double x = r->value(scene);
+        double x = ss_range_value(r, scene);
         if (!(x < r->from * (1 - 1e-9) || x > r->to * (1 + 1e-9)) || (x == 0 && r->zero))
             continue;
         return ss_fail(err, SS_EINVAL, "%s = %.3g lies outside %g ... %g, for which results are "

@@ -21,13 +21,6 @@ static const scene_key keys[] = {
     OWN_WORD("law", LAW, law_word),
 };
 
-static double
-steepness(const ss_scene *s)
-{
-    double X = amplitude_of(s);
-    return X > 0 ? s->own[ALPHA] * X * own_frequency(s) : NAN;
-}
-
 /* theta' = -rate (theta - goal tanh(alpha v)). */
 static void
 law(const ss_scene *s, double *rate, double *goal)
@@ -38,30 +31,21 @@ law(const ss_scene *s, double *rate, double *goal)
 }
 
 static double
-relaxation(const ss_scene *s)
+per_speed(const ss_scene *s)
 {
-    double rate, goal;
-    law(s, &rate, &goal);
-    return rate / own_frequency(s);
+    double speed = ss_unit_speed(s);
+    return speed > 0 ? 1 / speed : 0;
 }
 
-static void
-set_steepness(ss_scene *s, double x)
+static double
+rate_unit(const ss_scene *s)
 {
-    double X = amplitude_of(s);
-    s->own[ALPHA] = x / (X > 0 ? X * own_frequency(s) : 1);
-}
-
-static void
-set_relaxation(ss_scene *s, double x)
-{
-    double of_gamma = s->own[LAW] == LITERAL ? s->friction : 1;
-    s->own[GAMMA] = x * own_frequency(s) / (of_gamma > 0 ? of_gamma : 1);
+    return own_frequency(s) / (s->own[LAW] == LITERAL && s->friction > 0 ? s->friction : 1);
 }
 
 static const ss_scene_range ranges[] = {
-    { "alpha X omega_n", "1", 0.1, 1e6, 0, steepness, set_steepness },
-    { "gamma/omega_n", "1", 1e-2, 1e8, 0, relaxation, set_relaxation },
+    { "alpha X omega_n", "1", 0.1, 1e6, 0, OWN_AT(ALPHA), per_speed },
+    { "gamma/omega_n", "1", 1e-2, 1e8, 0, OWN_AT(GAMMA), rate_unit },
 };
 
 /* Replace the law by the scaled one with the same rate and goal. */
@@ -295,24 +279,6 @@ in_transition(const state *m, double v)
     return fabs(m->scene->own[ALPHA] * v) < 1;
 }
 
-static void
-all_free(const state *m, int is_free[D_MOST])
-{
-    (void)m;
-    is_free[D_REF] = is_free[D_Q] = is_free[D_V] = 1;
-}
-
-static int
-move(state *m, const double d[D_MOST])
-{
-    m->q[0] += d[D_Q];
-    m->q[1] += d[D_V];
-    m->q[2] += d[D_REF];
-    return 1;
-}
-
-static const struct variation variation = { .free = all_free, .move = move };
-
 MODEL(state_variable) = {
     .name = "state-variable",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
@@ -324,5 +290,5 @@ MODEL(state_variable) = {
     .start = start, .fastest = fastest, .quickest = quickest, .sight = sight, .stiff = stiff,
     .rates = rates, .jacobian = jacobian, .series = series, .slope = slope, .reach = reach,
     .sample = sample,
-    .memory = memory, .in_transition = in_transition, .variation = &variation
+    .memory = memory, .in_transition = in_transition, .variation = &ss_kink_variation
 };

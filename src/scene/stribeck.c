@@ -9,22 +9,8 @@ static const scene_key keys[] = {
     OWN_NUMBER("stribeck_velocity", SPEED, REQUIRED, POSITIVE, "m/s"),
 };
 
-static double
-stribeck_speed(const ss_scene *s)
-{
-    double X = amplitude_of(s);
-    return X > 0 ? s->own[SPEED] / own_frequency(s) / X : NAN;
-}
-
-static void
-set_stribeck_speed(ss_scene *s, double x)
-{
-    double X = amplitude_of(s);
-    s->own[SPEED] = x * (X > 0 ? X * own_frequency(s) : 1);
-}
-
 static const ss_scene_range ranges[] = {
-    { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, stribeck_speed, set_stribeck_speed },
+    { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, OWN_AT(SPEED), ss_unit_speed },
 };
 
 /* The part of f_s - f_k that remains at v. */

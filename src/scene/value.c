@@ -9,12 +9,6 @@
 #include "scene/model.h"
 #include "signal/header.h"
 
-static double
-number_of(const ss_scene *scene, size_t offset)
-{
-    return *(const double *)(const void *)((const char *)scene + offset);
-}
-
 static int
 is_number(const scene_key *k)
 {
@@ -26,6 +20,8 @@ in_range(const scene_key *k, double x)
 {
     if (k->range == RATE)
         return x >= RATE_MIN && x <= RATE_MAX;
+    if (k->range == FROM_HALF || k->range == HALF_TO_ONE)
+        return isfinite(x) && x >= .5 && (x <= 1 || k->range == FROM_HALF);
     return isfinite(x) && (k->range == ANY_NUMBER || x > 0 || (k->range == NOT_NEGATIVE && x == 0));
 }
 
@@ -34,6 +30,7 @@ out_of_range(char wrong[WRONG_ROOM], const scene_key *k, const char *value)
 {
     static const char *const range[] = {
         [ANY_NUMBER] = "finite", [NOT_NEGATIVE] = ">= 0", [POSITIVE] = "> 0", [RATE] = ("in " RATE_RANGE),
+        [FROM_HALF] = ">= .5", [HALF_TO_ONE] = "in .5 ... 1",
     };
     snprintf(wrong, WRONG_ROOM, "%s = %.64s is out of range, it must be %s", k->name, value, range[k->range]);
     return 0;

@@ -11,8 +11,7 @@ sed -e 's/MODEL(coulomb)/MODEL(stepped)/' -e 's/ss_coulomb_model/ss_stepped_mode
 compile() { $CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iown -I"$SRC/include" -I"$SRC/src" $INCLUDES -c "$@"; }
 compile copied.c 2> refused || grep -c 'MODEL_copied' refused
 mkdir -p own/scene
-# shellcheck disable=SC1003  # a backslash at the end of a line
-sed 's/^    row(stribeck)$/    row(stribeck) \\\n    row(copied) \\\n    row(stepped)/' "$SRC/src/scene/models.h" > own/scene/models.h
+sed '/^#define MODEL_LIST/s/$/\n    row(copied) \\\n    row(stepped) \\/' "$SRC/src/scene/models.h" > own/scene/models.h
 compile copied.c stepped.c "$SRC/src/scene/models.c"
 mkdir bin
 common=

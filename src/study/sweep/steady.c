@@ -25,7 +25,7 @@ enum { STICKS = 1, RINGS = 2, DIFFERS = 4, LIMIT = 8 };
 static unsigned
 what_has(const ss_model *m)
 {
-    return (m->guard != NULL ? STICKS : 0u) | (m->in_transition != NULL ? RINGS : 0u)
+    return (ss_model_has_events(m) ? STICKS : 0u) | (m->in_transition != NULL ? RINGS : 0u)
         | (m->variation != NULL ? DIFFERS : 0u) | (m->limit != NULL ? LIMIT : 0u);
 }
 

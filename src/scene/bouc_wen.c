@@ -1,0 +1,155 @@
+/* bouc_wen.c -- an elastic contact that slips gradually (Bouc 1967; Wen, J. Eng. Mech. Div. ASCE 102, 249, 1976):
+ * f = f_k z and z' = (K/f_k) v (1 - |z|^n (1 - p + p sgn(v z))).  p = 1 and n = 1 is Dahl's law (1968); as n
+ * grows, it becomes the compliant contact.
+ *
+ * The state is the deflection y = z f_k / K.  There is no event; the law has kinks at v = 0 and at y = 0, so a
+ * mode is a sign of v and a side of y.  With a gap b, the sides are y > b, |y| <= b, where y follows the mass
+ * without a force, and y < -b; then z = (y -+ b) K / f_k. */
+#include "scene/models.h"
+
+enum { STIFFNESS, EXPONENT, FRACTION, GAP };    /* K, n, p, b */
+
+static const scene_key keys[] = {
+    OWN_NUMBER("contact_stiffness", STIFFNESS, REQUIRED, POSITIVE, "N/m"),
+    OWN_NUMBER("exponent", EXPONENT, REQUIRED, FROM_HALF, "1"),
+    OWN_NUMBER("beta_fraction", FRACTION, REQUIRED, HALF_TO_ONE, "1"),
+    OWN_NUMBER("gap", GAP, TERM, NOT_NEGATIVE, "m"),
+};
+
+static const vanishing vanishing_terms[] = {
+    { "gap=0", OWN_AT(GAP) },
+};
+
+static const ss_scene_range ranges[] = {
+    { "K/k", "1", 1e-1, 1e5, 0, OWN_AT(STIFFNESS), ss_unit_stiffness },
+    { "n", "1", 0.5, 20, 0, OWN_AT(EXPONENT), ss_unit_one },
+    { "p", "1", 0.5, 1, 0, OWN_AT(FRACTION), ss_unit_one },
+    { "b/X", "1", 1e-3, 1, 1, OWN_AT(GAP), ss_unit_length },
+};
+
+/* --- the law ------------------------------------------------------------------------------------ */
+
+
+/* z where the contact is on a side. */
+static double
+z_of(const ss_scene *s, int side, double y)
+{
+    return side == 0 || s->friction == 0 ? 0 : (y - side * s->own[GAP]) / (s->friction / s->own[STIFFNESS]);
+}
+
+/* y' / v in motion in direction `way`; *slope becomes its derivative by z. */
+static double
+yield(const ss_scene *s, int side, int way, double z, double *slope)
+{
+    double n = s->own[EXPONENT], p = s->own[FRACTION], size = fmax(side * z, 0);
+    double factor = 1 - p + p * way * side, part = side == 0 ? 0 : factor * pow(size, n);
+    *slope = size > 0 ? -side * n * part / size : 0;
+    return s->friction > 0 ? 1 - part : 0;
+}
+
+/* --- the motion --------------------------------------------------------------------------------- */
+
+static double
+fastest(const state *m, const char **what)
+{
+    const ss_scene *s = m->scene;
+    double contact = sqrt((s->stiffness + s->own[STIFFNESS]) / s->mass), decay = s->damping / s->mass;
+    if (what != NULL)
+        *what = m->omega >= fmax(contact, decay) ? "the base" : decay > contact ? "the damper" : "the contact";
+    return fmax(fmax(contact, decay), m->omega);
+}
+
+static void
+rates(const state *m, double drive, const double q[], double dqdt[])
+{
+    const ss_scene *s = m->scene;
+    double z = z_of(s, m->side, q[2]), slope;
+    dqdt[0] = q[1];
+    dqdt[1] = (drive - s->stiffness * q[0] - s->damping * q[1] - s->friction * z) / s->mass;
+    dqdt[2] = q[1] * yield(s, m->side, m->mode, z, &slope);
+}
+
+static void
+jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[])
+{
+    const ss_scene *s = m->scene;
+    double z = z_of(s, m->side, q[2]), z_by_y = m->side != 0 && s->friction > 0 ? s->own[STIFFNESS] / s->friction : 0;
+    double slope, part = yield(s, m->side, m->mode, z, &slope);
+    const double row[9] = {
+        0, 1, 0,
+        -s->stiffness / s->mass, -s->damping / s->mass, -s->friction * z_by_y / s->mass,
+        0, part, q[1] * slope * z_by_y
+    };
+    for (int i = 0; i < 9; i++)
+        dfdq[i] = row[i];
+    dfdt[0] = dfdt[2] = 0;
+    dfdt[1] = base_force_rate(m, u) / s->mass;
+}
+
+/* The distances, in units of v, to the ends of the mode. */
+static double
+guard(const state *m, const double q[], const double dqdt[], double *slope)
+{
+    double unit = own_frequency(m->scene), b = m->scene->own[GAP];
+    int toward = m->side != 0 ? m->side : -sign(q[2]);
+    double g = unit * toward * (q[2] - (m->side != 0 ? m->side : sign(q[2])) * b), g_v = m->mode * q[1];
+    if (g < g_v) {
+        *slope = unit * toward * dqdt[2];
+        return g;
+    }
+    *slope = m->mode * dqdt[1];
+    return g_v;
+}
+
+static int
+start(state *m)
+{
+    ss_kink_start(m);
+    m->side = m->scene->own[GAP] > 0 ? 0 : m->mode;
+    return 0;
+}
+
+static int
+next(state *m, ss_event *e)
+{
+    double b = m->scene->own[GAP], off = fabs(fabs(m->q[2]) - b) * own_frequency(m->scene);
+    if (fabs(m->q[1]) <= off)
+        return ss_kink_next(m, e);
+    if (m->side == 0)
+        m->side = m->mode;
+    else
+        m->side = b > 0 ? 0 : m->mode;
+    m->q[2] = (m->side != 0 ? m->side : -m->mode) * b;
+    return 0;
+}
+
+static void
+sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
+{
+    (void)drive;
+    s->x = q[0];
+    s->v = q[1];
+    s->a = dqdt[1];
+    s->f = m->scene->friction * z_of(m->scene, m->side, q[2]);
+    s->y = q[2];
+    s->mode = sign(q[1]);
+}
+
+static double
+memory(const state *m, double *unit)
+{
+    *unit = m->scene->friction / m->scene->own[STIFFNESS] + m->scene->own[GAP];
+    return m->q[2];
+}
+
+MODEL(bouc_wen) = {
+    .name = "bouc-wen",
+    .keys = keys, .n_keys = sizeof keys / sizeof *keys,
+    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
+    .parameter = { { .offset = OWN_AT(STIFFNESS), .by_mass = 1 } },
+    .n_parameters = 1,
+    .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,
+    .limit = ss_to_coulomb, .dim = 3, .kinks = 1, .force_varies = IN_STICK | IN_SLIP,
+    .start = start, .fastest = fastest, .rates = rates, .jacobian = jacobian, .guard = guard, .next = next,
+    .sample = sample, .memory = memory, .variation = &ss_kink_variation
+};

@@ -1,0 +1,56 @@
+/* kink.c -- friction with a third number z in the state, whose law is smooth but for kinks where v, or z, passes
+ * through 0.  A mode is a sign of v; at a kink the next begins, without an event. */
+#include "scene/model.h"
+
+/* The sign that v will have: that of v, of v', of the base's push, or +1. */
+static int
+way_of(const state *m)
+{
+    double rates[MAX_DIM], drive = base_force(m, m->u);
+    if (m->q[1] != 0)
+        return sign(m->q[1]);
+    m->model->rates(m, drive, m->q, rates);
+    if (rates[1] != 0)
+        return sign(rates[1]);
+    return base_force_rate(m, m->u) < 0 ? -1 : 1;
+}
+
+int
+ss_kink_start(state *m)
+{
+    m->q[0] = m->scene->x0;
+    m->q[1] = m->scene->v0 - m->scene->surface_velocity;
+    m->q[2] = 0;
+    m->mode = 1;                        /* rates need one; at v = 0 either will do */
+    m->mode = way_of(m);
+    return 0;
+}
+
+int
+ss_kink_next(state *m, ss_event *e)
+{
+    (void)e;
+    m->q[1] = 0;
+    m->mode = way_of(m);
+    return 0;
+}
+
+static void
+all_free(const state *m, int is_free[D_MOST])
+{
+    (void)m;
+    is_free[D_REF] = is_free[D_Q] = is_free[D_V] = 1;
+}
+
+static int
+move(state *m, const double d[D_MOST])
+{
+    m->q[0] += d[D_Q];
+    m->q[1] += d[D_V];
+    m->q[2] += d[D_REF];
+    if (m->model->kinks)
+        m->mode = way_of(m);
+    return 1;
+}
+
+const struct variation ss_kink_variation = { .free = all_free, .move = move };

@@ -1,0 +1,145 @@
+/* lugre.c -- bristles that bend and slip (Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Automatic
+ * Control 40, 419, 1995): z' = v - sigma_0 |v| z / g(v), f = sigma_0 z + sigma_1 z' + sigma_2 v, with
+ * g(v) = f_k + (f_s - f_k) exp(-(v/v_s)^2).
+ *
+ * There is no stick and no event.  |v| has a kink at v = 0, so modes are the signs of v, and the law is
+ * smooth within each.  Without friction there are no bristles: z stays 0. */
+#include "scene/models.h"
+
+enum { STIFFNESS, DAMPING, VISCOUS, SPEED };    /* sigma_0, sigma_1, sigma_2, v_s */
+
+static const scene_key keys[] = {
+    KEY_STATIC_FRICTION,
+    OWN_NUMBER("bristle_stiffness", STIFFNESS, REQUIRED, POSITIVE, "N/m"),
+    OWN_NUMBER("bristle_damping", DAMPING, TERM, NOT_NEGATIVE, "N s/m"),
+    OWN_NUMBER("viscous_friction", VISCOUS, TERM, NOT_NEGATIVE, "N s/m"),
+    OWN_NUMBER("stribeck_velocity", SPEED, REQUIRED, POSITIVE, "m/s"),
+};
+
+static const vanishing vanishing_terms[] = {
+    { "bristle_damping=0", OWN_AT(DAMPING) },
+    { "viscous_friction=0", OWN_AT(VISCOUS) },
+};
+
+static double
+critical(const ss_scene *s)
+{
+    return 2 * sqrt(s->stiffness + s->own[STIFFNESS]) * sqrt(s->mass);
+}
+
+static const ss_scene_range ranges[] = {
+    { "sigma_0/k", "1", 1, 1e5, 0, OWN_AT(STIFFNESS), ss_unit_stiffness },
+    { "sigma_1/(2 sqrt((k + sigma_0) m))", "1", 1e-3, 1, 1, OWN_AT(DAMPING), critical },
+    { "sigma_2/(2 sqrt(k m))", "1", 1e-3, 1, 1, OWN_AT(VISCOUS), ss_unit_damping },
+    { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, OWN_AT(SPEED), ss_unit_speed },
+};
+
+/* --- the law ------------------------------------------------------------------------------------ */
+
+/* sigma_0 |v| / g(v), the rate at which bristles slip, in motion in direction `way`; *slope becomes its
+ * derivative by v. */
+static double
+slip_rate(const ss_scene *s, int way, double v, double *slope)
+{
+    double fall = static_friction(s) - s->friction, w = v / s->own[SPEED];
+    double part = fall * exp(-w * w), g = s->friction + part, rate = g > 0 ? way * s->own[STIFFNESS] / g : 0;
+    *slope = rate * (1 + 2 * w * w * (g > 0 ? part / g : 0));
+    return rate * v;
+}
+
+static double
+bristle_rate(const ss_scene *s, int way, double v, double z)
+{
+    double slope, rate = slip_rate(s, way, v, &slope);
+    return static_friction(s) > 0 ? v - rate * z : 0;
+}
+
+static double
+force(const ss_scene *s, double v, double z, double z_rate)
+{
+    return s->own[STIFFNESS] * z + s->own[DAMPING] * z_rate + s->own[VISCOUS] * v;
+}
+
+/* --- the motion --------------------------------------------------------------------------------- */
+
+static double
+fastest(const state *m, const char **what)
+{
+    const ss_scene *s = m->scene;
+    double contact = sqrt((s->stiffness + s->own[STIFFNESS]) / s->mass);
+    double decay = (s->damping + s->own[VISCOUS]) / s->mass;
+    if (what != NULL)
+        *what = m->omega >= fmax(contact, decay) ? "the base" : decay > contact ? "the damper" : "the contact";
+    return fmax(fmax(contact, decay), m->omega);
+}
+
+static void
+rates(const state *m, double drive, const double q[], double dqdt[])
+{
+    const ss_scene *s = m->scene;
+    dqdt[0] = q[1];
+    dqdt[2] = bristle_rate(s, m->mode, q[1], q[2]);
+    dqdt[1] = (drive - s->stiffness * q[0] - s->damping * q[1] - force(s, q[1], q[2], dqdt[2])) / s->mass;
+}
+
+static void
+jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[])
+{
+    const ss_scene *s = m->scene;
+    double slope, rate = slip_rate(s, m->mode, q[1], &slope), by_v = 0, by_z = 0;
+    if (static_friction(s) > 0) {
+        by_v = 1 - slope * q[2];
+        by_z = -rate;
+    }
+    const double row[9] = {
+        0, 1, 0,
+        -s->stiffness / s->mass, -(s->damping + force(s, 1, 0, by_v)) / s->mass, -force(s, 0, 1, by_z) / s->mass,
+        0, by_v, by_z
+    };
+    for (int i = 0; i < 9; i++)
+        dfdq[i] = row[i];
+    dfdt[0] = dfdt[2] = 0;
+    dfdt[1] = base_force_rate(m, u) / s->mass;
+}
+
+static double
+sight(const state *m, const double dqdt[])
+{
+    const ss_scene *s = m->scene;
+    double jerk = (base_force_rate(m, m->u) - s->stiffness * dqdt[0] - s->damping * dqdt[1]
+                   - force(s, dqdt[1], dqdt[2], 0)) / s->mass;
+    return sight_of(m->q[1], s->own[SPEED], dqdt[1], jerk);
+}
+
+static void
+sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
+{
+    (void)drive;
+    s->x = q[0];
+    s->v = q[1];
+    s->a = dqdt[1];
+    s->f = force(m->scene, q[1], q[2], bristle_rate(m->scene, m->mode, q[1], q[2]));
+    s->y = q[2];
+    s->mode = sign(q[1]);
+}
+
+static double
+memory(const state *m, double *unit)
+{
+    *unit = static_friction(m->scene) / m->scene->own[STIFFNESS];
+    return m->q[2];
+}
+
+MODEL(lugre) = {
+    .name = "lugre",
+    .keys = keys, .n_keys = sizeof keys / sizeof *keys,
+    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
+    .parameter = { { .offset = OWN_AT(STIFFNESS), .by_mass = 1 },
+                   { .offset = OWN_AT(DAMPING), .by_mass = 1 } },
+    .n_parameters = 2,
+    .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,
+    .limit = ss_to_coulomb, .dim = 3, .kinks = 1, .force_varies = IN_STICK | IN_SLIP,
+    .start = ss_kink_start, .fastest = fastest, .sight = sight,
+    .rates = rates, .jacobian = jacobian, .guard = ss_linear_slip_guard, .next = ss_kink_next,
+    .sample = sample, .memory = memory, .variation = &ss_kink_variation
+};
