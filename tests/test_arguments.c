@@ -599,7 +599,6 @@ overlays_refuse_null(void **state)
 static void
 plots_refuse_null(void **state)
 {
-    static const ss_signal signal;
     static const ss_coefficients c;
     static const ss_models models;
     static const ss_trade trade;
@@ -611,17 +610,23 @@ plots_refuse_null(void **state)
     FILE *out = tmpfile();
     (void)state;
     ss_plot_opts_init(&opts, sizeof opts);
-    assert_refused(ss_plot_signal(NULL, &signal, NULL, 0, &opts, &e), &e);
-    assert_refused(ss_plot_signal(out, NULL, NULL, 0, &opts, &e), &e);
-    assert_refused(ss_plot_signal(out, &signal, NULL, 1, &opts, &e), &e);
-    assert_int_equal(ss_plot_signal(out, &signal, NULL, 0, &none, &e), SS_EINVAL);
-    ss_signal *thin;
-    assert_refused(ss_plot_read(&thin, NULL, y, 1, &opts, &e), &e);
-    assert_refused(ss_plot_read(NULL, NULL, y, 1, &opts, &e), &e);
-    assert_refused(ss_plot_xy(NULL, &signal, 0, 0, &opts, &e), &e);
-    assert_refused(ss_plot_xy(out, NULL, 0, 0, &opts, &e), &e);
-    assert_int_equal(ss_plot_xy(out, &signal, 0, 0, &none, &e), SS_EINVAL);
     static const ss_header head;
+    ss_signal *signal;
+    ss_reader *reader;
+    assert_int_equal(ss_signal_new(&signal, &head, 1, &e), SS_OK);
+    assert_refused(ss_reader_of_signal(NULL, signal, &e), &e);
+    assert_refused(ss_reader_of_signal(&reader, NULL, &e), &e);
+    assert_int_equal(ss_reader_of_signal(&reader, signal, &e), SS_OK);
+    assert_refused(ss_plot_signal(NULL, reader, NULL, 0, &opts, &e), &e);
+    assert_refused(ss_plot_signal(out, NULL, NULL, 0, &opts, &e), &e);
+    assert_refused(ss_plot_signal(out, reader, NULL, 1, &opts, &e), &e);
+    assert_int_equal(ss_plot_signal(out, reader, NULL, 0, &none, &e), SS_EINVAL);
+    assert_int_equal(ss_plot_signal(out, reader, NULL, 0, &opts, &e), SS_EINVAL);
+    assert_refused(ss_plot_xy(NULL, reader, 0, 0, &opts, &e), &e);
+    assert_refused(ss_plot_xy(out, NULL, 0, 0, &opts, &e), &e);
+    assert_int_equal(ss_plot_xy(out, reader, 0, 0, &none, &e), SS_EINVAL);
+    ss_reader_free(reader);
+    ss_signal_free(signal);
     const double x[16] = { 0 };
     ss_overview *overview;
     ss_overview_result shows;

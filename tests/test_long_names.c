@@ -135,6 +135,13 @@ coefficients_have_a_long_unit_whole(void **state)
     ss_signal_free(signal);
 }
 
+static ss_status
+draw_anew(FILE *out, ss_reader *reader, const ss_plot_opts *opts)
+{
+    assert_int_equal(ss_reader_rewind(reader, NULL), SS_OK);
+    return ss_plot_signal(out, reader, NULL, 0, opts, NULL);
+}
+
 static void
 signals_with_long_names_are_drawn(void **state)
 {
@@ -147,20 +154,25 @@ signals_with_long_names_are_drawn(void **state)
         ss_contour_opts contour;
         FILE *out = tmpfile();
         ss_error err = new_error();
+        ss_reader *reader;
+        assert_int_equal(ss_reader_of_signal(&reader, signal, &err), SS_OK);
         ss_plot_opts_init(&titled, sizeof titled);
         ss_plot_opts_init(&output, sizeof output);
         ss_contour_opts_init(&contour, sizeof contour);
         titled.title = name[i];
         contour.signal = signal;
-        assert_int_equal(ss_plot_signal(out, signal, NULL, 0, NULL, NULL), SS_OK);
-        assert_int_equal(ss_plot_signal(out, signal, NULL, 0, &titled, NULL), SS_OK);
-        assert_int_equal(ss_plot_xy(out, signal, 0, 1, &titled, NULL), SS_OK);
+        assert_int_equal(draw_anew(out, reader, NULL), SS_OK);
+        assert_int_equal(draw_anew(out, reader, &titled), SS_OK);
+        assert_int_equal(ss_plot_xy(out, reader, 0, 1, &titled, NULL), SS_OK);
         assert_told(ss_plot_contour(out, c, &contour, &titled, &err), &err);
         output.output = name[i];
-        assert_fails(ss_plot_signal(out, signal, NULL, 0, &output, &err), &err);
+        assert_int_equal(ss_reader_rewind(reader, NULL), SS_OK);
+        assert_fails(ss_plot_signal(out, reader, NULL, 0, &output, &err), &err);
+        assert_int_equal(ss_reader_rewind(reader, NULL), SS_OK);
         output.format = name[i];
-        assert_fails(ss_plot_signal(out, signal, NULL, 0, &output, &err), &err);
+        assert_fails(ss_plot_signal(out, reader, NULL, 0, &output, &err), &err);
         ss_coefficients_free(c);
+        ss_reader_free(reader);
         ss_signal_free(signal);
         fclose(out);
     }

@@ -611,34 +611,27 @@ read_overlays(int variant)
     return st;
 }
 
-/* The spectrum of a signal that is read; or one column of it over another, which is drawn as it is, or is long. */
+/* The spectrum of a signal that is read; its columns over time, or one over another. */
 static ss_status
 reductions(int variant)
 {
-    enum { LONG = (1 << 19) + 1, HEAD = 24 };
-    static char sound[HEAD + 2 * LONG] = ".snd\0\0\0\030\xff\xff\xff\xff\0\0\0\2\0\0\0\144\0\0\0\2";
     const size_t column[] = { 0, 1 };
     ss_plot_opts opts;
     ss_reader *reader = NULL;
     ss_spectrum *spectrum[1] = { NULL };
-    ss_signal *thin = NULL;
     ss_plot_opts_init(&opts, sizeof opts);
-    opts.xy = variant > 0;
     opts.decibels = 1;
-    if (sound[sizeof sound - 1] == 0)
-        for (size_t i = HEAD; i < sizeof sound; i++)
-            sound[i] = (char)(1 + i / 10000);
-    FILE *in = variant < 2 ? fmemopen(text[1], length[1], "r") : fmemopen(sound, sizeof sound, "r");
+    FILE *in = fmemopen(text[1], length[1], "r");
     ss_status st = ss_reader_new(&reader, in, "in", NULL, &err);
     if (st == SS_OK)
         st = ss_reader_keep(reader, NULL, &err);
     if (st == SS_OK)
         st = variant == 0 ? ss_plot_spectra(spectrum, reader, column, 1, &opts, &err)
-            : ss_plot_read(&thin, reader, column, 2, &opts, &err);
+            : variant == 1 ? ss_plot_xy(scrap, reader, 0, 1, &opts, &err)
+            : ss_plot_signal(scrap, reader, NULL, 0, &opts, &err);
     if (st == SS_OK && variant == 0)
         st = ss_plot_spectrum(scrap, ss_reader_header(reader), column, 1, spectrum, &opts, &err);
     ss_spectrum_free(spectrum[0]);
-    ss_signal_free(thin);
     ss_reader_free(reader);
     fclose(in);
     return st;
@@ -648,12 +641,20 @@ static ss_status
 plots(int variant)
 {
     ss_contour_opts contour;
+    ss_reader *reader = NULL;
+    ss_status st;
     ss_contour_opts_init(&contour, sizeof contour);
     contour.signal = signal;
     rewind(scrap);
     switch (variant) {
-    case 0: return ss_plot_signal(scrap, signal, NULL, 0, NULL, &err);
-    case 1: return ss_plot_xy(scrap, signal, 0, 1, NULL, &err);
+    case 0:
+    case 1:
+        st = ss_reader_of_signal(&reader, signal, &err);
+        if (st == SS_OK)
+            st = variant == 0 ? ss_plot_signal(scrap, reader, NULL, 0, NULL, &err)
+                : ss_plot_xy(scrap, reader, 0, 1, NULL, &err);
+        ss_reader_free(reader);
+        return st;
     case 2: return ss_plot_contour(scrap, coefficients, &contour, NULL, &err);
     case 3: return ss_plot_map(scrap, sweep, (const size_t[]){ 1, 2, 3, 4 }, 4, NULL, &err);
     case 5: contour.fill = contour.ridge = 1;

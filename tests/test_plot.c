@@ -8,9 +8,9 @@
 #include <stickslip.h>
 #include "contour_script.h"
 #include "new_signal.h"
+#include "plot/extremes.h"
 #include "plot/isoline.h"
 #include "unit.h"
-#include "signal/gaps.h"
 
 /* --- ss_isolines ------------------------------------------------------------------------------ */
 
@@ -108,74 +108,82 @@ a_flat_map_has_no_lines(void **state)
 
 /* --- scripts ------------------------------------------------------------------------------- */
 
+enum { OVER_TIME = -1 };
+
+/* A signal over time, or its column y over its first; over: another over it, or NULL. */
+static ss_status
+try_to_draw(FILE *out, const ss_signal *signal, int y, const ss_signal *over, const ss_plot_opts *opts,
+            ss_error *err)
+{
+    ss_plot_opts own = opts != NULL ? *opts : new_plot_opts();
+    ss_reader *reader, *other = NULL;
+    assert_int_equal(ss_reader_of_signal(&reader, signal, NULL), SS_OK);
+    if (over != NULL)
+        assert_int_equal(ss_reader_of_signal(&other, over, NULL), SS_OK);
+    own.over = other;
+    ss_status st = y >= 0 ? ss_plot_xy(out, reader, 0, (size_t)y, &own, err)
+        : ss_plot_signal(out, reader, NULL, 0, &own, err);
+    ss_reader_free(other);
+    ss_reader_free(reader);
+    return st;
+}
+
 static char *
-signal_script(const ss_signal *signal, const ss_plot_opts *opts)
+script_of(const ss_signal *signal, int y, const ss_signal *over, const ss_plot_opts *opts)
 {
     char *text = NULL;
     size_t size;
     ss_error err = { 0 };
     FILE *out = open_memstream(&text, &size);
-    if (ss_plot_signal(out, signal, NULL, 0, opts, &err) != SS_OK)
+    if (try_to_draw(out, signal, y, over, opts, &err) != SS_OK)
         fail_msg("%s", err.text);
     fclose(out);
     return text;
 }
 
-/* A signal as it comes through a file in AU, as it is drawn over time or, with xy, its second column over its
- * first. */
-static ss_signal *
-read_thin(const ss_signal *signal, int xy, ss_plot_opts *opts)
+static char *
+signal_script(const ss_signal *signal, const ss_plot_opts *opts)
 {
-    FILE *file = tmpfile();
-    ss_reader *reader = NULL;
-    ss_signal *thin = NULL;
-    ss_error err = { 0 };
-    assert_int_equal(ss_record_write(&(ss_record){ .signal = signal }, file, NULL, SS_AU, NULL), SS_OK);
-    rewind(file);
-    assert_int_equal(ss_reader_new(&reader, file, "file", NULL, NULL), SS_OK);
-    if (xy)
-        assert_int_equal(ss_reader_keep(reader, NULL, NULL), SS_OK);
-    opts->xy = xy;
-    if (ss_plot_read(&thin, reader, (const size_t[]){ 0, 1 }, xy ? 2 : 1, opts, &err) != SS_OK)
-        fail_msg("%s", err.text);
-    assert_int_equal(opts->rows, signal->n);
-    ss_reader_free(reader);
-    fclose(file);
-    return thin;
+    return script_of(signal, OVER_TIME, NULL, opts);
 }
 
-/* Of a signal of more values than are kept each pair is what its samples have, which begin with the
- * one at the span's start; a shorter one stays as it is. */
+/* Of a signal of more values than there are blocks, each block has what its samples have; a shorter one stays as
+ * it is.  NaN is no value. */
 static void
-an_envelope_has_the_extremes_of_each_block(void **state)
+blocks_have_the_extremes_of_their_samples(void **state)
 {
-    static const size_t length[] = { 1000, (1 << 20) - 1, 1 << 20, 2500001 };
-    static const double from[] = { NAN, NAN, NAN, 17.25 }, to[] = { NAN, 1e9, NAN, 2400 };
+    enum { ROOM = 64 };
+    static const size_t length[] = { 10, ROOM - 1, ROOM, ROOM + 1, 777, 100003 };
     (void)state;
-    for (size_t row = 0; row < 4; row++) {
-        size_t n = length[row], first = row < 3 ? 0 : 12250;
+    for (size_t row = 0; row < sizeof length / sizeof *length; row++) {
+        size_t n = length[row];
         ss_signal *signal = new_signal(n, 1000, 5, "a", "");
-        ss_plot_opts opts = new_plot_opts();
-        ss_noise_add_once(signal->values, n, 1, 1, NULL);
-        opts.from = from[row], opts.to = to[row];
-        ss_signal *thin = read_thin(signal, 0, &opts);
-        const double *x = signal->values, *pair = thin->values;
-        size_t each = row < 3 ? 1 : (size_t)round(2 * signal->head->rate / thin->head->rate);
-        size_t end = row < 3 ? n : 2395001;
-        assert_true(thin->head->start == 5 + (double)first / 1000);
-        assert_int_equal(thin->n, (row < 3 ? 1 : 2) * ((end - first + each - 1) / each));
-        for (size_t i = first; i < end; i += each, pair += row < 3 ? 1 : 2) {
-            size_t low = i, high = i;
-            for (size_t k = i; k < i + each && k < end; k++) {
-                low = x[k] < x[low] ? k : low;
-                high = x[k] > x[high] ? k : high;
-            }
-            assert_true(pair[0] == x[low < high ? low : high]);
-            assert_true(row < 3 || pair[1] == x[low < high ? high : low]);
+        double *x = signal->values, pair[2] = { 0, 0 };
+        extremes b;
+        ss_noise_add_once(x, n, 1, 1, NULL);
+        for (size_t i = n / 3; i < n / 2; i++)
+            x[i] = NAN;
+        assert_true(ss_extremes_make(&b, ROOM, 1));
+        for (size_t i = 0, m; i < n; i += m) {
+            m = n - i < 100 ? n - i : 100;
+            ss_extremes_add(&b, x + i, m);
         }
-        if (row == 3)
-            assert_true(opts.from == from[row] && opts.to == to[row]);
-        ss_signal_free(thin);
+        assert_true(ss_extremes_count(&b) <= ROOM && 2 * ss_extremes_count(&b) > (n < ROOM ? n : ROOM));
+        for (size_t i = 0, each = (size_t)1 << b.order; i < ss_extremes_count(&b); i++) {
+            double low = NAN, high = NAN, before = pair[1];
+            for (size_t k = i * each; k < (i + 1) * each && k < n; k++) {
+                low = fmin(low, x[k]);
+                high = fmax(high, x[k]);
+            }
+            size_t known = ss_extremes_of(&b, i, pair[1], pair);
+            assert_int_equal(known, isnan(low) ? 0 : low < high ? 2 : 1);
+            if (known > 0)
+                assert_true(fmin(pair[0], pair[1]) == low && fmax(pair[0], pair[1]) == high
+                            && fabs(pair[0] - before) <= fabs(pair[1] - before));
+            else
+                pair[1] = before;
+        }
+        ss_extremes_free(&b);
         ss_signal_free(signal);
     }
 }
@@ -217,15 +225,33 @@ distance(double px, double py, double ax, double ay, double bx, double by)
     return hypot(px - ax - part * dx, py - ay - part * dy);
 }
 
+/* The points of a datablock; NaN where a line breaks.  To be freed. */
+static double (*
+points_of(const char *script, const char *name, size_t *n))[2]
+{
+    double (*point)[2] = NULL;
+    const char *line = strstr(script, name);
+    assert_non_null(line);
+    *n = 0;
+    for (line = strchr(line, '\n') + 1; strncmp(line, "EOD", 3) != 0; line = strchr(line, '\n') + 1) {
+        point = realloc(point, (*n + 1) * sizeof *point);
+        if (*line == '\n')
+            point[*n][0] = point[*n][1] = NAN;
+        else
+            assert_int_equal(sscanf(line, "%lf %lf", &point[*n][0], &point[*n][1]), 2);
+        ++*n;
+    }
+    return point;
+}
+
 /* From the nearest part of the line that is drawn. */
 static double
-distance_from(const ss_signal *thin, const ss_span *gap, size_t n_gaps, double px, double py)
+distance_from(double (*point)[2], size_t n, double px, double py)
 {
-    const double *x = thin->values, *y = x + thin->n;
     double least = INFINITY;
-    for (size_t i = 0; i + 1 < thin->n; i++)
-        if (!ss_gaps_near(gap, n_gaps, (double)i + 0.5, 0) && !ss_gaps_near(gap, n_gaps, (double)i + 1.5, 0))
-            least = fmin(least, distance(px, py, x[i], y[i], x[i + 1], y[i + 1]));
+    for (size_t i = 0; i + 1 < n; i++)
+        if (!isnan(point[i][0]) && !isnan(point[i + 1][0]))
+            least = fmin(least, distance(px, py, point[i][0], point[i][1], point[i + 1][0], point[i + 1][1]));
     return least;
 }
 
@@ -235,48 +261,52 @@ a_long_path_looks_like_the_line(void **state)
 {
     (void)state;
     for (int noise = 0; noise < 2; noise++) {
-        ss_plot_opts opts = new_plot_opts();
-        ss_signal *signal = long_line(noise), *thin = read_thin(signal, 1, &opts);
+        ss_signal *signal = long_line(noise);
+        char *script = script_of(signal, 1, NULL, NULL);
         const double *x = signal->values, *y = x + LONG;
         double range = noise ? 9.5 : 2.5;
-        ss_span *gap;
-        size_t n_gaps;
-        assert_int_equal(ss_header_gaps(&gap, &n_gaps, thin->head, NULL), SS_OK);
-        assert_true(thin->n < (noise ? 400000 : 10000));
+        size_t n;
+        double (*const point)[2] = points_of(script, "$path << EOD\n", &n);
+        assert_true(n < (noise ? 400000 : 10000));
         for (size_t i = 100; i < LONG; i += noise ? 7919 : 997) {
             int missing = i >= 3250 && i < 3501;
             double px = (x[i] + x[i - 1]) / 2, py = (y[i] + y[i - 1]) / 2;
-            if (!missing && distance_from(thin, gap, n_gaps, px, py) > 2e-3 * range)
+            if (!missing && distance_from(point, n, px, py) > 2e-3 * range)
                 fail_msg("sample %zu, %g %g, is not drawn", i, px, py);
         }
-        assert_true(distance_from(thin, gap, n_gaps, x[APART], y[APART]) <= 1e-3 * range);
-        for (size_t i = 0; i < thin->n && !noise; i++) {
-            double r = hypot(thin->values[i], thin->values[thin->n + i]);
+        assert_true(distance_from(point, n, x[APART], y[APART]) <= 1e-3 * range);
+        for (size_t i = 0; i < n && !noise; i++) {
+            double r = hypot(point[i][0], point[i][1]);
+            if (isnan(r))
+                continue;
             assert_true(r > 1 - 2e-3 * range);
             assert_true(r < 1 + 2e-3 * range || r > 1.8);       /* the ends of the way to the sample apart */
         }
-        free(gap);
-        ss_signal_free(thin);
+        free(point);
+        free(script);
         ss_signal_free(signal);
     }
 }
 
 /* In the span to draw, and the sample at its end. */
 static void
-a_short_path_has_the_rows_of_its_span(void **state)
+a_path_begins_and_ends_with_its_span(void **state)
 {
     ss_plot_opts opts = new_plot_opts();
     ss_signal *signal = long_line(1);
+    size_t n;
     (void)state;
     opts.from = 12.25;
     opts.to = 13;
-    ss_signal *thin = read_thin(signal, 1, &opts);
-    assert_int_equal(thin->n, 751);
-    assert_true(thin->head->start == 5 + 7.25 && thin->head->rate == 1000);
-    for (size_t i = 0; i < thin->n; i++)
-        assert_true(thin->values[i] == signal->values[7250 + i]
-                    && thin->values[thin->n + i] == signal->values[LONG + 7250 + i]);
-    ss_signal_free(thin);
+    char *script = script_of(signal, 1, NULL, &opts);
+    double (*const point)[2] = points_of(script, "$path << EOD\n", &n);
+    assert_in_range(n, 700, 800);                       /* of 751 rows a few are near the last one */
+    for (int c = 0; c < 2; c++) {
+        const double *x = signal->values + c * LONG;
+        assert_true(fabs(point[0][c] - x[7250]) <= 1e-3 && fabs(point[n - 1][c] - x[8000]) <= 1e-3);
+    }
+    free(point);
+    free(script);
     ss_signal_free(signal);
 }
 
@@ -294,19 +324,12 @@ a_long_signal_over_another_begins_with_it(void **state)
             opts.from = 700;
             opts.to = 710;
         }
-        ss_plot_opts own = opts;
-        own.from += 7 - 50;
-        own.to += 7 - 50;
-        ss_signal *thin = read_thin(over, 0, &own);
-        opts.over = thin;
-        opts.over_start = 50 + (thin->head->start - 7);
-        char *script = signal_script(signal, &opts), *at = strstr(script, " 3\n");
+        char *script = script_of(signal, OVER_TIME, over, &opts), *at = strstr(script, " 3\n");
         assert_non_null(at);
         while (at > script && at[-1] != '\n')
             at--;
         assert_true(fabs(atof(at) - 704.321) <= (part ? 0.011 : 2));    /* a column of pixels */
         free(script);
-        ss_signal_free(thin);
     }
     ss_signal_free(over);
     ss_signal_free(signal);
@@ -320,7 +343,7 @@ a_spike_of_one_sample_in_a_million_is_drawn(void **state)
     signal->values[654321] = 7;
     signal->values[654322] = -3;
     char *script = signal_script(signal, NULL);
-    assert_non_null(strstr(script, "\n659.3 7\n659.3 -3\n"));
+    assert_non_null(strstr(script, "\n658.8 -3\n659.1 7\n"));     /* a block of .512 s */
     assert_true(strlen(script) < 50000);
     free(script);
     ss_signal_free(signal);
@@ -433,9 +456,9 @@ values_that_gnuplot_cannot_draw_are_refused(void **state)
     for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
         ss_error err = { 0 };
         signal->values[3] = value[i];
-        assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, NULL, &err), SS_EINVAL);
+        assert_int_equal(try_to_draw(stdout, signal, OVER_TIME, NULL, NULL, &err), SS_EINVAL);
         assert_non_null(strstr(err.text, "a cannot be drawn"));
-        assert_int_equal(ss_plot_xy(stdout, signal, 0, 0, NULL, &err), SS_EINVAL);
+        assert_int_equal(try_to_draw(stdout, signal, 0, NULL, NULL, &err), SS_EINVAL);
     }
     ss_signal_free(signal);
 }
@@ -462,7 +485,7 @@ what_lies_outside_the_record_is_refused(void **state)
         ss_error err = { 0 };
         opts.from = span[i][0];
         opts.to = span[i][1];
-        assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, &opts, &err), SS_EINVAL);
+        assert_int_equal(try_to_draw(stdout, signal, OVER_TIME, NULL, &opts, &err), SS_EINVAL);
         assert_non_null(strstr(err.text, "the record goes from 5 s to 6 s"));
     }
     ss_signal_free(signal);
@@ -471,14 +494,12 @@ what_lies_outside_the_record_is_refused(void **state)
 static void
 wrong_arguments_are_refused(void **state)
 {
-    static const size_t column[] = { 1 };
     ss_signal *signal = new_signal(10, 10, 0, "a", "");
     ss_plot_opts gif = new_plot_opts();
     (void)state;
     gif.output = "a.gif";
-    assert_int_equal(ss_plot_signal(stdout, signal, column, 1, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_plot_xy(stdout, signal, 0, 1, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_plot_signal(stdout, signal, NULL, 0, &gif, NULL), SS_EINVAL);
+    assert_int_equal(try_to_draw(stdout, signal, 1, NULL, NULL, NULL), SS_EINVAL);
+    assert_int_equal(try_to_draw(stdout, signal, OVER_TIME, NULL, &gif, NULL), SS_EINVAL);
     ss_signal_free(signal);
 }
 
@@ -489,7 +510,7 @@ a_full_disk_is_an_error(void **state)
     ss_signal *signal = new_signal(10, 10, 0, "a", "");
     (void)state;
     if (full != NULL) {
-        assert_int_equal(ss_plot_signal(full, signal, NULL, 0, NULL, NULL), SS_EIO);
+        assert_int_equal(try_to_draw(full, signal, OVER_TIME, NULL, NULL, NULL), SS_EIO);
         fclose(full);
     }
     ss_signal_free(signal);
@@ -700,9 +721,9 @@ main(void)
         cmocka_unit_test(a_cone_has_a_circle),
         cmocka_unit_test(every_crossing_of_a_rough_map_is_passed_once),
         cmocka_unit_test(a_flat_map_has_no_lines),
-        cmocka_unit_test(an_envelope_has_the_extremes_of_each_block),
+        cmocka_unit_test(blocks_have_the_extremes_of_their_samples),
         cmocka_unit_test(a_long_path_looks_like_the_line),
-        cmocka_unit_test(a_short_path_has_the_rows_of_its_span),
+        cmocka_unit_test(a_path_begins_and_ends_with_its_span),
         cmocka_unit_test(a_long_signal_over_another_begins_with_it),
         cmocka_unit_test(a_spike_of_one_sample_in_a_million_is_drawn),
         cmocka_unit_test(text_of_files_stands_between_quotes),

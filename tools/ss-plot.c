@@ -31,10 +31,9 @@ TOOL_READING_USAGE
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 typedef struct drawing {
-    const ss_header *head;      /* of the signal as it is read */
-    ss_signal *signal;          /* what is drawn of it */
+    ss_reader *reader;
     size_t *column, n;          /* panels; or with xy the two columns */
-    int spectrum;
+    int spectrum, xy;
     tool_kind kind;             /* of output */
     ss_spectrum **density;      /* of each column */
 } drawing;
@@ -43,11 +42,11 @@ static ss_status
 write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 {
     const drawing *d = user;
-    if (opts->xy)
-        return ss_plot_xy(out, d->signal, d->column[0], d->column[1], opts, err);
+    if (d->xy)
+        return ss_plot_xy(out, d->reader, d->column[0], d->column[1], opts, err);
     if (d->spectrum)
-        return ss_plot_spectrum(out, d->head, d->column, d->n, d->density, opts, err);
-    return ss_plot_signal(out, d->signal, d->column, d->n, opts, err);
+        return ss_plot_spectrum(out, ss_reader_header(d->reader), d->column, d->n, d->density, opts, err);
+    return ss_plot_signal(out, d->reader, d->column, d->n, opts, err);
 }
 
 static size_t
@@ -195,29 +194,13 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
 
 /* Choose the columns that are named, or all. */
 static void
-choose_columns(drawing *d, int xy, const char *path, const tool_texts *name)
+choose_columns(drawing *d, const char *path, const tool_texts *name)
 {
-    d->n = name->n > 0 ? name->n : d->head->n_columns;
+    const ss_header *head = ss_reader_header(d->reader);
+    d->n = name->n > 0 ? name->n : head->n_columns;
     d->column = tool_room(NULL, d->n + 1, sizeof *d->column);
     for (size_t i = 0; i < d->n; i++)
-        d->column[i] = name->n > 0 ? find_signal_column(xy, d->head, path, name->text[i]) : i;
-}
-
-/* Read the columns of a signal, each once; in the drawing stands then its place among these. */
-static void
-read_columns(drawing *d, ss_reader *reader, ss_plot_opts *opts)
-{
-    ss_error err = { 0 };
-    size_t *of = tool_room(NULL, d->n + 1, sizeof *of), n = 0;
-    for (size_t i = 0, at; i < d->n; i++) {
-        for (at = 0; at < n && of[at] != d->column[i]; at++)
-            ;
-        of[at] = d->column[i];
-        n += at == n;
-        d->column[i] = at;
-    }
-    tool_check(ss_plot_read(&d->signal, reader, of, n, opts, &err), &err);
-    free(of);
+        d->column[i] = name->n > 0 ? find_signal_column(d->xy, head, path, name->text[i]) : i;
 }
 
 /* A reader of a signal of any length. */
@@ -229,36 +212,6 @@ open_signal(const char *path, const ss_read_opts *reading, int is_read_again)
     if (is_read_again)
         tool_check(ss_reader_keep(reader, reading->folder, &err), &err);
     return reader;
-}
-
-/* The signal that is drawn over d, as if it began with it: its first column, or those with the names of the
- * two that are drawn, or else its first two. */
-static ss_signal *
-read_over(const drawing *d, const char *path, const char *folder, ss_plot_opts *opts)
-{
-    ss_read_opts reading;
-    ss_read_opts_init(&reading, sizeof reading);
-    reading.folder = folder;
-    ss_error err = { 0 };
-    ss_signal *other;
-    ss_plot_opts own = *opts;
-    ss_reader *reader = open_signal(path, &reading, opts->xy);
-    const ss_header *over = ss_reader_header(reader);
-    size_t of[2] = { 0, 1 };
-    if (opts->xy) {
-        const char *x_name = d->head->column[d->column[0]].name, *y_name = d->head->column[d->column[1]].name;
-        int x = ss_header_column(over, x_name), y = ss_header_column(over, y_name);
-        if (x >= 0 && y >= 0)
-            of[0] = (size_t)x, of[1] = (size_t)y;
-        else if (over->n_columns < 2)
-            tool_die("one column cannot be drawn over %s and %s", x_name, y_name);
-    }
-    own.from += over->start - d->head->start;
-    own.to += over->start - d->head->start;
-    tool_check(ss_plot_read(&other, reader, of, opts->xy && of[0] != of[1] ? 2 : 1, &own, &err), &err);
-    opts->over_start = d->head->start + (other->head->start - over->start);
-    ss_reader_free(reader);
-    return other;
 }
 
 /* For the legend: without folders. */
@@ -275,38 +228,37 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
             const char *output, const ss_read_opts *reading, ss_plot_opts *opts)
 {
     ss_error err = { 0 };
-    ss_signal *other = NULL;
-    ss_reader *reader = open_signal(path, reading, opts->xy || d.spectrum);
-    d.head = ss_reader_header(reader);
-    choose_columns(&d, opts->xy, path, name);
+    ss_read_opts plainly;
+    ss_read_opts_init(&plainly, sizeof plainly);
+    plainly.folder = reading->folder;
+    d.reader = open_signal(path, reading, d.xy || d.spectrum);
+    choose_columns(&d, path, name);
+    const ss_header *head = ss_reader_header(d.reader);
     opts->name = file_name(path);
-    opts->over_name = over != NULL ? file_name(over) : NULL;
-    if (over != NULL)
-        opts->over = other = read_over(&d, over, reading->folder, opts);
-    if (d.spectrum) {
-        d.density = tool_room(NULL, d.n, sizeof *d.density);
-        tool_check(ss_plot_spectra(d.density, reader, d.column, d.n, opts, &err), &err);
-    } else {
-        read_columns(&d, reader, opts);
+    if (over != NULL) {
+        opts->over_name = file_name(over);
+        opts->over = open_signal(over, &plainly, d.xy);
     }
-    tool_note("%s: %zu sample%s, columns: %zu", tool_input_name(path), opts->rows, tool_s(opts->rows),
-              d.head->n_columns);
+    tool_note("%s: columns: %zu, at %.9g Hz", tool_input_name(path), head->n_columns, head->rate);
     ss_overlay *overlay = tool_read_overlay(features, SS_KIND_FEATURES);
     opts->features = overlay;
-    for (size_t i = 0; d.spectrum && i < d.n; i++)
-        d.density[i]->decibels = opts->decibels;
+    if (d.spectrum) {
+        d.density = tool_room(NULL, d.n, sizeof *d.density);
+        tool_check(ss_plot_spectra(d.density, d.reader, d.column, d.n, opts, &err), &err);
+        for (size_t i = 0; i < d.n; i++)
+            d.density[i]->decibels = opts->decibels;
+    }
     if (d.kind >= TOOL_STREAM)
-        tool_check(ss_spectra_write(d.density, d.head, d.column, d.n, tool_output(output),
-                                    tool_stream(d.kind), &err), &err);
+        tool_check(ss_spectra_write(d.density, head, d.column, d.n, tool_output(output), tool_stream(d.kind),
+                                    &err), &err);
     else
         tool_draw(output, opts, write_script, &d);
     ss_overlay_free(overlay);
     for (size_t i = 0; d.density != NULL && i < d.n; i++)
         ss_spectrum_free(d.density[i]);
     free(d.density);
-    ss_signal_free(other);
-    ss_signal_free(d.signal);
-    ss_reader_free(reader);
+    ss_reader_free(opts->over);
+    ss_reader_free(d.reader);
     free(d.column);
 }
 
@@ -345,12 +297,12 @@ main(int argc, char *argv[])
         tool_usage("--map excludes --xy, --column and the options of reading");
     if (over != NULL && map != NULL)
         tool_usage("--over excludes --map");
-    opts.xy = xy.n > 0;
-    if (features != NULL && (map != NULL || opts.xy || d.spectrum))
+    d.xy = xy.n > 0;
+    if (features != NULL && (map != NULL || d.xy || d.spectrum))
         tool_usage("--features is over time; it excludes --map, --xy and --spectrum");
     if (features != NULL && strcmp(features, "-") == 0 && strcmp(path, "-") == 0)
         tool_usage("standard input can be read only once");
-    if (d.spectrum && (map != NULL || opts.xy || over != NULL))
+    if (d.spectrum && (map != NULL || d.xy || over != NULL))
         tool_usage("--spectrum excludes --map, --xy and --over");
     if ((opts.decibels || opts.resolution > 0 || d.kind >= TOOL_STREAM) && !d.spectrum)
         tool_usage("--db, --resolution and --format need --spectrum");
@@ -359,7 +311,7 @@ main(int argc, char *argv[])
     if (map != NULL)
         draw_map(path, map, line, output, &opts);
     else
-        draw_signal(path, opts.xy ? &xy : &wanted, d, over, features, output, &reading.opts, &opts);
+        draw_signal(path, d.xy ? &xy : &wanted, d, over, features, output, &reading.opts, &opts);
     free(wanted.text);
     free(xy.text);
     tool_reading_free(&reading);

@@ -30,12 +30,10 @@ typedef struct ss_plot_opts {
     const char *title;          /* NULL: made from the notes (scene, model); "": no title */
     double from, to;            /* [s] on the source's clock, the span to draw; NaN: all of it */
     ss_plot_style style;
-    const ss_signal *over;      /* a second signal for ss_plot_signal and ss_plot_xy; NULL: none */
-    double over_start;          /* [s] when its first row is drawn; NaN: with the first of the signal */
+    ss_reader *over;            /* a second signal for ss_plot_signal and ss_plot_xy, drawn as if it began
+                                   with the first; NULL: none */
     const char *name, *over_name;   /* of the two in a legend, if there is a second; NULL: those of its columns */
     const ss_overlay *features; /* ss_plot_signal shades its transitions in every panel; NULL: none */
-    int xy;                     /* 1: ss_plot_read reads for ss_plot_xy, not for ss_plot_signal */
-    size_t rows;                /* ss_plot_read and ss_plot_spectra write the number of rows read */
     double resolution;          /* [Hz] of ss_plot_spectra, as for ss_spectrum_new; 0: that of seven segments */
     int decibels;               /* 1: ss_plot_spectrum draws dB re 1 unit^2/Hz */
     const double *curve;        /* ss_plot_map draws this line: x, y, x, y, ..., NaN where it breaks; NULL: none */
@@ -46,31 +44,24 @@ typedef struct ss_plot_opts {
 void ss_plot_opts_init(ss_plot_opts *opts, size_t size);
 
 /* Draw the n columns of these indices over time, one panel each (figure 1); with n = 0 all columns.
- * The first column of opts->over is drawn over the first panel. */
-ss_status ss_plot_signal(FILE *out, const ss_signal *signal, const size_t column[], size_t n,
+ * The first column of opts->over is drawn over the first panel.
+ *
+ * A signal may have any length: it is read to its end, and in memory that does not grow.  Of a column of more
+ * than 2048 values in the span, the smallest and the largest of each of 1024 blocks or more are drawn. */
+ss_status ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
 /* Draw column y over column x: a phase plane or a friction loop.  If opts->over is not NULL, its
- * columns of the same names are drawn over it, or else its first two. */
-ss_status ss_plot_xy(FILE *out, const ss_signal *signal, size_t x, size_t y,
+ * columns of the same names are drawn over it, or else its first two.
+ *
+ * The readers can go back to their first row.  A part of the line is left out if it crosses no cell of half a
+ * pixel that the line has not crossed before. */
+ss_status ss_plot_xy(FILE *out, ss_reader *reader, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
-
-/* Read a signal of any length to its end and make a signal of n of its columns for one of these, in memory
- * that does not grow.  opts->from and to, the span of it that is read, become those of the picture.
- *
- * Over time, up to 2^20 values are kept as they are.  Of more values, only the smallest and the largest of
- * each of some 10^6 blocks are kept.
- *
- * If opts->xy is 1, n is 2, or 1 for a column over itself, and the reader can go back to its first row.  Up
- * to 2^19 rows are kept as they are.  Of more, a part of the line is left out if it crosses no cell of half a
- * pixel that the line has not crossed before; a gap of the signal then stands for such a part, and times
- * have no meaning. */
-ss_status ss_plot_read(ss_signal **out, ss_reader *reader, const size_t column[], size_t n,
-                       ss_plot_opts *opts, ss_error *err);
 
 /* Estimate the spectra of n columns of a signal of any length, which can go back to its first row,
  * in the span of opts.  The caller frees each spectrum, even after a failure. */
 ss_status ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[], size_t n,
-                          ss_plot_opts *opts, ss_error *err);
+                          const ss_plot_opts *opts, ss_error *err);
 /* Draw these spectra of n columns, one panel each. */
 ss_status ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t n,
                            ss_spectrum *const spectrum[], const ss_plot_opts *opts, ss_error *err);

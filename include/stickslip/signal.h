@@ -179,6 +179,8 @@ ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_r
 ss_status ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err);
 /* Make a signal of n rows of zeros, with a copy of head. */
 ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n, ss_error *err);
+/* Read the rows of a signal, which must live as long as the reader, and which can go back to the first. */
+ss_status ss_reader_of_signal(ss_reader **out, const ss_signal *signal, ss_error *err);
 /* Copy the columns of these indices, in this order, and of them the rows first ... end - 1. */
 ss_status ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
                            size_t n_columns, size_t first, size_t end, ss_error *err);

@@ -207,6 +207,22 @@ ss_reader_resample(ss_reader *reader, double rate, ss_error *err)
 
 /* --- whole signals ------------------------------------------------------------------------- */
 
+ss_status
+ss_reader_of_signal(ss_reader **out, const ss_signal *signal, ss_error *err)
+{
+    if (out == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
+    ss_reader *reader = *out = calloc(1, sizeof *reader);
+    if (reader == NULL)
+        return ss_fail_memory(err, NULL);
+    reader->source = ss_source_of_signal(signal, "signal", err);
+    if (reader->source != NULL)
+        return SS_OK;
+    free(reader);
+    *out = NULL;
+    return SS_ENOMEM;
+}
+
 /* Read all rows of a reader that was opened with this status. */
 static ss_status
 read_all(ss_signal **out, ss_reader *reader, ss_status st, ss_error *err)

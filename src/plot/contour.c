@@ -1,6 +1,7 @@
 /* contour.c -- draw contours of |W| in decibels over time and frequency, below the signal: the
  * script, its axes and the cone of influence. */
 #include "plot/contour.h"
+#include "plot/series.h"
 #include "plot/style.h"
 
 #include <float.h>
@@ -149,17 +150,14 @@ write_variables(FILE *out, const contour_map *map, const ss_contour_opts *contou
         fputs("line_colour = '" LEVEL_COLOUR "'\n", out);
 }
 
-/* Panel (a), of this part of the signal. */
+/* Panel (a). */
 static void
-write_signal(FILE *out, const ss_contour_opts *contour, const script_span *span)
+write_signal(FILE *out, const trace *t)
 {
-    const ss_signal *signal = contour->signal;
-    const double *x = signal->values + contour->column * signal->n;
-    script_scale scale = ss_script_scale(ss_script_span_extent(x, span));
     script_label label;
-    script_extent drawn = ss_script_write_trace(out, "$signal", x, span, scale);
-    ss_script_make_label(&label, &signal->head->column[contour->column], scale, ROOM);
-    ss_script_write_tics(out, "ytics", drawn, 5);
+    ss_trace_write(out, "$signal", t);
+    ss_script_make_label(&label, t->column, t->scale, ROOM);
+    ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t->extent, t->scale), 5);
     fputs("set tmargin at screen 0.925; set bmargin at screen 0.72\n"
           "set label 1 '(a)' at screen 0.01, screen 0.96\nset xtics format ''; ", out);
     ss_script_write_side_label(out, 2, &label);
@@ -249,9 +247,6 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
     if (c->w == NULL && c->source == NULL)
         return ss_fail(err, SS_EINVAL, "no coefficients, and no source of them");
     st = check_scales(c, err);
-    if (st == SS_OK && signal != NULL)
-        st = ss_script_check(signal->head->column[contour->column].name,
-                             signal->values + contour->column * signal->n, signal->n, err);
     return st == SS_OK ? ss_contour_check_marks(contour, err) : st;
 }
 
@@ -261,7 +256,9 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
 {
     if (out == NULL || c == NULL)
         return SS_FAIL_NULL(err);
-    script_span span, of_signal = { .gap = NULL };
+    script_span span, of_signal;
+    trace t = { .column = NULL };
+    ss_reader *reader = NULL;
     ss_plot_opts own;
     ss_contour_opts own_contour;
     contour_map map = { .rows = 0 };
@@ -271,16 +268,16 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
     if (st == SS_OK)
         st = check(c, &own_contour, err);
     if (st == SS_OK)
-        st = ss_script_find_span(&span, c->head, c->n, &own, err);
+        st = ss_script_find_span(&span, c->head->start, c->head->rate, c->n, &own, err);
     if (st == SS_OK)
         st = ss_contour_map(&map, c, &own_contour, &span, err);
     const ss_signal *signal = st == SS_OK ? own_contour.signal : NULL;
     if (signal != NULL) {                       /* panel (a) shows the time of (b) */
         own.from = span.from;
         own.to = span.to;
-        st = ss_script_find_span(&of_signal, signal->head, signal->n, &own, err);
+        st = ss_reader_of_signal(&reader, signal, err);
         if (st == SS_OK)
-            st = ss_script_find_gaps(&of_signal, signal->head, err);
+            st = ss_traces_read(&t, &of_signal, reader, &own_contour.column, 1, NAN, &own, err);
     }
     if (st == SS_OK)
         st = ss_script_begin(out, &own, c->head, signal != NULL ? 8.5 : 6.5, NULL, err);
@@ -288,12 +285,13 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
         write_variables(out, &map, &own_contour);
         fputs(around, out);
         if (signal != NULL)
-            write_signal(out, &own_contour, &of_signal);
+            write_signal(out, &t);
         st = write_map(out, &map, c, &own_contour);
     }
     if (st == SS_OK)
         st = ss_script_end(out);
     ss_contour_map_free(&map);
-    free(of_signal.gap);
+    ss_traces_free(&t, 1);
+    ss_reader_free(reader);
     return st;
 }

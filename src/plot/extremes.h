@@ -1,5 +1,5 @@
-/* extremes.h -- keep the largest, or the smallest and the largest, of each block of any number of
- * values.  When all blocks are full, each two become one, and blocks are then twice as long. */
+/* extremes.h -- the smallest and the largest of each block of any number of values.  When all blocks are full,
+ * each two become one, and blocks are then twice as long. */
 #ifndef EXTREMES_H
 #define EXTREMES_H
 
@@ -9,34 +9,21 @@ typedef struct extremes {
     int order;                  /* a block has 2^order values */
     size_t n;                   /* values so far */
     size_t room;                /* blocks, a power of 2 */
-    double *most;
-    double *least;              /* NULL: not wanted */
-    unsigned char *falls;       /* 1: the largest comes before the smallest */
+    double *most, *least;       /* least is NULL if it is not wanted */
 } extremes;
 
 /* Make empty blocks.  Returns 0 if there is no memory; they are to be freed even then. */
 int ss_extremes_make(extremes *b, size_t room, int both);
 void ss_extremes_free(extremes *b);
 
-void ss_extremes_halve(extremes *b);
-/* *i becomes the first block that has room.  Returns how many of the next n values lie in it. */
-static inline size_t
-ss_extremes_next(extremes *b, size_t n, size_t *i)
-{
-    if (b->n >> b->order == b->room)
-        ss_extremes_halve(b);
-    *i = b->n >> b->order;
-    size_t room = ((*i + 1) << b->order) - b->n;
-    return room < n ? room : n;
-}
-
-/* Add n values to blocks that keep both extremes. */
+/* *i becomes the block that the next value lies in.  Returns how many of the next n lie there. */
+size_t ss_extremes_next(extremes *b, size_t n, size_t *i);
+/* Add n values to blocks that keep both extremes; NaN is no value. */
 void ss_extremes_add(extremes *b, const double *x, size_t n);
-/* The number of blocks that have values. */
+/* The number of blocks that have begun. */
 size_t ss_extremes_count(const extremes *b);
-/* The number of extremes of a block: 1 if blocks have one value, else 2. */
-size_t ss_extremes_each(const extremes *b);
-/* Write the extremes of each block to x, in the order of their times. */
-void ss_extremes_give(const extremes *b, double *x);
+/* What a line from x through block i has of it: its extremes, the nearer one first.  Returns how many values
+ * these are, 1 or 2; 0 if the block has only NaN. */
+size_t ss_extremes_of(const extremes *b, size_t i, double x, double pair[2]);
 
 #endif

@@ -24,7 +24,7 @@ read_cell(double *x, const char *cell, const char *column, size_t row, ss_error 
     else if (end == cell || *end != '\0' || !isfinite(*x))
         return ss_fail(err, SS_EDATA, "row %zu, column %s: '%.40s' is not a finite number", row + 1, column,
                        cell);
-    return isnan(*x) || fabs(*x) < 1 ? SS_OK : ss_script_check(column, x, 1, err);
+    return isnan(*x) || fabs(*x) < 1 ? SS_OK : ss_script_check(column, (script_extent){ *x, *x }, err);
 }
 
 ss_status

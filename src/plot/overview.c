@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 #include "base/largest.h"
 #include "base/versions.h"
@@ -38,7 +39,7 @@ add_levels(extremes *r, const double *level, size_t n)
     for (size_t k = 0, m, i; k < n; k += m) {
         m = ss_extremes_next(r, n - k, &i);
         double most = largest_of(level + k, m);
-        r->most[i] = r->n == i << r->order || most > r->most[i] ? most : r->most[i];
+        r->most[i] = most > r->most[i] ? most : r->most[i];
         all = most > all ? most : all;
         r->n += m;
     }
@@ -145,15 +146,18 @@ make_signal(ss_overview *o)
 {
     const extremes *r = &o->samples;
     ss_header *head;
-    size_t a_block = ss_extremes_each(r);
+    size_t a_block = r->order > 0 ? 2 : 1, blocks = ss_extremes_count(r);
+    double pair[2] = { 0, 0 };
     ss_status st = ss_header_select(&head, o->head, &o->column, 1, 0, NULL);
     if (st != SS_OK)
         return st;
     head->rate = ldexp(o->head->rate * (double)a_block, -r->order);
-    st = ss_signal_new(&o->signal, head, a_block * ss_extremes_count(r), NULL);
+    st = ss_signal_new(&o->signal, head, a_block * blocks, NULL);
     ss_header_free(head);
-    if (st == SS_OK)
-        ss_extremes_give(r, o->signal->values);
+    for (size_t i = 0; st == SS_OK && i < blocks; i++) {
+        ss_extremes_of(r, i, pair[1], pair);
+        memcpy(o->signal->values + i * a_block, pair, a_block * sizeof *pair);
+    }
     return st;
 }
 

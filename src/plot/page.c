@@ -16,7 +16,7 @@
 #define NO_TITLE 0.15           /* and without one */
 #define SCREEN 1.5              /* how much wider and higher on a screen */
 
-static const ss_plot_opts defaults = { .from = NAN, .to = NAN, .style = SS_PAPER, .over_start = NAN };
+static const ss_plot_opts defaults = { .from = NAN, .to = NAN, .style = SS_PAPER };
 
 void
 ss_plot_opts_init(ss_plot_opts *opts, size_t size)
@@ -122,6 +122,17 @@ ss_script_write_frame(FILE *out, double from, double to)
     ss_print(out, "set lmargin at screen %.5g; set rmargin at screen %.5g\n", from, to);
     fputs("set tics nomirror out scale 0.6; set border lw 0.8; unset key\n"
           "set grid xtics lc rgb '" GRID_COLOUR "' lt 1\n", out);
+}
+
+void
+ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *signal, const ss_column *over)
+{
+    fputs("set title offset 0,0.7; set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\n"
+          "name = ", out);
+    ss_script_quote(out, opts->name != NULL ? opts->name : signal->name);
+    fputs("; over_name = ", out);
+    ss_script_quote(out, opts->over_name != NULL ? opts->over_name : over->name);
+    putc('\n', out);
 }
 
 ss_status

@@ -101,18 +101,11 @@ ss_script_quote_lines(FILE *out, const char *text)
 }
 
 ss_status
-ss_script_check(const char *column, const double *x, size_t n, ss_error *err)
+ss_script_check(const char *column, script_extent e, ss_error *err)
 {
-    double largest = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (!isfinite(x[i]))
-            return ss_fail(err, SS_EINVAL, "%s cannot be drawn: a value is not finite", column);
-        largest = fmax(largest, fabs(x[i]));
-    }
-    if (largest > LARGEST || (largest > 0 && largest < 1 / LARGEST))
-        return ss_fail(err, SS_EINVAL, "%s cannot be drawn: its largest value is %.3g", column,
-                       largest);
-    return SS_OK;
+    double largest = fmax(fabs(e.lo), fabs(e.hi));
+    return largest <= LARGEST && (largest == 0 || largest >= 1 / LARGEST) ? SS_OK
+        : ss_fail(err, SS_EINVAL, "%s cannot be drawn: its largest value is %.3g", column, largest);
 }
 
 script_extent

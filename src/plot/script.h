@@ -2,6 +2,7 @@
 #ifndef SCRIPT_H
 #define SCRIPT_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stickslip/plot.h>
@@ -31,6 +32,11 @@ ss_status ss_script_end(FILE *out);
  * style, and no key. */
 void ss_script_write_frame(FILE *out, double from, double to);
 
+/* The legend of a signal and another over it, whose names become the variables name and over_name, above their
+ * panel. */
+void ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *signal,
+                            const ss_column *over);
+
 /* Panels below one another, with one horizontal axis. */
 typedef struct script_stack {
     FILE *out;
@@ -56,10 +62,6 @@ void ss_script_quote_lines(FILE *out, const char *text);
 void ss_script_write(FILE *out, double x, int decimals, const char *behind);
 /* Decimals that distinguish a tenth of a pixel column in a picture of this range. */
 int ss_script_decimals(double range);
-/* SS_EINVAL unless gnuplot can draw these n values of the column: they are finite, at most 1e300, and
- * not all nearer to 0 than 1e-300. */
-ss_status ss_script_check(const char *column, const double *x, size_t n, ss_error *err);
-
 /* The least and the largest value; lo > hi: there is none. */
 typedef struct script_extent {
     double lo, hi;
@@ -71,7 +73,15 @@ ss_script_include(script_extent *e, double x)
     e->lo = x < e->lo ? x : e->lo;          /* no NaN */
     e->hi = x > e->hi ? x : e->hi;
 }
+static inline void
+ss_script_widen(script_extent *e, script_extent other)
+{
+    *e = (script_extent){ fmin(e->lo, other.lo), fmax(e->hi, other.hi) };
+}
 script_extent ss_script_extent(const double *x, size_t n);      /* NaNs are left out */
+/* SS_EINVAL unless gnuplot can draw values of the column between these: at most 1e300, and not all nearer to 0
+ * than 1e-300. */
+ss_status ss_script_check(const char *column, script_extent of_values, ss_error *err);
 
 /* The smallest step of 1, 2 or 5 times a power of ten with at most so many intervals in a range; *decimals
  * becomes the number of its decimals. */
@@ -112,30 +122,18 @@ void ss_script_write_decade_range(FILE *out, double lo, double hi);
 
 /* --- time.c --------------------------------------------------------------------------------- */
 
-/* The part of a record that is drawn.  Missing samples are not drawn, and a line breaks there. */
+/* The part of a record that is drawn. */
 typedef struct script_span {
     double from, to;            /* [s] on the source's clock */
-    size_t first, n;            /* samples in it, and one more on either side */
-    double start, rate;         /* of the record */
-    ss_span *gap;               /* NULL unless they were found; to be freed */
-    size_t n_gaps;
+    size_t n;                   /* samples in it, and one more on either side */
 } script_span;
 
-/* SS_EINVAL if the span of opts contains no sample. */
-ss_status ss_script_find_span(script_span *span, const ss_header *head, size_t n,
-                              const ss_plot_opts *opts, ss_error *err);
-/* Find the gaps of the record.  SS_EINVAL if all samples of the span are missing. */
-ss_status ss_script_find_gaps(script_span *span, const ss_header *head, ss_error *err);
-int ss_script_is_missing(const script_span *span, size_t i);
-script_extent ss_script_span_extent(const double *x, const script_span *span);  /* x: of the whole record */
-
+/* That of n samples at this rate from start.  SS_EINVAL if the span of opts contains none. */
+ss_status ss_script_find_span(script_span *span, double start, double rate, size_t n, const ss_plot_opts *opts,
+                              ss_error *err);
 /* Write the named variables from, to and tics, the step of time.  Returns the length of a label. */
 int ss_script_write_span(FILE *out, const script_span *span);
 /* Label the tics of time, in microseconds or nanoseconds where numbers of seconds would be long. */
 void ss_script_write_time_labels(FILE *out, const script_span *span);
-/* A datablock of time and scaled x: the smallest and largest of each pixel column, so that no spike is
- * lost.  x points at the whole record.  Returns the extent of what is drawn. */
-script_extent ss_script_write_trace(FILE *out, const char *name, const double *x, const script_span *span,
-                                    script_scale scale);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/signal.h>
+#include "plot/extremes.h"
 #include "plot/script.h"
 
 typedef struct series {
@@ -11,19 +12,46 @@ typedef struct series {
     const ss_header *head;
     const size_t *column;       /* those that are drawn */
     size_t n_columns, piece;
+    double start;               /* [s] when the first row is drawn */
     size_t first, end;          /* rows that are drawn: those before end */
     size_t rows;                /* that were read */
-    size_t at;                  /* the first row of the latest piece */
+    ss_span *gap;
+    size_t n_gaps;
     double **wanted;            /* where the values of each column of the signal go, or NULL */
     double *value;              /* value[c * piece + i]: those of column[c] in the piece that are drawn */
 } series;
 
-/* Begin at the first row; to be freed even after a failure. */
-ss_status ss_series_begin(series *s, ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *opts,
-                          ss_error *err);
-/* Read the next n > 0 rows that are drawn.  n = 0: there are none, and all rows have been read. */
+/* Begin to read what opts shows of a signal that is drawn from this time on; NaN: from its own.  To be freed
+ * even after a failure. */
+ss_status ss_series_begin(series *s, ss_reader *reader, const size_t column[], size_t n, double start,
+                          const ss_plot_opts *opts, ss_error *err);
+/* Read the next n > 0 rows that are drawn; values in gaps become NaN.  n = 0: there are none, and all rows have
+ * been read.  SS_EINVAL: another value is not finite. */
 ss_status ss_series_next(series *s, size_t *n, ss_error *err);
+/* The part that opts shows, when all rows have been read.  SS_EINVAL: nothing of it. */
+ss_status ss_series_span(script_span *span, const series *s, const ss_plot_opts *opts, ss_error *err);
+/* SS_EINVAL: gnuplot cannot draw values of a column between these, or there are none. */
+ss_status ss_series_check(const ss_column *column, script_extent of_values, const script_span *span,
+                          ss_error *err);
 ss_status ss_series_rewind(series *s, ss_error *err);
 void ss_series_free(series *s);
+
+/* A column that is drawn over time, reduced to the extremes of some blocks for each column of pixels. */
+typedef struct trace {
+    const ss_column *column;
+    extremes block;
+    double from, step;          /* [s] the time of the first value, and between two */
+    script_extent extent;
+    script_scale scale;         /* that its extent would have alone; a caller may change it */
+    script_label label;         /* for callers */
+} trace;
+
+/* Read n columns, and find the part that is shown; all t are to be freed even after a failure.  SS_EINVAL:
+ * gnuplot cannot draw a column, or all its values are missing. */
+ss_status ss_traces_read(trace t[], script_span *span, ss_reader *reader, const size_t column[], size_t n,
+                         double start, const ss_plot_opts *opts, ss_error *err);
+void ss_traces_free(trace t[], size_t n);
+/* A datablock of time and scaled values, in which gaps are blank lines. */
+void ss_trace_write(FILE *out, const char *name, const trace *t);
 
 #endif

@@ -72,24 +72,28 @@ estimate(ss_spectrum **out, series *s, size_t column, size_t n, double resolutio
 
 /* The rows are read once to be counted, and once for each column. */
 ss_status
-ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[], size_t n, ss_plot_opts *opts,
-                ss_error *err)
+ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[], size_t n,
+                const ss_plot_opts *given, ss_error *err)
 {
+    ss_plot_opts opts;
     series s;
     script_span span;
-    if (spectrum == NULL || reader == NULL || column == NULL || opts == NULL)
+    if (spectrum == NULL || reader == NULL || column == NULL)
         return SS_FAIL_NULL(err);
     memset(spectrum, 0, n * sizeof *spectrum);
-    ss_status st = ss_series_begin(&s, reader, column, n, opts, err);
+    ss_status st = ss_script_take(&opts, given, err);
+    if (st != SS_OK)
+        return st;
+    st = ss_series_begin(&s, reader, column, n, NAN, &opts, err);
+    s.n_gaps = 0;                       /* values in gaps count as they were filled in */
     if (st == SS_OK)
         st = ss_series_rewind(&s, err);
     for (size_t got = 1; st == SS_OK && got > 0;)
         st = ss_series_next(&s, &got, err);
-    opts->rows = s.rows;
     if (st == SS_OK)
-        st = ss_script_find_span(&span, s.head, s.rows, opts, err);
+        st = ss_series_span(&span, &s, &opts, err);
     for (size_t i = 0; st == SS_OK && i < n; i++)
-        st = estimate(&spectrum[i], &s, i, span.n, opts->resolution, err);
+        st = estimate(&spectrum[i], &s, i, span.n, opts.resolution, err);
     ss_series_free(&s);
     return st;
 }

@@ -167,10 +167,18 @@ give_held(ss_source *s, double *const column[], size_t max, size_t *n, ss_error 
     return SS_OK;
 }
 
+static ss_status
+begin_held_again(ss_source *s, ss_error *err)
+{
+    (void)err;
+    ((struct held *)s)->next = 0;
+    return SS_OK;
+}
+
 ss_source *
 ss_source_of_signal(const ss_signal *signal, const char *name, ss_error *err)
 {
-    static const struct source_calls calls = { .next = give_held };
+    static const struct source_calls calls = { .next = give_held, .rewind = begin_held_again };
     struct held *h = make(sizeof *h, &calls, name, signal->head, err);
     if (h == NULL)
         return NULL;

@@ -130,11 +130,14 @@ draw(const material *m, kind k)
         opts.output = m->text[5];
         opts.format = "svg";
     }
-    ss_status status = k == PANELS ? ss_plot_signal(out, signal, NULL, 0, &opts, &err)
-        : k == XY ? ss_plot_xy(out, signal, 0, 1, &opts, &err)
+    ss_reader *reader = NULL;
+    fuzz_check(ss_reader_of_signal(&reader, signal, &err) == SS_OK, "memory for a reader");
+    ss_status status = k == PANELS ? ss_plot_signal(out, reader, NULL, 0, &opts, &err)
+        : k == XY ? ss_plot_xy(out, reader, 0, 1, &opts, &err)
         : k == CONTOUR ? draw_contour(out, m, signal, &opts, &err)
         : k == MAP ? draw_map(out, m, &opts, &err) : draw_trade(out, m, &opts, &err);
     fclose(out);
+    ss_reader_free(reader);
     ss_signal_free(signal);
     if (status == SS_OK)
         return text;
