@@ -140,10 +140,10 @@ find(search *s, double *x, size_t column, ss_error *err)
         st = ss_transitions_find(s);
     if (st == SS_OK)
         st = report_progress(s, FITTED);
-    if (st == SS_OK) {
-        ss_slip_rate_find(s);
+    if (st == SS_OK)
+        st = ss_slip_rate_find(s);
+    if (st == SS_OK)
         st = ss_numbers_find(s);
-    }
     for (size_t i = 0; i < s->n && s->is_cleaned; i++)
         x[i] = s->x[i] * s->largest;
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));

@@ -79,7 +79,7 @@ cycle_rate(const search *s)
 
 /* Count the slips, and find their rate, into s->out, which has transitions and repetition_frequency; or say
  * there why they are not known. */
-void ss_slip_rate_find(search *s);
+ss_status ss_slip_rate_find(search *s);
 
 /* Free the loadings, if there are any, and make all their numbers unknown. */
 void ss_loadings_forget(ss_features *out);

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include "find/numbers.h"
+#include "find/rests.h"
 #include "find/search.h"
 #include "signal/gaps.h"
 
@@ -12,17 +13,22 @@
 #define MOST 0.75               /* the least part of the transitions that must recur */
 #define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
 #define OVERTONES 0.1           /* part of the power: a cycle with less is a sinusoid */
+#define BARE 0.999              /* likeness of cycles in which noise and hum hide no slip */
 #define ALIKE 0.05              /* relative scatter of falls that differ by chance only */
 
-/* The number of transitions in a second, by the mean of the times between them.  Times with a gap are left
- * out: it may hide transitions. */
+typedef struct times {          /* at which slips, or what may be slips, begin [s] */
+    double *t;
+    size_t n;
+} times;
+
+/* The number of slips in a second, by the mean of the times between them.  Times with a gap are left out: it may
+ * hide slips. */
 static ss_value
-mean_rate(const search *s)
+mean_rate(const search *s, times slip)
 {
-    const ss_features *out = s->out;
     double sum = 0, squares = 0, m = 0;
-    for (size_t i = 1; i < out->n; i++) {
-        double from = out->transition[i - 1].onset, interval = out->transition[i].onset - from;
+    for (size_t i = 1; i < slip.n; i++) {
+        double from = slip.t[i - 1], interval = slip.t[i] - from;
         if (ss_gaps_near(s->gap, s->n_gaps, from + interval / 2, interval / 2))
             continue;
         sum += interval;
@@ -35,15 +41,14 @@ mean_rate(const search *s)
     return (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
 }
 
-/* Do MOST of the transitions come so long before those `step` transitions later, to within JITTER? */
+/* Do MOST of the slips come so long before those `step` slips later, to within JITTER? */
 static int
-recur(const search *s, size_t step, double time)
+recur(const search *s, times slip, size_t step, double time)
 {
-    const ss_features *out = s->out;
     size_t good = 0, all = 0;
-    for (size_t i = 0; i + step < out->n; i++) {
-        double from = out->transition[i].onset, passed = out->transition[i + step].onset - from;
-        if (ss_gaps_near(s->gap, s->n_gaps, from + passed / 2, passed / 2))
+    for (size_t i = 0; i + step < slip.n; i++) {
+        double passed = slip.t[i + step] - slip.t[i];
+        if (ss_gaps_near(s->gap, s->n_gaps, slip.t[i] + passed / 2, passed / 2))
             continue;
         all++;
         good += fabs(passed / time - 1) <= JITTER;
@@ -51,14 +56,22 @@ recur(const search *s, size_t step, double time)
     return all >= 2 && (double)good >= MOST * (double)all;
 }
 
-/* The number of transitions in a cycle, after which a period has passed.  0: they do not repeat with the
- * cycle. */
+/* The number of slips in a cycle, after which a period has passed.  0: they do not repeat with the cycle. */
 static size_t
-slips_in_cycle(const search *s)
+slips_in_cycle(const search *s, times slip)
 {
     double period = 1 / s->out->number[SS_REPETITION_FREQUENCY].value,
-        each = round(mean_rate(s).value * period);
-    return each >= 1 && each < (double)s->out->n && recur(s, (size_t)each, period) ? (size_t)each : 0;
+        each = round(mean_rate(s, slip).value * period);
+    return each >= 1 && each < (double)slip.n && recur(s, slip, (size_t)each, period) ? (size_t)each : 0;
+}
+
+/* The onsets of the transitions, in memory that is there. */
+static times
+onsets(const search *s, double *t)
+{
+    for (size_t i = 0; i < s->out->n; i++)
+        t[i] = s->out->transition[i].onset;
+    return (times){ t, s->out->n };
 }
 
 /* The least number of slips in a cycle: one, but two if its second half mirrors the first. */
@@ -89,14 +102,17 @@ keep_ringing(search *s)
     out->n = kept;
 }
 
-/* May some of the events be no slips, but ends of sticks, or micro-slips?  Events at equal distances are all
- * of one kind. */
+/* May some of the events be no slips, but ends of sticks, or micro-slips, or may slips be missing?  Events at equal
+ * distances are all of one kind.  Where nothing rings anew with each, weak slips hide in noise or a hum. */
 static int
-is_doubtful(const search *s, size_t each)
+is_doubtful(const search *s, times event, size_t each)
 {
     size_t least = least_in_cycle(s);
     return each % least != 0
-        || (each > least && !recur(s, 1, 1 / ((double)each * s->out->number[SS_REPETITION_FREQUENCY].value)));
+        || (each > least
+            && !recur(s, event, 1, 1 / ((double)each * s->out->number[SS_REPETITION_FREQUENCY].value)))
+        || (isnan(s->out->number[SS_TRANSITION_FREQUENCY].value) && !s->out->reverses
+            && !(s->cycles.likeness >= BARE));
 }
 
 void
@@ -163,10 +179,10 @@ confirm_repetition(search *s)
 /* Falls that are alike and evenly spaced repeat with each.  A period of several of them is that of what
  * disturbs them, such as glitches. */
 static void
-doubt_repetition(search *s)
+doubt_repetition(search *s, times fall)
 {
     ss_features *out = s->out;
-    if (slips_in_cycle(s) < 2 || !recur(s, 1, 1 / out->number[SS_SLIP_RATE].value)
+    if (slips_in_cycle(s, fall) < 2 || !recur(s, fall, 1, 1 / out->number[SS_SLIP_RATE].value)
         || !(out->number[SS_DROP].scatter <= ALIKE * out->number[SS_DROP].value))
         return;
     know(out, SS_REPETITION_FREQUENCY, unknown);
@@ -184,52 +200,107 @@ has_offset(const search *s)
         && !(fabs(s->out->number[SS_SLIP_RATE].value / cycle_rate(s).value - 1) <= JITTER);
 }
 
-void
+/* Count the falls of a force, which are slips by themselves. */
+static void
+count_falls(search *s, times fall)
+{
+    ss_features *out = s->out;
+    if (has_offset(s)) {
+        ss_loadings_forget(out);
+        out->n = 0;
+        forget_slips(out, "it repeats, but not as falls of a force of one sign: it may have an offset");
+        return;
+    }
+    confirm_repetition(s);
+    doubt_repetition(s, fall);
+    if (out->n > 0 && isnan(out->number[SS_DROP].value))
+        say(out, SS_SLIPS, "most falls of the force are no slips of an evenly pulled slider");
+    else if (out->n > 0 && isnan(out->number[SS_LOADING_SLOPE].value))
+        say(out, SS_SLIPS, "the force rises along no lines: it has no slope, and its sticks no length");
+    else if (s->has_offset)
+        say(out, SS_SLIPS, "they are rises: the zero of the force is not that of friction, which is not known");
+}
+
+/* So many slips in a cycle. */
+static void
+repeat_slips(ss_features *out, size_t each)
+{
+    ss_value rate = known(out, SS_REPETITION_FREQUENCY);
+    know(out, SS_SLIP_RATE, (ss_value){ (double)each * rate.value, (double)each * rate.error });
+}
+
+/* Count the onsets of motion behind rests. */
+static void
+count_motions(search *s, times motion)
+{
+    ss_features *out = s->out;
+    size_t each = slips_in_cycle(s, motion);
+    out->number[SS_SLIPS].value = (double)motion.n;
+    know(out, SS_SLIP_RATE, mean_rate(s, motion));
+    if (each > 0)
+        repeat_slips(out, each);
+    else if (!isnan(out->number[SS_REPETITION_FREQUENCY].value))
+        forget_slips(out, "the motions between rests do not repeat with the cycle");
+}
+
+/* Count the transitions, which are sharp events, if they repeat with the cycle. */
+static void
+count_events(search *s, double *t)
+{
+    ss_features *out = s->out;
+    size_t each = slips_in_cycle(s, onsets(s, t));
+    if (each > least_in_cycle(s) && !isnan(out->number[SS_TRANSITION_FREQUENCY].value)) {
+        keep_ringing(s);
+        out->number[SS_SLIPS].value = (double)out->n;
+        each = slips_in_cycle(s, onsets(s, t));
+    }
+    if (each == 0)
+        count_cycles(s);
+    else if (is_doubtful(s, onsets(s, t), each))
+        forget_slips(out, "of several sharp events a cycle some may be no slips of their own, or some hide");
+    else
+        repeat_slips(out, each);
+}
+
+ss_status
 ss_slip_rate_find(search *s)
 {
     ss_features *out = s->out;
     if (out->number[SS_SLIPS].why != NULL) {
         know(out, SS_SLIPS, unknown);
-        return;
+        return SS_OK;
     }
+    int repeats = !isnan(out->number[SS_REPETITION_FREQUENCY].value);
+    int rings = !isnan(out->number[SS_TRANSITION_FREQUENCY].value);
+    ss_rests rests = { 0, NULL, 0 };
+    ss_status st = out->loading != NULL || out->reverses || rings ? SS_OK : ss_rests_find(s->x, s->n, &rests);
+    double *t = malloc((out->n + rests.n + 1) * sizeof *t);
+    if (st != SS_OK || t == NULL) {
+        free(rests.rest);
+        free(t);
+        return SS_ENOMEM;
+    }
+    times event = onsets(s, t), motion = { t + out->n, 0 };
+    for (size_t i = 0; i < rests.n; i++)
+        if (rests.rest[i].end < s->n)
+            motion.t[motion.n++] = (double)rests.rest[i].end / s->rate;
     out->number[SS_SLIPS].value = (double)out->n;
-    know(out, SS_SLIP_RATE, mean_rate(s));
-    if (out->loading != NULL) {
-        if (has_offset(s)) {
-            ss_loadings_forget(out);
-            out->n = 0;
-            forget_slips(out, "it repeats, but not as falls of a force of one sign: it may have an offset");
-            return;
-        }
-        confirm_repetition(s);
-        doubt_repetition(s);
-        if (out->n > 0 && isnan(out->number[SS_DROP].value))
-            say(out, SS_SLIPS, "most falls of the force are no slips of an evenly pulled slider");
-        else if (out->n > 0 && isnan(out->number[SS_LOADING_SLOPE].value))
-            say(out, SS_SLIPS, "the force rises along no lines: it has no slope, and its sticks no length");
-        else if (s->has_offset)
-            say(out, SS_SLIPS,
-                "they are rises: the zero of the force is not that of friction, which is not known");
-        return;
-    }
-    if (isnan(out->number[SS_REPETITION_FREQUENCY].value)) {
-        if (out->n == 0)
-            say(out, SS_SLIPS, "nothing stands out: slips that are smooth or weak are not seen");
-        else
-            say(out, SS_SLIPS, "counted by what stands out, as nothing repeats that would confirm it");
-        return;
-    }
-    size_t each = slips_in_cycle(s);
-    if (each > least_in_cycle(s) && !isnan(out->number[SS_TRANSITION_FREQUENCY].value)) {
-        keep_ringing(s);
-        out->number[SS_SLIPS].value = (double)out->n;
-        each = slips_in_cycle(s);
-    }
-    if (each == 0)
-        count_cycles(s);
-    else if (is_doubtful(s, each))
-        forget_slips(out, "of several sharp events a cycle some may be no slips of their own");
+    know(out, SS_SLIP_RATE, mean_rate(s, event));
+    if (out->loading != NULL)
+        count_falls(s, event);
+    else if (motion.n >= FEW && !rests.is_doubtful)
+        count_motions(s, motion);
+    else if (motion.n >= FEW && out->n > 0)
+        forget_slips(out, "the signal rests at a level that it also crosses so slowly that rests are not certain");
+    else if (repeats)
+        count_events(s, t);
+    else if (out->n == 0)
+        say(out, SS_SLIPS, "nothing stands out: slips that are smooth or weak are not seen");
+    else if (out->n == 1 || rings)
+        say(out, SS_SLIPS, "counted by what stands out, as nothing repeats that would confirm it");
     else
-        know(out, SS_SLIP_RATE, (ss_value){ (double)each * out->number[SS_REPETITION_FREQUENCY].value,
-                                            (double)each * out->number[SS_REPETITION_FREQUENCY].error });
+        forget_slips(out, "events stand out, but they neither repeat nor ring nor lie between rests");
+    free(rests.rest);
+    free(t);
+    return SS_OK;
 }

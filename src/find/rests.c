@@ -1,0 +1,74 @@
+/* rests.c -- the stretches in which a signal stands still at one level.
+ *
+ * While a true stick lasts, velocity and acceleration are zero: the samples lie about one level, within the noise of
+ * the record, whatever makes it.  The level is where samples are densest.  A motion that crosses the level does not
+ * stop there: it passes the band about the level, and the wider one on either side, evenly.  A rest is as long as it
+ * lasts in the band, and short beside it.  What is neither may be a short rest, or an extremum of a motion.
+ */
+#include "find/rests.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/sort.h"
+#include "find/judgement.h"
+
+#define BAND 5.0                /* standard deviations of the samples of a rest, either side of its level */
+#define AWAY (3 * BAND)         /* what leaves the band by less is no motion */
+#define PART 0.1                /* of the samples are at rest */
+#define CLEAR 0.05              /* of the largest sample: a wider band is none of a rest */
+
+/* Level and standard deviation of the samples that are at rest, from the narrowest interval with PART of all on. */
+static ss_status
+find_level(const double *x, size_t n, double *level, double *deviation)
+{
+    enum { PASSES = 12 };
+    double *sorted = malloc((n + 1) * sizeof *sorted), step = INFINITY;
+    size_t held = (size_t)(PART * (double)n), best = 0;
+    if (sorted == NULL)
+        return SS_ENOMEM;
+    memcpy(sorted, x, n * sizeof *x);
+    qsort(sorted, n, sizeof *sorted, ss_ascending);
+    for (size_t i = 0; i + held < n; i++)
+        if (sorted[i + held] - sorted[i] < sorted[best + held] - sorted[best])
+            best = i;
+    for (size_t i = 1; i < n; i++)
+        if (sorted[i] > sorted[i - 1])
+            step = fmin(step, sorted[i] - sorted[i - 1]);
+    *level = sorted[best + held / 2];
+    *deviation = fmax(sorted[best + held] - sorted[best], step / 2);
+    free(sorted);
+    for (int pass = 0; pass < PASSES; pass++) {
+        double sum = 0, squares = 0, m = 0;
+        for (size_t i = 0; i < n; i++)
+            if (fabs(x[i] - *level) <= BAND * *deviation) {
+                sum += x[i] - *level, squares += (x[i] - *level) * (x[i] - *level);
+                m++;
+            }
+        *deviation = fmax(sqrt(fmax(0, squares / m - sum * sum / m / m)), step / 2);
+        *level += sum / m;
+    }
+    return SS_OK;
+}
+
+ss_status
+ss_rests_find(const double *x, size_t n, ss_rests *out)
+{
+    double level = 0, deviation = 0;
+    *out = (ss_rests){ 0, calloc(n / 2 + 1, sizeof *out->rest), 0 };
+    ss_status st = out->rest != NULL ? find_level(x, n, &level, &deviation) : SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        ss_window in = { n, n };
+        size_t from = i;
+        for (; i < n && fabs(x[i] - level) <= AWAY * deviation; i++)
+            if (fabs(x[i] - level) <= BAND * deviation)
+                in = (ss_window){ in.first < i ? in.first : i, i + 1 };
+        size_t length = ss_window_length(in), beside = i - from - length;
+        if (length >= 3 * beside + 2)
+            out->rest[out->n++] = in;
+        else
+            out->is_doubtful |= length >= beside + 2;
+    }
+    out->is_doubtful |= BAND * deviation > CLEAR;
+    return st;
+}
