@@ -142,7 +142,7 @@ page() {        # ROW FILE
         run ss-contour -q --features "$work/features.tsv" -o "$work/contours.svg" "$work/run.h5" &&
         inline contours &&
         echo '<p>Triangles at the top: jumps and kinks. Bars at the bottom: transitions between stick and slip. Rings:
-local maxima. Arrows: marks beyond the border. Shaded: the ends of the record (cone of influence).</p>'
+local maxima. Shaded: the ends of the record (cone of influence).</p>'
     printf '<h2>Numbers, with standard errors</h2>\n<table><tbody>\n%s</tbody></table>\n' "$(numbers "$1")"
     escape < "$work/features.tsv" | sed -n 's/^# about_\([a-z]*\): \(.*\)/<p class="why">\1: \2<\/p>/p
         s/^# \(spikes: .*\)/<p>\1<\/p>/p'

@@ -109,7 +109,7 @@ extern const char *const ss_palettes[];
  * the label 2 omega_c / (omega_c + sqrt(omega_c^2 + 2)) times its frequency, 0.987 for omega_c =
  * 6; with the norm 1/a it lies at its frequency.
  *
- * A mark outside the span or the labels that are drawn becomes an arrow at the border. */
+ * A mark outside the span or the labels that are drawn is left out. */
 ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
                           const ss_contour_opts *contour, const ss_plot_opts *opts, ss_error *err);
 

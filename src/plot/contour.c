@@ -200,7 +200,7 @@ write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_
     ss_print(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
             "fs %s noborder lc rgb cone_colour", c->n_gaps + 1,
             contour->fill ? "transparent solid 0.6" : "solid 1");
-    ss_contour_plot_events(out, &marks, contour->n_events);
+    ss_contour_plot_events(out, &marks);
     if (lines)
         ss_print(out, ", \\\n    for [i=1:words(drawn)] $contour index i-1 using 1:2 with lines %s",
                  contour->fill ? "lw 0.3 lc rgb line_colour" : "lw 1 lc palette cb -word(drawn,i)*step");

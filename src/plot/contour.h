@@ -41,16 +41,15 @@ void ss_contour_write_point(FILE *out, const contour_map *map, const double poin
 /* The next of n points, after first, that is needed to keep a line within a fraction of a pixel. */
 size_t ss_contour_next_point(const contour_map *map, const double (*point)[2], size_t n, size_t first);
 
-/* The number of marks of each kind that can be drawn: an empty block is an error in gnuplot. */
+/* The number of marks of each kind that are drawn: an empty block is an error in gnuplot. */
 typedef struct contour_marks {
-    size_t spans, spikes, maxima;
-    size_t event_arrows, feature_arrows;
+    size_t events, spans, spikes, maxima;
 } contour_marks;
 
-/* Write datablocks of the events and the overlay inside the map, and of arrows for the others. */
+/* Write datablocks of the events and the overlay inside the map. */
 contour_marks ss_contour_write_marks(FILE *out, const contour_map *map, const ss_contour_opts *contour);
 /* In the plot command: events lie behind the lines, features before them. */
-void ss_contour_plot_events(FILE *out, const contour_marks *marks, size_t n_events);
+void ss_contour_plot_events(FILE *out, const contour_marks *marks);
 void ss_contour_plot_features(FILE *out, const contour_marks *marks);
 
 /* Write the datablock $spans, of two times a row, cut at the ends of span; returns the number of rows. */
