@@ -9,6 +9,7 @@ ss_status ss_sweep_opts_take(ss_sweep_opts *own, ss_steady_opts *steady, const s
                              ss_error *err);
 /* The number of points in the grid; SS_EINVAL if there are none or too many. */
 ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
-double ss_axis_value(const ss_axis *axis, size_t i);    /* the i-th value, from 0 */
+/* The values of the axes at this point of the grid, whose last axis varies fastest. */
+void ss_sweep_values(const ss_sweep_opts *opts, size_t index, double value[]);
 
 #endif

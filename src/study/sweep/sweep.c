@@ -74,8 +74,9 @@ ss_axis_parse(ss_axis *out, const char *text, ss_error *err)
     return SS_OK;
 }
 
-double
-ss_axis_value(const ss_axis *axis, size_t i)
+/* The i-th value, from 0. */
+static double
+axis_value(const ss_axis *axis, size_t i)
 {
     if (i == 0)
         return axis->from;
@@ -88,6 +89,13 @@ ss_axis_value(const ss_axis *axis, size_t i)
     if (axis->log)                      /* the ratio of the ends may exceed a double */
         return pow(axis->from, 1 - part) * pow(axis->to, part);
     return isfinite(x) ? x / n : axis->from * (1 - part) + axis->to * part;
+}
+
+void
+ss_sweep_values(const ss_sweep_opts *opts, size_t index, double value[])
+{
+    for (size_t k = opts->n_axes; k-- > 0; index /= opts->axis[k].n)
+        value[k] = axis_value(&opts->axis[k], index % opts->axis[k].n);
 }
 
 ss_status
@@ -118,7 +126,7 @@ check(const ss_scene *scene, const ss_sweep_opts *opts, ss_error *err)
         st = ss_sweep_points(opts, &all, err);
     for (size_t i = 0; st == SS_OK && i < opts->n_axes; i++) {
         const char *key = opts->axis[i].key;
-        if (ss_scene_set(&copy, key, ss_axis_value(&opts->axis[i], 0), err) != SS_OK)
+        if (ss_scene_set(&copy, key, axis_value(&opts->axis[i], 0), err) != SS_OK)
             return SS_EINVAL;
         if (ss_key_is_of_record(key))
             return ss_fail(err, SS_EINVAL, "%s belongs to the record, which no measure sees", key);
@@ -169,8 +177,7 @@ work_out(size_t i, void *result, void *user)
     size_t index = opts->shard + (opts->first + i) * opts->shards;
     p->row.index = index;
     p->row.vary = p->values;
-    for (size_t k = opts->n_axes; k-- > 0; index /= opts->axis[k].n)
-        p->values[k] = ss_axis_value(&opts->axis[k], index % opts->axis[k].n);
+    ss_sweep_values(opts, index, p->values);
     for (size_t k = 0; k < opts->n_axes; k++)
         ss_scene_set(&here, opts->axis[k].key, p->values[k], NULL);
     p->row.steady.strobe = opts->steady->strobe > 0 ? (ss_strobe *)(p->values + opts->n_axes) : NULL;

@@ -178,132 +178,73 @@ ss_sweep_row_write(const ss_sweep_text *given, const ss_sweep_row *row, FILE *ou
 
 /* --- going on ------------------------------------------------------------------------------ */
 
-enum { LONGEST_ROW = 8192 };        /* of some 60 numbers and a reason */
-
-/* Read the next line without its end, cut off if it is too long.  Returns the length of the whole line in the
- * file, or 0 if the file ends within it. */
-static long
-read_line(FILE *in, char line[LONGEST_ROW])
-{
-    long length = 0;
-    int c;
-    for (; (c = getc(in)) != EOF && c != '\n'; length++)
-        if (length + 1 < LONGEST_ROW)
-            line[length] = (char)c;
-    line[length < LONGEST_ROW ? length : LONGEST_ROW - 1] = '\0';
-    return c == '\n' ? length + 1 : 0;
-}
-
-/* 1 if the file begins with this header, or is itself only a beginning of it.  *got becomes the number of
- * bytes that were read. */
-static int
-has_header(FILE *in, const char *header, char *start, size_t *got)
-{
-    *got = fread(start, 1, strlen(header), in);
-    return memcmp(start, header, *got) == 0;
-}
-
-/* Cut the next cell off a line, which begins behind it afterwards; NULL: it is the last. */
-static char *
-next_cell(char **line, char separator)
-{
-    char *cell = *line, *end = strchr(cell, separator);
-    if (end == NULL)
-        return NULL;
-    *end = '\0';
-    *line = end + 1;
-    return cell;
-}
-
-static int
-is_number(const char *cell, double *x)
-{
-    char *end;
-    *x = ss_number_parse(cell, &end);
-    return end > cell && *end == '\0' && isfinite(*x);
-}
-
-/* The value of an axis at this point of the grid, whose last axis varies fastest. */
-static double
-value_at(const ss_sweep_opts *opts, size_t axis, size_t index)
-{
-    for (size_t i = opts->n_axes - 1; i > axis; i--)
-        index /= opts->axis[i].n;
-    return ss_axis_value(&opts->axis[axis], index % opts->axis[axis].n);
-}
-
-/* What is wrong with the cells behind the index of a row, or NULL: they are what a row of this point may have.
- * *name becomes the column of the wrong one. */
-static const char *
-wrong_cell(const ss_sweep_text *sweep, char *line, size_t index, const char **name)
+/* Is a line the row of this point?  It is written anew from its numbers, and must be the same up to the status,
+ * which is the last cell.  SS_EDATA: it is not. */
+static ss_status
+check_row(const ss_sweep_text *sweep, size_t index, const char *line, double value[])
 {
     const struct format *format = ss_format_table(sweep->format);
-    const char *unknown = format->has_notes ? "-" : "", *cell;
-    double x;
-    int unknowns = 0;
-    for (size_t i = 0; i < sweep->opts->n_axes; i++) {
-        double wanted = value_at(sweep->opts, i, index);
-        *name = sweep->opts->axis[i].key;
-        if ((cell = next_cell(&line, format->separator)) == NULL)
-            return "is missing";
-        if (!is_number(cell, &x) || !(fabs(x - wanted) <= 1e-14 * fabs(wanted)))    /* pow differs */
-            return "is not the grid's";
+    ss_sweep_row row = { .index = index, .vary = value, .reason = "?" };
+    const char *cell = line;
+    char *text = NULL, *end;
+    size_t length = 0, unknown = 0;
+    ss_sweep_values(sweep->opts, index, value);
+    for (size_t i = 0; i < 1 + sweep->opts->n_axes + sweep->n_measures; i++) {
+        if (i > sweep->opts->n_axes) {
+            ss_measure m = sweep->measure[i - 1 - sweep->opts->n_axes];
+            double x = ss_number_parse(cell, &end);
+            int aperiodic = m == SS_PERIOD && strncmp(cell, "aperiodic", 9) == 0;
+            row.steady.value[m] = aperiodic ? 0 : end > cell && isfinite(x) ? x : NAN;
+            unknown += isnan(row.steady.value[m]);
+        }
+        if ((cell = strchr(cell, format->separator)) == NULL)
+            return SS_EDATA;
+        cell++;
     }
-    for (size_t i = 0; i < sweep->n_measures; i++) {
-        *name = ss_measure_label(sweep->measure[i])->name;
-        if ((cell = next_cell(&line, format->separator)) == NULL)
-            return "is missing";
-        unknowns += strcmp(cell, unknown) == 0;
-        if (!is_number(cell, &x) && strcmp(cell, unknown) != 0
-            && (sweep->measure[i] != SS_PERIOD || strcmp(cell, "aperiodic") != 0))
-            return "is not a number";
-    }
-    *name = "status";
-    if (line[0] == '\0' || (line[0] != '"' && strchr(line, format->separator) != NULL))
-        return line[0] == '\0' ? "is missing" : "is not the last";
-    return unknowns > 0 && strcmp(line, "ok") == 0 ? "is ok, but a measure is not known" : NULL;
+    FILE *out = open_memstream(&text, &length);
+    struct rows rows = { .out = out, .format = format };
+    if (out == NULL)
+        return SS_ENOMEM;
+    write_row(&rows, sweep, &row, NULL);
+    int whole = fclose(out) == 0, same = whole && strncmp(line, text, length - strlen("?\n")) == 0
+        && line[length - strlen("?\n")] != '\0';
+    free(text);
+    return !whole ? SS_ENOMEM : same && (cell[0] == '"' || strchr(cell, format->separator) == NULL)
+        && (unknown == 0 || strcmp(cell, "ok") != 0) && strlen(cell) < 2 * sizeof (ss_error) ? SS_OK : SS_EDATA;
 }
 
-static size_t
-count_lines(const char *text)
-{
-    size_t n = 0;
-    for (; *text != '\0'; text++)
-        n += *text == '\n';
-    return n;
-}
-
-/* Count the whole rows, which must be those of the points in their order.  The last point is left out if it may
- * have several rows, as some of them may be missing, or if the format has no notes, so that only its numbers tell
- * whether it is of this sweep. */
+/* Count the whole rows behind the header, which must be those of the points in their order.  The last point is
+ * left out if it may have several rows, as some of them may be missing, or if the format has no notes, so that
+ * only its numbers tell whether it is of this sweep. */
 static ss_status
-count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t header_lines, size_t *rows, long *end,
+count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t number, size_t *rows, long *end,
            ss_error *err)
 {
     const ss_sweep_opts *opts = sweep->opts;
-    const struct format *format = ss_format_table(sweep->format);
-    char line[LONGEST_ROW], *behind;
-    int leaves_last = opts->steady->strobe > 0 || !format->has_notes;
-    size_t points = 0, all, number = header_lines + 1;
+    int leaves_last = opts->steady->strobe > 0 || !ss_format_table(sweep->format)->has_notes;
+    size_t points = 0, all, room = 0;
     long at = *end;
-    ss_status st = ss_sweep_points(opts, &all, err);
-    for (long n; st == SS_OK && (n = read_line(in, line)) > 0; at += n, number++) {
-        size_t due = opts->shard + points * opts->shards, index = strtoul(line, &behind, 10);
-        const char *wrong, *column = "index";
-        int again = opts->steady->strobe > 0 && points > 0 && index == due - opts->shards;
-        if ((size_t)n != strlen(line) + 1)
-            return ss_fail(err, SS_EDATA, "%s:%zu: a NUL byte, or longer than a row", name, number);
-        if (line[0] < '0' || line[0] > '9' || (*behind != format->separator && *behind != '\0')
-            || (index != due && !again) || index >= all)
-            return ss_fail(err, SS_EDATA, "%s:%zu: the row of '%.*s', but point %zu is due: another sweep "
-                           "or shard", name, number, (int)strcspn(line, (char[]){ format->separator, '\0' }), line, due);
-        if ((wrong = wrong_cell(sweep, behind + (*behind != '\0'), index, &column)) != NULL)
-            return ss_fail(err, SS_EDATA, "%s:%zu: not a row of this sweep: %s %s", name, number, column, wrong);
-        if (again)
-            continue;
-        *rows = points++;
-        *end = at;
+    char *line = NULL;
+    double *value = malloc((opts->n_axes + 1) * sizeof *value);
+    ss_status st = value != NULL ? ss_sweep_points(opts, &all, err) : ss_fail_memory(err, NULL);
+    for (ssize_t n; st == SS_OK && (n = getline(&line, &room, in)) > 0 && line[n - 1] == '\n'; at += n) {
+        size_t due = opts->shard + points * opts->shards;
+        int again = opts->steady->strobe > 0 && points > 0 && strtoul(line, NULL, 10) == due - opts->shards;
+        line[n - 1] = '\0';
+        number++;
+        st = strlen(line) + 1 != (size_t)n || (!again && due >= all) ? SS_EDATA
+            : check_row(sweep, again ? due - opts->shards : due, line, value);
+        if (st != SS_OK) {
+            st = st == SS_ENOMEM ? ss_fail_memory(err, NULL)
+                : ss_fail(err, SS_EDATA, "%s:%zu: not the row of this sweep's point %zu, which is due", name,
+                          number, due);
+        } else if (!again) {
+            *rows = points++;
+            *end = at;
+        }
     }
+    free(value);
+    free(line);
     if (st == SS_OK && !leaves_last) {
         *rows = points;
         *end = at;
@@ -316,31 +257,26 @@ ss_sweep_resume(const ss_sweep_text *given, FILE *in, const char *name, size_t *
                 ss_error *err)
 {
     char *header = NULL;
-    size_t got = 0;
     own_text own;
-    const ss_sweep_text *sweep = &own.text;
     if (in == NULL || name == NULL || rows == NULL || end == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = take(&own, given, err);
     if (st == SS_OK)
-        st = make_header(&header, sweep, err);
-    if (st != SS_OK)
-        return st;
-    size_t length = strlen(header);
-    char *start = malloc(length + 1);
+        st = make_header(&header, &own.text, err);
+    size_t at = 0, lines = 0;
     *rows = 0;
     *end = 0;
-    if (start == NULL)
-        st = ss_fail_memory(err, NULL);
-    else if (!has_header(in, header, start, &got))
-        st = ss_fail(err, SS_EDATA, "%s: another sweep than this: its header differs", name);
-    else if (got == length) {
-        *end = (long)length;
-        st = count_rows(sweep, in, name, count_lines(header), rows, end, err);
+    for (int c; st == SS_OK && header[at] != '\0' && (c = getc(in)) != EOF; at++) {
+        lines += c == '\n';
+        if (c != (unsigned char)header[at])
+            st = ss_fail(err, SS_EDATA, "%s: another sweep than this: its header differs", name);
+    }
+    if (st == SS_OK && header[at] == '\0') {
+        *end = (long)at;
+        st = count_rows(&own.text, in, name, lines, rows, end, err);
     }
     if (st == SS_OK && ferror(in))
         st = ss_fail_errno(err, name, errno);
-    free(start);
     free(header);
     return st;
 }
