@@ -173,6 +173,13 @@ headers_and_samples_refuse_null(void **state)
     assert_int_equal(ss_reader_piece(NULL), 1);
     assert_refused(ss_writer_end(NULL, 0, NULL), NULL);
     assert_refused(ss_reader_resample(NULL, 1, &e), &e);
+    assert_refused(ss_reader_filter(NULL, NULL, &e), &e);
+    assert_refused(ss_signal_filter(NULL, NULL, NULL, &e), &e);
+    assert_refused(ss_signal_filter(&signal, NULL, NULL, &e), &e);
+    ss_filter_opts filter;
+    ss_filter_opts_init(&filter, sizeof filter);
+    filter.size = 1;
+    assert_refused(ss_signal_filter(&signal, NULL, &filter, &e), &e);
     assert_refused(ss_reader_keep(NULL, NULL, &e), &e);
     assert_refused(ss_reader_rewind(NULL, &e), &e);
     assert_refused(ss_signal_resample(NULL, NULL, 1, NULL), NULL);

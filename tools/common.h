@@ -136,6 +136,9 @@ void tool_write_end(ss_writer *writer, size_t samples);
 /* All of this for a signal in memory. */
 void tool_write(const ss_signal *signal, const char *path, tool_kind kind);
 
+/* Copy the columns that are wanted, or all, of a reader of the file `from`, which is freed, as they come. */
+void tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const char *to, tool_kind kind);
+
 /* Call before work for tool_draw with the path after -o: dies if a script would go to a terminal unasked. */
 void tool_script_to(const char *path);
 /* Write a script to the output that -o names, a .gp or standard output, or the picture that

@@ -112,6 +112,32 @@ tool_write_end(ss_writer *writer, size_t samples)
     ss_writer_free(writer);
 }
 
+void
+tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const char *to, tool_kind kind)
+{
+    const ss_header *head = ss_reader_header(reader);
+    ss_header *chosen;
+    size_t n = wanted->n > 0 ? wanted->n : head->n_columns, rows = 0, got;
+    size_t piece = ss_reader_piece(reader);
+    size_t *column = tool_room(NULL, n, sizeof *column);
+    double **all = tool_columns(head->n_columns, piece), **some = tool_room(NULL, n + 1, sizeof *some);
+    for (size_t i = 0; i < n; i++) {
+        column[i] = wanted->n > 0 ? tool_column(head, from, wanted->text[i]) : i;
+        some[i] = all[column[i]];
+    }
+    tool_check(ss_header_select(&chosen, head, column, n, 0, NULL), NULL);
+    got = tool_rows(reader, all, piece);        /* if this fails, nothing is written */
+    ss_writer *out = tool_writer(to, kind, &(ss_contents){ .signal = chosen });
+    for (; got > 0; rows += got, got = tool_rows(reader, all, piece))
+        tool_write_rows(out, some, got);
+    tool_write_end(out, rows);
+    ss_header_free(chosen);
+    ss_reader_free(reader);
+    free(column);
+    free(all);
+    free(some);
+}
+
 /* --- gnuplot ------------------------------------------------------------------------------- */
 
 /* The last line that gnuplot has written is the reason; the lines above it quote the script. */

@@ -38,42 +38,6 @@ say_header(const ss_header *head)
               head->n_columns);
 }
 
-/* The indices of the columns asked for. */
-static size_t *
-choose_columns(const ss_header *head, size_t *n)
-{
-    *n = wanted.n > 0 ? wanted.n : head->n_columns;
-    size_t *column = tool_room(NULL, *n, sizeof *column);
-    for (size_t i = 0; i < *n; i++)
-        column[i] = wanted.n > 0 ? tool_column(head, path, wanted.text[i]) : i;
-    return column;
-}
-
-/* Copy rows as they come, in constant memory. */
-static void
-copy_rows(tool_kind kind, const ss_read_opts *opts)
-{
-    ss_reader *reader = tool_read_rows(path, opts);
-    const ss_header *head = ss_reader_header(reader);
-    ss_header *chosen;
-    size_t n, got, all = 0, *column = choose_columns(head, &n), piece = ss_reader_piece(reader);
-    double **from = tool_columns(head->n_columns, piece), **to = tool_room(NULL, n + 1, sizeof *to);
-    for (size_t i = 0; i < n; i++)
-        to[i] = from[column[i]];
-    say_header(head);
-    tool_check(ss_header_select(&chosen, head, column, n, 0, NULL), NULL);
-    got = tool_rows(reader, from, piece);       /* if this fails, nothing is written */
-    ss_writer *out = tool_writer(output, kind, &(ss_contents){ .signal = chosen });
-    for (; got > 0; all += got, got = tool_rows(reader, from, piece))
-        tool_write_rows(out, to, got);
-    tool_write_end(out, all);
-    ss_header_free(chosen);
-    ss_reader_free(reader);
-    free(column);
-    free(from);
-    free(to);
-}
-
 int
 main(int argc, char *argv[])
 {
@@ -88,7 +52,9 @@ main(int argc, char *argv[])
     tool_reading_needs(&reading, wanted.text, wanted.n);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     reading.opts.progress = (ss_progress){ tool_progress, output != NULL ? &reading : NULL };
-    copy_rows(kind, &reading.opts);
+    ss_reader *reader = tool_read_rows(path, &reading.opts);
+    say_header(ss_reader_header(reader));
+    tool_copy(reader, path, &wanted, output, kind);
     tool_reading_free(&reading);
     free(wanted.text);
     tool_end();

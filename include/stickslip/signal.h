@@ -210,6 +210,33 @@ int ss_format_has_words(ss_format format);
  * hold. */
 ss_status ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_error *err);
 
+/* --- filtering ----------------------------------------------------------------------------- */
+
+typedef struct ss_filter_opts {
+    size_t size;                /* set by ss_filter_opts_init */
+    double low_pass, high_pass; /* [Hz] edges, at which half of the amplitude passes; 0: there is none */
+    int order;                  /* -2 ... 4: > 0: of the derivative, < 0: of the integral, 0: neither */
+    double stop;                /* [dB] <= 160, what the stop bands are below the pass band at least */
+} ss_filter_opts;
+/* No edges, order 0, 80 dB. */
+void ss_filter_opts_init(ss_filter_opts *opts, size_t size);
+
+/* Make a reader that is at its first row give its rows filtered, differentiated or integrated, all columns alike, by an
+ * FIR filter of linear phase that shifts nothing in time, in memory and with a delay in proportion to its length.
+ *
+ * A low-pass passes up to 0.8 and stops from 1.2 times its edge on, a high-pass the other way round; the transition of
+ * an edge above 0.42 times the rate ends at half the rate.  What passes is true to 1e-3 dB; of a derivative or an
+ * integral this holds relative to its exact value at each frequency, up to 0.45 times the rate if there is no low-pass.
+ * Rows at both ends that the filter cannot know are not given: 6.5 periods of the lowest edge with 80 dB.  An integral
+ * without a high-pass is a sum that begins with 0 and drifts with the mean.  Units change with the order, and the note
+ * filter, "flat LO to HI Hz, stop DB dB ...", says what passed; gaps become wider by the reach of the filter.
+ *
+ * SS_EINVAL: an edge is not below half the rate, no frequency passes, or the filter has more than 2^24 taps.  Reading
+ * fails with SS_EDATA where there are fewer rows than taps, and with SS_ERANGE if a value is not finite. */
+ss_status ss_reader_filter(ss_reader *reader, const ss_filter_opts *opts, ss_error *err);
+/* The same with a whole signal. */
+ss_status ss_signal_filter(ss_signal **out, const ss_signal *signal, const ss_filter_opts *opts, ss_error *err);
+
 /* --- making and changing ------------------------------------------------------------------- */
 
 typedef enum ss_wave {

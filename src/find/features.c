@@ -14,6 +14,7 @@
 #include "find/events.h"
 #include "find/search.h"
 #include "map/map.h"
+#include "signal/filter.h"
 #include "signal/gaps.h"
 
 static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement = -1, .force = -1,
@@ -113,7 +114,16 @@ find(search *s, double *x, size_t column, ss_error *err)
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin       /* the lowest usable frequency */
         : CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n) * (1 + 1e-9);
     opts.progress = (ss_progress){ report_transform, s };
+    ss_range flat = { 0, s->rate };             /* what a filter has changed is no contact */
+    ss_header_flat(s->signal->head, &flat);
+    opts.fmin = fmax(opts.fmin, flat.from);
     ss_status st = ss_map_plan(&s->map, s->signal, column, &opts, err);
+    if (st == SS_OK && s->map->scale[s->map->n_scales - 1].f > flat.to) {
+        ss_coefficients_free(s->map);
+        s->map = NULL;
+        opts.fmax = flat.to;
+        st = ss_map_plan(&s->map, s->signal, column, &opts, err);
+    }
     if (st != SS_OK)
         return st;
 

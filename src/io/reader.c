@@ -9,6 +9,7 @@
 #include <stickslip/store.h>
 #include "base/error.h"
 #include "base/options.h"
+#include "signal/filter.h"
 #include "signal/header.h"
 #include "signal/resample.h"
 
@@ -203,6 +204,12 @@ ss_reader_resample(ss_reader *reader, double rate, ss_error *err)
                        s->name, rate / s->head->rate, rate, MOST);
     ss_status st = ss_refuse_range(s->name, rate, s->head->start, err);
     return st == SS_OK ? ss_source_resample(&reader->source, rate, 0, INFINITY, err) : st;
+}
+
+ss_status
+ss_reader_filter(ss_reader *reader, const ss_filter_opts *opts, ss_error *err)
+{
+    return reader != NULL ? ss_source_filter(&reader->source, opts, err) : SS_FAIL_NULL(err);
 }
 
 /* --- whole signals ------------------------------------------------------------------------- */

@@ -92,7 +92,7 @@ for file in "$SRC"/src/io/*.c src/io/fish.c; do
 done
 # shellcheck disable=SC2086  # a list
 parts=$(printf "$BUILD/tools/%s.o " $TOOL_PARTS)
-for tool in cat features morlet plot noise rank trade sim signal sweep; do
+for tool in cat features morlet plot noise filter rank trade sim signal sweep; do
     # shellcheck disable=SC2086
     $CCLD -o "bin/ss-$tool" "$BUILD/tools/ss-$tool.o" $parts ./*.o "$BUILD/libstickslip.a" $LIBS
 done

@@ -3,6 +3,7 @@ ss-signal sine > /dev/full || echo $?
 ss-signal sine --format au > /dev/full || echo $?
 ss-signal sine | ss-cat > /dev/full || echo $?
 ss-signal sine | ss-noise --rms 1 > /dev/full || echo $?
+ss-signal sine | ss-filter --low-pass 20 > /dev/full || echo $?
 ss-signal sine | ss-noise --snr 1 > /dev/full || echo $?
 ss-signal --help > /dev/full || echo $?
 ss-cat --version > /dev/full || echo $?
