@@ -6,8 +6,8 @@
 
 static const char usage[] =
 "usage: ss-filter [options] [FILE]\n"
-"Filter a signal, differentiate or integrate it, without a shift in time.  Rows at\n"
-"both ends that the filter cannot know are left out.\n"
+"Filter a signal, differentiate or integrate it, without a shift in time.  Rows\n"
+"at both ends that the filter cannot know are left out.\n"
 "      --low-pass=HZ    pass frequencies below this edge\n"
 "      --high-pass=HZ   pass frequencies above this edge\n"
 "      --derivative=N   the N-th derivative in time, 1 to 4\n"
