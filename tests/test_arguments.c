@@ -375,6 +375,18 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_ranking_new(NULL, signal, 0, &scene, 1, NULL, &e), &e);
     assert_refused(ss_ranking_new(&ranking, NULL, 0, &scene, 1, NULL, &e), &e);
     assert_refused(ss_ranking_new(&ranking, signal, 0, NULL, 1, NULL, &e), &e);
+    ss_motion_ranking *law;
+    ss_motion_opts motion;
+    assert_refused(ss_motion_ranking_new(NULL, signal, 0, 0, NULL, &e), &e);
+    assert_refused(ss_motion_ranking_new(&law, NULL, 0, 0, NULL, &e), &e);
+    assert_int_equal(ss_motion_ranking_new(&law, signal, 0, 9, NULL, &e), SS_EINVAL);
+    ss_motion_opts_init(&motion, sizeof motion);
+    motion.delay = -1;
+    assert_int_equal(ss_motion_ranking_new(&law, signal, 0, 0, &motion, &e), SS_EINVAL);
+    motion.size = 0;
+    assert_int_equal(ss_motion_ranking_new(&law, signal, 0, 0, &motion, &e), SS_EINVAL);
+    assert_refused(ss_motion_ranking_write(NULL, stdout, SS_TSV, &e), &e);
+    assert_refused(ss_motion_ranking_write(&(ss_motion_ranking){ .n = 0 }, NULL, SS_TSV, &e), &e);
     assert_refused(ss_scene_fit(NULL, signal, 0, &scene, NULL, &e), &e);
     assert_refused(ss_scene_fit(&fit, NULL, 0, &scene, NULL, &e), &e);
     assert_refused(ss_scene_fit(&fit, signal, 0, NULL, NULL, &e), &e);
@@ -808,6 +820,7 @@ nothing_is_freed_without_complaint(void **state)
     ss_writer_free(NULL);
     ss_features_free(NULL);
     ss_ranking_free(NULL);
+    ss_motion_ranking_free(NULL);
 }
 
 static void

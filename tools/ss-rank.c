@@ -25,8 +25,19 @@ static const char usage[] =
 "                        signal does, from SCENE's mass, stiffness and release\n"
 "                        rule (default compliant-light); or of a pulled SCENE\n"
 "                        the one whose slips are those of the spring's force\n"
+"Which law the force in --column follows, driven by the motion beside it:\n"
+"  -m, --motion=NAME|N   the column of a displacement, an angle or a velocity; by\n"
+"                        its unit or name, or by --as=x|v\n"
+"      --extra=sin,cos   with the sine and the cosine of an angle beside each law\n"
+"      --delay=ROWS      the most that the force is late or early (default 1)\n"
+"      --folds=HOW       halves or interleaved: rows that judge a law (default:\n"
+"                        halves if they visit the same range)\n"
+"      --residual=FILE   write what is left, row by row, as .tsv, .csv, .au or .h5\n"
+"      --fit             write the scene of the law that is named; needs --set of\n"
+"                        mass and stiffness\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE     .tsv or .csv, with --fit any name; --format=tsv|csv\n"
+"  -o, --output=FILE     .tsv or .csv, with --fit any name; --format=tsv|csv; with\n"
+"                        --motion also a picture: .gp, .png, .svg, .pdf, .eps\n"
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
 
@@ -40,6 +51,8 @@ typedef struct job {
     tool_kind kind;
     tool_reading reading;
     ss_rank_opts opts;
+    const char *motion, *extra, *residual;
+    ss_motion_opts motion_opts;
 } job;
 
 /* The name of the signal in outputs, one line that does not depend on the file's directory; to be freed. */
@@ -346,6 +359,112 @@ fit(const job *j, const ss_signal *signal, size_t column)
     (ss_scene_is_pulled(&start) ? fit_pull : fit_contact)(j, signal, column, &start);
 }
 
+/* --- a motion and a force ------------------------------------------------------------------- */
+
+/* Say what the motion is. */
+static void
+set_motion(job *j, const ss_column *motion)
+{
+    static const struct { const char *unit; double radians; int is_velocity; } angles[] = {
+        { "rad", 1, 0 }, { "deg", 0.017453292519943295, 0 }, { "rad/s", 0, 1 }, { "deg/s", 0, 1 } };
+    ss_motion_opts *opts = &j->motion_opts;
+    int of = j->as, is_angle = 0;
+    for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
+        if (strcmp(motion->unit, angles[i].unit) == 0) {
+            opts->angle = angles[i].radians;
+            of = of >= 0 ? of : angles[i].is_velocity ? SS_VELOCITY : SS_DISPLACEMENT;
+            is_angle = 1;
+        }
+    if (of < 0 && (of = quantity_of_unit(motion->unit)) < 0 && (of = quantity_of_name(motion->name)) < 0)
+        of = quantity_of_ending(motion->name);
+    if (of != SS_DISPLACEMENT && of != SS_VELOCITY)
+        tool_die("column %s: neither its unit nor its name says whether it is a displacement or a velocity; "
+                 "--as=x or --as=v does", motion->name);
+    opts->is_velocity = of == SS_VELOCITY;
+    if (j->extra != NULL && !(is_angle && opts->angle > 0))
+        tool_usage("--extra=sin,cos needs an angle, in rad or deg, and column %s is none", motion->name);
+    if (j->extra == NULL)
+        opts->angle = 0;
+}
+
+/* Write the motion, the force, what the first law predicts, and what it leaves. */
+static void
+write_residual(const job *j, const ss_signal *signal, size_t motion, size_t force, const ss_motion_ranking *r)
+{
+    const size_t column[] = { signal->head->n_columns - 1, motion, force, force, force };
+    static const char *const name[] = { "predicted", "left" };
+    ss_signal *out = NULL;
+    ss_error err = { 0 };
+    ss_header *head = NULL;
+    tool_check(ss_header_select(&head, signal->head, column, 3, 0, &err), &err);
+    for (size_t i = 0; i < 2; i++)
+        tool_check(ss_header_add_column(head, name[i], signal->head->column[force].unit, &err), &err);
+    tool_check(ss_signal_new(&out, head, signal->n, &err), &err);
+    for (size_t i = 0; i < signal->n; i++) {
+        for (size_t k = 0; k < 3; k++)
+            out->values[k * out->n + i] = signal->values[column[k] * signal->n + i];
+        out->values[3 * out->n + i] = r->predicted[i];
+        out->values[4 * out->n + i] = out->values[2 * out->n + i] - r->predicted[i];
+    }
+    tool_write(out, j->residual, tool_output_kind(j->residual, TOOL_SIGNALS, TOOL_TSV));
+    ss_header_free(head);
+    ss_signal_free(out);
+}
+
+static void
+write_law(const job *j, const ss_motion_ranking *r)
+{
+    ss_scene scene = r->scene;
+    ss_error err = { 0 };
+    if (r->verdict != SS_NAMED)
+        tool_die("%s: %s", tool_input_name(j->signal_path), r->answer);
+    if (scene.model == NULL)
+        tool_die("%s: the units of motion and force make no scene: --unit says which they are",
+                 tool_input_name(j->signal_path));
+    for (size_t i = 0; i < j->settings.n; i++) {
+        char key[64];
+        const char *equals = strchr(j->settings.text[i], '=');
+        if (equals == NULL)
+            tool_usage("--set: '%s' is not KEY=VALUE", j->settings.text[i]);
+        snprintf(key, sizeof key, "%.*s", (int)(equals - j->settings.text[i]), j->settings.text[i]);
+        if (ss_scene_set_text(&scene, key, equals + 1, &err) != SS_OK)
+            tool_usage("--set: %s", err.text);
+    }
+    if (!(scene.mass > 0 && scene.stiffness > 0))
+        tool_usage("--fit needs --set=mass=KG and --set=stiffness=N/m of the rig in which the law is to move");
+    tool_check(ss_scene_check(&scene, &err), &err);
+    FILE *out = tool_output(j->output);
+    fprintf(out, "# %s, by %s.\n", r->answer, j->signal_name);
+    tool_check(ss_scene_write(&scene, out, &err), &err);
+}
+
+static void
+rank_motion(job *j)
+{
+    ss_motion_ranking *r = NULL;
+    ss_error err = { 0 };
+    ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
+    const size_t motion = tool_column(signal->head, j->signal_path, j->motion);
+    const size_t force = tool_column(signal->head, j->signal_path, j->column_name);
+    if (motion == force)
+        tool_usage("--motion and --column are the same column");
+    set_motion(j, &signal->head->column[motion]);
+    j->signal_name = signal_name(j->signal_path);
+    j->motion_opts.time = signal->values + (signal->head->n_columns - 1) * signal->n;
+    j->motion_opts.progress = (ss_progress){ tool_progress, j };
+    tool_check(ss_motion_ranking_new(&r, signal, motion, force, &j->motion_opts, &err), &err);
+    if (j->fits)
+        write_law(j, r);
+    else
+        tool_check(ss_motion_ranking_write(r, tool_output(j->output), tool_stream(j->kind), &err), &err);
+    if (j->residual != NULL && r->predicted == NULL)
+        tool_die("%s: %s, so nothing is left", tool_input_name(j->signal_path), r->answer);
+    if (j->residual != NULL)
+        write_residual(j, signal, motion, force, r);
+    ss_motion_ranking_free(r);
+    ss_signal_free(signal);
+}
+
 /* Set the signal and the scenes that are named.  Without any, the scenes are those of the paper, or, for a
  * fit, the one from which it starts. */
 static void
@@ -363,19 +482,48 @@ set_files(job *j, int n, char *file[])
     }
 }
 
+/* What goes with --motion. */
+static void
+check_motion(job *j, int files)
+{
+    if (j->column_name == NULL)
+        tool_usage("--motion needs --column, the force");
+    if (files > 1)
+        tool_usage("--motion takes no scene");
+    if (j->extra != NULL && strcmp(j->extra, "sin,cos") != 0 && strcmp(j->extra, "cos,sin") != 0)
+        tool_usage("--extra: '%s' is not sin,cos", j->extra);
+    if (j->as >= 0 && j->as != SS_DISPLACEMENT && j->as != SS_VELOCITY)
+        tool_usage("--as: with --motion it is x or v");
+    if (!j->fits && j->settings.n > 0)
+        tool_usage("--set goes with --fit where there is no scene");
+    if (tool_given("spread") || tool_given("forcing") || j->all)
+        tool_usage("--spread, --forcing and --long are for scenes");
+    j->reading.opts.stamps = 1;
+}
+
 static void
 parse(job *j, int argc, char *argv[])
 {
     const ss_range percents = { 0, 99 }, frequencies = { 1e-9, 1e12 };
+    const ss_range delays = { 0, 100 };
+    static const char *const folds[] = { "by-range", "halves", "interleaved", NULL };
     double percent = 100 * j->opts.spread;
     const tool_option options[] = {
+        TOOL_TEXT('m', "motion", &j->motion), TOOL_TEXT(0, "extra", &j->extra),
+        TOOL_TEXT(0, "residual", &j->residual), TOOL_NUMBER(0, "delay", &j->motion_opts.delay, delays),
+        TOOL_CHOICE(0, "folds", &j->motion_opts.folds, folds),
         TOOL_TEXT('c', "column", &j->column_name), TOOL_CHOICE('a', "as", &j->as, ss_quantity_names),
         TOOL_TEXTS('s', "set", &j->settings), TOOL_NUMBER('p', "spread", &percent, percents),
         TOOL_NUMBER('F', "forcing", &j->opts.forcing_frequency, frequencies),
-        TOOL_FLAG(0, "fit", &j->fits), TOOL_FLAG('l', "long", &j->all), TOOL_OUTPUT(&j->output), TOOL_FORMAT_OF_WORDS(&j->kind) };
+        TOOL_FLAG(0, "fit", &j->fits), TOOL_FLAG('l', "long", &j->all), TOOL_OUTPUT(&j->output),
+        TOOL_FORMAT_OF_WORDS(&j->kind) };
     int first = TOOL_PARSE(argc, argv, options, &j->reading);
     j->opts.spread = percent / 100;
     tool_reading_end(&j->reading, j->column_name);
+    if (j->motion != NULL)
+        check_motion(j, argc - first);
+    else if (j->extra != NULL || j->residual != NULL || tool_given("delay") || tool_given("folds"))
+        tool_usage("--extra, --residual, --delay and --folds need --motion");
     if (j->fits && argc - first > 2)
         tool_usage("--fit takes one scene");
     if (j->fits)
@@ -385,6 +533,26 @@ parse(job *j, int argc, char *argv[])
     set_files(j, argc - first, argv + first);
 }
 
+/* Rank or fit scenes by one column. */
+static void
+rank_signal(job *j)
+{
+    ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
+    size_t column = tool_column(signal->head, j->signal_path, j->column_name);
+    j->signal_name = signal_name(j->signal_path);
+    j->opts.quantity = quantity_of(&signal->head->column[column], j->as, &j->known_by);
+    tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j->signal_path),
+              signal->n, signal->head->column[column].name, ss_quantity_names[j->opts.quantity],
+              j->known_by);
+    find_others(j->opts.also, signal->head, column);
+    j->opts.progress = (ss_progress){ tool_progress, j };
+    if (j->fits)
+        fit(j, signal, column);
+    else
+        rank(j, signal, column);
+    ss_signal_free(signal);
+}
+
 int
 main(int argc, char *argv[])
 {
@@ -392,22 +560,13 @@ main(int argc, char *argv[])
 
     tool_begin(argv, "ss-rank", usage);
     ss_rank_opts_init(&j.opts, sizeof j.opts);
+    ss_motion_opts_init(&j.motion_opts, sizeof j.motion_opts);
     parse(&j, argc, argv);
     j.reading.opts.progress = (ss_progress){ tool_reading_progress, &j };
-    ss_signal *signal = tool_read_signal(j.signal_path, &j.reading.opts);
-    size_t column = tool_column(signal->head, j.signal_path, j.column_name);
-    j.signal_name = signal_name(j.signal_path);
-    j.opts.quantity = quantity_of(&signal->head->column[column], j.as, &j.known_by);
-    tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j.signal_path),
-              signal->n, signal->head->column[column].name, ss_quantity_names[j.opts.quantity],
-              j.known_by);
-    find_others(j.opts.also, signal->head, column);
-    j.opts.progress = (ss_progress){ tool_progress, &j };
-    if (j.fits)
-        fit(&j, signal, column);
+    if (j.motion != NULL)
+        rank_motion(&j);
     else
-        rank(&j, signal, column);
-    ss_signal_free(signal);
+        rank_signal(&j);
     tool_reading_free(&j.reading);
     free(j.settings.text);
     free(j.signal_name);

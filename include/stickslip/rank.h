@@ -62,7 +62,8 @@ typedef enum ss_verdict {
     SS_UNDECIDED,               /* `why` gives the reason */
     SS_NAMED,                   /* the first row's scene explains the signal: its residual is noise,
                                    and no scene of another model has as small a residual */
-    SS_NONE_FITS                /* each scene leaves more than the noise; `why` says how much */
+    SS_NONE_FITS,               /* each scene leaves more than the noise; `why` says how much */
+    SS_NOT_JUDGED               /* of a motion: it cannot show a law; the answer says why */
 } ss_verdict;
 
 typedef struct ss_ranking {
@@ -177,6 +178,70 @@ typedef struct ss_pull {
 ss_status ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scene *start,
                       const ss_rank_opts *opts, ss_error *err);
 void ss_pull_free(ss_pull *pull);               /* NULL is allowed */
+
+/* --- the law of a contact whose motion and force were measured ------------------------------- */
+
+/* Where the rows lie that a law is not fitted to, but judged by.  By default the second half, and then the first;
+ * or every other piece of some cycles, if the halves visit other ranges of the motion. */
+typedef enum ss_folds { SS_FOLDS_BY_RANGE, SS_FOLDS_HALVES, SS_FOLDS_INTERLEAVED } ss_folds;
+
+typedef struct ss_motion_opts {
+    size_t size;                /* set by ss_motion_opts_init */
+    const double *time;         /* [s] of each row, ascending; NULL: the signal's clock */
+    int is_velocity;            /* 1: the motion is a velocity, else a displacement or an angle */
+    double angle;               /* radians in a unit of an angle, whose sine and cosine then stand beside each
+                                   law; 0: they do not */
+    double delay;               /* rows: the force may be so much earlier or later than the motion, >= 0 */
+    ss_folds folds;
+    const char *const *without; /* names of laws that are left out, behind the last NULL; NULL: none */
+    ss_progress progress;
+} ss_motion_opts;
+void ss_motion_opts_init(ss_motion_opts *opts, size_t size);    /* a displacement, delay 1, all laws */
+
+typedef struct ss_motion_row {
+    const char *law;
+    double explained;           /* the share of the force's power about its mean that it explains where it was not
+                                   fitted, */
+    double explained_error;
+    double gain;                /* and of what the null leaves */
+    double residual;            /* mean square that it leaves where it was fitted, over that of the noise */
+    double repeat;              /* correlation of what it leaves with the same place of other cycles */
+    int tied;                   /* 1: no law is better by more than errors */
+} ss_motion_row;
+
+/* A number of the law that is named. */
+typedef struct ss_motion_number {
+    const char *name;           /* the key of a scene; or offset, tilt, inertia, sine, cosine, delay */
+    ss_value value;             /* in the recording's units; of the second direction in name_negative */
+    char unit[64];              /* "" if the recording has none */
+} ss_motion_number;
+enum { SS_MOTION_NUMBERS = 16 };
+
+typedef struct ss_motion_ranking {
+    ss_verdict verdict;
+    char answer[256];           /* "compliant-gap explains ..."; what cannot be told, or judged, and why */
+    char confounded[256];       /* what the recording cannot separate; "": nothing found */
+    int sign;                   /* -1: the force acts on what moves, against the motion; else 1 */
+    int interleaved;            /* 1: the folds are pieces */
+    size_t clipped;             /* rows whose force is at the end of its range, and was left out */
+    size_t n;
+    ss_motion_row row[SS_MOTION_NUMBERS];       /* the named law first, else the one that explains most */
+    ss_scene scene;             /* of the named law, without mass and stiffness; no model: none is named, or its
+                                   units are not known; of a bouc-wen with two sides the first */
+    size_t n_numbers;
+    ss_motion_number number[SS_MOTION_NUMBERS];
+    size_t rows;
+    double *predicted;          /* of each row, by the first law */
+} ss_motion_ranking;
+
+/* Rank friction laws by how well each, driven by the measured motion, predicts the force; the columns' values must
+ * be finite.  stickslip-rank(7) describes how.  Every answer is SS_OK.  The caller frees *out with
+ * ss_motion_ranking_free.  SS_EINVAL: an option is out of its range, or the times do not ascend. */
+ss_status ss_motion_ranking_new(ss_motion_ranking **out, const ss_signal *signal, size_t motion, size_t force,
+                                const ss_motion_opts *opts, ss_error *err);
+void ss_motion_ranking_free(ss_motion_ranking *ranking);        /* NULL is allowed */
+/* Write its text, as ss-rank(1) describes. */
+ss_status ss_motion_ranking_write(const ss_motion_ranking *ranking, FILE *out, ss_format format, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

@@ -142,6 +142,48 @@ memory(const state *m, double *unit)
     return m->q[2];
 }
 
+/* z after a motion, in units of f_k / K, on one side of y = 0: Dahl's exponential, or midpoint steps. */
+static double
+follow(const ss_scene *s, double z, double moved)
+{
+    enum { MOST = 12 };             /* steps: a longer motion has forgotten z */
+    const int way = sign(moved);
+    double slope;
+    if (s->own[EXPONENT] == 1 && s->own[FRACTION] == 1)
+        return way + (z - way) * exp(-fabs(moved));
+    const int steps = (int)fmin(ceil(fabs(moved) / 0.2), MOST);
+    const double h = moved / fmax(steps, 1);
+    for (int i = 0; i < steps; i++) {
+        double middle = z + h / 2 * yield(s, sign(z), way, z, &slope);
+        z = fmax(-1, fmin(z + h * yield(s, sign(middle), way, middle, &slope), 1));
+    }
+    return z;
+}
+
+static void
+drive(const ss_scene *s, double *memory, const piece *p, double part[])
+{
+    const double unit = s->friction / s->own[STIFFNESS], b = s->own[GAP];
+    const int way = sign(p->dx);
+    double y = *memory, z = z_of(s, fabs(y) > b ? sign(y) : 0, y), rest = p->dx;
+    if (z * way < 0) {              /* it comes back, perhaps into the gap */
+        double next = follow(s, z, rest / unit), share = next * z > 0 ? 1 : z / (z - next);
+        y = share < 1 ? -way * b : y;
+        z = share < 1 ? 0 : next;
+        rest *= 1 - share;
+    }
+    if (z == 0) {
+        double through = fmin(fabs(rest), b - way * y);
+        y += way * through;
+        rest -= way * through;
+    }
+    if (rest != 0)
+        z = follow(s, z, rest / unit);
+    *memory = z != 0 ? sign(z) * b + z * unit : y;
+    part[0] = s->friction * fmax(z, 0);
+    part[1] = s->friction * fmin(z, 0);
+}
+
 MODEL(bouc_wen) = {
     .name = "bouc-wen",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
@@ -151,5 +193,6 @@ MODEL(bouc_wen) = {
     .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,
     .limit = ss_to_coulomb, .dim = 3, .kinks = 1, .force_varies = IN_STICK | IN_SLIP,
     .start = start, .fastest = fastest, .rates = rates, .jacobian = jacobian, .guard = guard, .next = next,
-    .sample = sample, .memory = memory, .variation = &ss_kink_variation
+    .sample = sample, .memory = memory, .variation = &ss_kink_variation,
+    .drive = drive
 };

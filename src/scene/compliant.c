@@ -257,6 +257,16 @@ move(state *m, const double d[D_MOST])
 
 static const struct variation variation = { free_differences, cross, move };
 
+/* The two directions of the motion have a part each. */
+static void
+drive(const ss_scene *s, double *memory, const piece *p, double part[])
+{
+    const double limit = s->friction / s->own[STIFFNESS];
+    *memory = fmax(-limit, fmin(*memory + p->dx, limit));
+    part[0] = s->own[STIFFNESS] * fmax(*memory, 0);
+    part[1] = s->own[STIFFNESS] * fmin(*memory, 0);
+}
+
 MODEL(compliant) = {
     .name = "compliant",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
@@ -271,5 +281,6 @@ MODEL(compliant) = {
     .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives, .series = ss_linear_series,
     .guard = guard,
     .next = next, .sample = sample,
-    .memory = memory, .in_transition = in_microstick, .variation = &variation
+    .memory = memory, .in_transition = in_microstick, .variation = &variation,
+    .drive = drive
 };

@@ -4,6 +4,13 @@
 
 static const scene_key keys[] = { KEY_STATIC_FRICTION };
 
+static void
+drive(const ss_scene *s, double *memory, const piece *p, double part[])
+{
+    part[0] = s->friction * direction_of(memory, p);
+    part[1] = 0;
+}
+
 MODEL(coulomb) = {
     .name = "coulomb",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
@@ -13,7 +20,7 @@ MODEL(coulomb) = {
     .series = ss_linear_series,
     .guard = ss_linear_slip_guard, .still = ss_stick_still, .next = ss_stick_next,
     .sample = ss_stick_sample,
-    .variation = &ss_stick_variation
+    .variation = &ss_stick_variation, .drive = drive
 };
 
 void

@@ -130,6 +130,19 @@ memory(const state *m, double *unit)
     return m->q[2];
 }
 
+/* g is that at the end of the piece, at which z has the exponential of Dahl's law. */
+static void
+drive(const ss_scene *s, double *memory, const piece *p, double part[])
+{
+    double w = p->v / s->own[SPEED], g = s->friction + (static_friction(s) - s->friction) * exp(-w * w);
+    double end = g / s->own[STIFFNESS] * sign(p->dx), z = end + (*memory - end) * exp(-fabs(p->dx / end));
+    if (p->dx == 0)
+        z = *memory;
+    part[0] = s->own[STIFFNESS] * z;
+    part[1] = p->h > 0 ? s->own[DAMPING] * (z - *memory) / p->h : 0;
+    *memory = z;
+}
+
 MODEL(lugre) = {
     .name = "lugre",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
@@ -141,5 +154,6 @@ MODEL(lugre) = {
     .limit = ss_to_coulomb, .dim = 3, .kinks = 1, .force_varies = IN_STICK | IN_SLIP,
     .start = ss_kink_start, .fastest = fastest, .sight = sight,
     .rates = rates, .jacobian = jacobian, .guard = ss_linear_slip_guard, .next = ss_kink_next,
-    .sample = sample, .memory = memory, .variation = &ss_kink_variation
+    .sample = sample, .memory = memory, .variation = &ss_kink_variation,
+    .drive = drive
 };

@@ -93,6 +93,14 @@ typedef struct vanishing {
     size_t offset;                  /* in ss_scene */
 } vanishing;
 
+/* A piece of a motion that is given, over which the speed is constant. */
+typedef struct piece {
+    double dx, h;                   /* [m], [s] */
+    double v;                       /* the speed at its end, which may be known better [m/s] */
+    double slow;                    /* a speed less than this is noise [m/s] */
+} piece;
+enum { DRIVEN_PARTS = 2 };
+
 struct ss_model {
     const char *name;               /* in scenes */
     const scene_key *keys;          /* keys that not every scene has (keys.c has the others) */
@@ -168,6 +176,10 @@ struct ss_model {
     int (*in_transition)(const state *m, double v);
     /* NULL if the model cannot follow neighbouring states. */
     const struct variation *variation;
+    /* Follow a piece of a motion that is given.  The contact's memory is 0 at the start.  The parts become forces
+     * that add up to f at the end of the piece: of a contact with a gap those on its two sides, else f as it would
+     * be at high speed and what is added to it.  NULL if such a motion does not determine f. */
+    void (*drive)(const ss_scene *scene, double *memory, const piece *p, double part[DRIVEN_PARTS]);
 };
 
 void ss_to_coulomb(ss_scene *scene);                 /* coulomb.c: the limit of most models */
@@ -213,6 +225,15 @@ static inline int
 sign(double x)
 {
     return (x > 0) - (x < 0);
+}
+
+/* The direction of the last motion that is more than noise, which is the memory of dry friction. */
+static inline double
+direction_of(double *memory, const piece *p)
+{
+    if (fabs(p->v) > p->slow)
+        *memory = sign(p->v);
+    return *memory;
 }
 
 /* --- the base: its force on the spring is k (Z_e cos(Omega t + phase) + (U - S) u) ----------

@@ -118,6 +118,14 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
         s->f = friction_at(m, q[1]);
 }
 
+static void
+drive(const ss_scene *s, double *memory, const piece *p, double part[])
+{
+    const double way = direction_of(memory, p);
+    part[0] = way * s->friction;
+    part[1] = way * (static_friction(s) - s->friction) * part_at(s, p->v);
+}
+
 MODEL(stribeck) = {
     .name = "stribeck",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
@@ -127,5 +135,6 @@ MODEL(stribeck) = {
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight,
     .rates = rates, .jacobian = jacobian, .series = series, .slope = slope, .guard = ss_linear_slip_guard,
-    .still = ss_stick_still, .next = ss_stick_next, .sample = sample, .variation = &ss_stick_variation
+    .still = ss_stick_still, .next = ss_stick_next, .sample = sample, .variation = &ss_stick_variation,
+    .drive = drive
 };

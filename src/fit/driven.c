@@ -1,0 +1,250 @@
+/* driven.c -- the record of a motion and a force, as friction laws need it.
+ *
+ * * The motion is smoothed by a cubic in a window about each row, which gives the speed and the acceleration too,
+ * for stamps of any spacing.  The window is the one that predicts best the rows that it leaves out.  The force is
+ * never smoothed: what is left of it must stay what was measured. */
+#include "fit/driven.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/sort.h"
+
+enum { TERMS = 4, WIDEST = 64 };    /* of the cubic; half the widest window, in rows */
+#define UNKNOWN_MEMORY 0.03         /* the part of the time in which the memory of a law is not known yet */
+
+/* The cubic about row i by the rows at most m away: its value and derivatives there, and how much of the row
+ * itself its value is. */
+static double
+smooth(const double *t, const double *x, size_t n, size_t i, size_t m, double out[3])
+{
+    const size_t first = i > m ? i - m : 0, end = i + m + 1 < n ? i + m + 1 : n;
+    const double unit = fmax(t[end - 1] - t[i], t[i] - t[first]);
+    double a[TERMS * TERMS] = { 0 }, b[TERMS] = { 0 }, own[TERMS] = { 1 };
+    for (size_t k = first; k < end; k++) {
+        double s = (t[k] - t[i]) / unit, power[TERMS] = { 1, s, s * s, s * s * s };
+        for (int p = 0; p < TERMS; p++) {
+            b[p] += power[p] * (x[k] - x[i]);
+            for (int q = 0; q <= p; q++)
+                a[p * TERMS + q] += power[p] * power[q];
+        }
+    }
+    gsl_matrix_view A = gsl_matrix_view_array(a, TERMS, TERMS);
+    gsl_vector_view B = gsl_vector_view_array(b, TERMS), O = gsl_vector_view_array(own, TERMS);
+    gsl_linalg_cholesky_decomp1(&A.matrix);
+    gsl_linalg_cholesky_svx(&A.matrix, &B.vector);
+    gsl_linalg_cholesky_svx(&A.matrix, &O.vector);
+    out[0] = x[i] + b[0];
+    out[1] = b[1] / unit;
+    out[2] = 2 * b[2] / (unit * unit);
+    return own[0];
+}
+
+/* The half width of the best window; *error becomes the rms difference of a row from what the others predict. */
+static size_t
+find_window(const double *t, const double *x, size_t n, double *error)
+{
+    enum { TRIED = 2000 };          /* rows */
+    size_t best = 0;
+    *error = INFINITY;
+    for (size_t m = TERMS - 1; m <= WIDEST && (best == 0 || BLOCKS * m < n); m += 1 + m / 4) {
+        double sum = 0, count = 0, out[3];
+        for (size_t i = m; i + m < n; i += 1 + n / TRIED, count++) {
+            double left = (1 - smooth(t, x, n, i, m, out));
+            sum += (x[i] - out[0]) / left * ((x[i] - out[0]) / left);
+        }
+        if (best == 0 || sqrt(sum / count) < *error) {
+            *error = sqrt(sum / count);
+            best = m;
+        }
+    }
+    return best;
+}
+
+static double
+mean(const double *x, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i];
+    return sum / (double)n;
+}
+
+static double
+rms(const double *x, size_t n, double about)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += (x[i] - about) * (x[i] - about);
+    return sqrt(sum / (double)n);
+}
+
+static ss_status
+make_room(driven *d, size_t n)
+{
+    d->n = n;
+    d->room = calloc(5 * n, sizeof *d->room);
+    d->used = calloc(n, 1);
+    d->row = calloc(n, sizeof *d->row);
+    d->t = d->room;
+    d->x = d->t + n;
+    d->v = d->x + n;
+    d->a = d->v + n;
+    d->f = d->a + n;
+    return d->room != NULL && d->used != NULL && d->row != NULL ? SS_OK : SS_ENOMEM;
+}
+
+void
+ss_driven_free(driven *d)
+{
+    free(d->room);
+    free(d->used);
+    free(d->row);
+}
+
+/* Leave out rows at an end of the force's range if more of them stand there than chance puts on one value: ten
+ * times as many as on the values next to it. */
+static ss_status
+leave_out_clipped(driven *d)
+{
+    enum { NEXT = 4 };
+    double *sorted = malloc(d->n * sizeof *sorted);
+    if (sorted == NULL)
+        return SS_ENOMEM;
+    memcpy(sorted, d->f, d->n * sizeof *sorted);
+    qsort(sorted, d->n, sizeof *sorted, ss_ascending);
+    for (int end = 0; end < 2; end++) {
+        const double at = end ? sorted[d->n - 1] : sorted[0];
+        size_t count = 0, others = 0, values = 0;
+        double last = at;
+        for (size_t k = 0; k < d->n && values < NEXT; k++) {
+            double f = sorted[end ? d->n - 1 - k : k];
+            values += f != last;
+            last = f;
+            count += f == at;
+            others += f != at;
+        }
+        if (values == NEXT && count > 10 * (others / NEXT + 1))
+            for (size_t i = 0; i < d->n; i++)
+                if (d->f[i] == at) {
+                    d->used[i] = 0;
+                    d->clipped++;
+                }
+    }
+    free(sorted);
+    return SS_OK;
+}
+
+ss_status
+ss_driven_new(driven *d, const double t[], const double motion[], const double force[], size_t n,
+              const ss_motion_opts *opts)
+{
+    double error, work = 0;
+    *d = (driven){ .angle = opts->angle, .most_delay = opts->delay };
+    ss_status st = make_room(d, n);
+    if (st != SS_OK)
+        return st;
+    const size_t window = find_window(t, motion, n, &error);
+    for (size_t i = 0; i < n; i++) {
+        double out[3];
+        smooth(t, motion, n, i, window, out);
+        d->t[i] = t[i] - t[0];
+        d->f[i] = force[i];
+        d->row[i] = i;
+        d->used[i] = d->t[i] >= UNKNOWN_MEMORY * (t[n - 1] - t[0]);
+        d->x[i] = out[0];
+        d->v[i] = out[1];
+        d->a[i] = out[2];
+        if (opts->is_velocity) {
+            d->a[i] = out[1];
+            d->v[i] = out[0];
+            d->x[i] = i == 0 ? 0 : d->x[i - 1] + (t[i] - t[i - 1]) * (d->v[i] + d->v[i - 1]) / 2;
+        }
+    }
+    if ((st = leave_out_clipped(d)) != SS_OK)
+        return st;
+    const double about = mean(force, n);
+    d->middle = mean(d->x, n);
+    d->length = rms(d->x, n, d->middle);
+    d->speed = rms(d->v, n, 0);
+    d->force = rms(force, n, about);
+    d->step = (t[n - 1] - t[0]) / (double)(n - 1);
+    /* of a cubic, whose slope has 75/8 times the variance of a value over the cube of the half width */
+    d->slow = 3 * error * (opts->is_velocity ? 1 : sqrt(75. / 8 / pow((double)window, 3)) / d->step);
+    d->least = 3 * (opts->is_velocity ? error * d->step : error);
+    for (size_t i = 0; i < n; i++)
+        work += (force[i] - about) * d->v[i];
+    d->sign = work < 0 ? -1 : 1;            /* friction takes work from what moves */
+    if (!(d->length > 0 && d->speed > 0 && d->force > 0))
+        return SS_OK;
+    /* where it turns so fast that the direction of one row is not known */
+    for (size_t i = 1; i + 1 < n; i++)
+        if (fabs(d->v[i]) < d->slow && (fabs(d->v[i - 1]) > d->slow || fabs(d->v[i + 1]) > d->slow))
+            d->used[i] = 0;
+    const double time = d->length / d->speed;
+    for (size_t i = 0; i < n; i++) {
+        d->f[i] *= d->sign / d->force;
+        d->x[i] = (d->x[i] - d->middle) / d->length;
+        d->v[i] /= d->speed;
+        d->a[i] *= time / d->speed;
+        d->t[i] /= time;
+    }
+    d->step /= time;
+    d->least /= d->length;
+    d->slow /= d->speed;
+    return SS_OK;
+}
+
+size_t
+ss_driven_turns(const driven *d, double least, char is_turn[])
+{
+    size_t farthest = 0, turns = 0;
+    double way = 0;
+    memset(is_turn, 0, d->n);
+    for (size_t i = 0; i < d->n; i++) {
+        double back = d->x[farthest] - d->x[i];
+        if (way == 0 && fabs(back) <= least)
+            continue;
+        if (way == 0)
+            way = back < 0 ? 1 : -1;
+        if (way * back <= 0)
+            farthest = i;
+        else if (way * back > least) {
+            is_turn[farthest] = 1;
+            turns++;
+            farthest = i;
+            way = -way;
+        }
+    }
+    return turns;
+}
+
+ss_status
+ss_driven_thin(driven *thin, const driven *d, size_t most)
+{
+    const size_t stride = (d->n + most - 1) / most;
+    char *is_turn = malloc(d->n);
+    *thin = *d;
+    ss_status st = make_room(thin, d->n);
+    if (st != SS_OK || is_turn == NULL) {
+        free(is_turn);
+        return SS_ENOMEM;
+    }
+    ss_driven_turns(d, d->least, is_turn);
+    thin->n = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        if (i % stride != 0 && !is_turn[i])
+            continue;
+        const size_t k = thin->n++;
+        thin->t[k] = d->t[i];
+        thin->x[k] = d->x[i];
+        thin->v[k] = d->v[i];
+        thin->a[k] = d->a[i];
+        thin->f[k] = d->f[i];
+        thin->used[k] = d->used[i];
+        thin->row[k] = i;
+    }
+    free(is_turn);
+    return SS_OK;
+}

@@ -1,0 +1,79 @@
+/* driven.h -- friction laws driven by a measured motion: what each makes of the force. */
+#ifndef DRIVEN_H
+#define DRIVEN_H
+
+#include <stddef.h>
+#include <stickslip/rank.h>
+#include "scene/model.h"
+
+/* The unknowns on which the force does not depend linearly.  Lengths are in units of the rms motion, speeds in
+ * units of the rms speed, DELAY in rows; all but BETA and DELAY are logarithms. */
+enum { LENGTH, OTHER_LENGTH, GAP, EXPONENT, BETA, RISE, SPEED, SHAPE, DELAY, UNKNOWNS };
+/* The columns of the force, which is linear in them.  The law's parts and the viscous part are not negative. */
+enum { PART, VISCOUS = PART + DRIVEN_PARTS, OFFSET, TILT, INERTIA, SINE, COSINE, COLUMNS };
+enum { BLOCKS = 24, LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
+
+/* A law that a motion may drive: a model, the unknowns that it frees, and the numbers that they make. */
+enum { LAW_NUMBERS = 8 };
+typedef struct driven_law {
+    const char *name, *model;       /* model NULL: no law */
+    unsigned free;                  /* a bit for each unknown that is free */
+    double held[UNKNOWNS];          /* the others, as a larger law has them that this one is a limit of */
+    size_t parts;                   /* forces whose amplitudes are its own; 1: the sum of the model's parts */
+    struct { const char *name, *unit; } number[LAW_NUMBERS];    /* keys of scenes */
+    void (*numbers)(double number[], const double u[], const double c[]);   /* c: amplitudes of its parts */
+    unsigned contains;              /* a bit for each row that is a limit of this one */
+} driven_law;
+/* laws.c: the rows, from the simplest; the first is the null.  NULL after the last. */
+const driven_law *ss_driven_law(size_t i);
+/* Set the law's model and those of its numbers that are keys of it. */
+void ss_driven_scene(ss_scene *scene, const driven_law *law, const double number[]);
+
+/* A motion and a force; in units of the rms motion, of its rms speed, and of the rms force about its mean. */
+typedef struct driven {
+    size_t n;
+    double *t, *x, *v, *a, *f;      /* the motion smoothed; f with its sign in the equation of motion */
+    char *used;                     /* 0: the force of this row is left out */
+    size_t *row;                    /* of the record that was thinned */
+    double least, slow;             /* a motion and a speed less than these are noise */
+    double step;                    /* mean time between rows, before they were thinned */
+    double length, speed, force, middle;    /* the units, and the mean of x, in those of the recording */
+    int sign;                       /* of f in the recording */
+    size_t clipped;
+    double angle;                   /* radians in the recording's unit of motion; 0: it is no angle */
+    double most_delay;              /* rows */
+    double *room;
+} driven;
+
+/* driven.c: the record of n rows.  SS_ENOMEM. */
+ss_status ss_driven_new(driven *d, const double t[], const double motion[], const double force[], size_t n,
+                        const ss_motion_opts *opts);
+/* Keep about so many rows, evenly, and those at which the motion turns. */
+ss_status ss_driven_thin(driven *thin, const driven *d, size_t most);
+void ss_driven_free(driven *d);
+/* Mark the rows at which the motion turns by more than so much.  Returns their number. */
+size_t ss_driven_turns(const driven *d, double least, char is_turn[]);
+
+typedef struct driven_fit {
+    double u[UNKNOWNS], c[COLUMNS];
+    double loss;                    /* mean square of what it leaves of the rows fitted */
+} driven_fit;
+
+/* What a law makes of a record. */
+typedef struct driven_result {
+    const driven_law *law;
+    driven_fit fit[FOLDS + 1];      /* each without the rows of a fold, and of all */
+    double loss;                    /* mean square left of each row by the fit without its fold */
+    double block[BLOCKS];           /* the parts of this of blocks of time */
+    double *left;                   /* by the fit of all, of each row */
+    double covariance[UNKNOWNS + COLUMNS][UNKNOWNS + COLUMNS];      /* of the fit of all */
+} driven_result;
+
+/* driven_fit.c: fit a law to a record, given the results of the n simpler ones.  fold: 0 or 1 for each row.
+ * coarse: the same record with fewer rows.  left is to be freed.  SS_ENOMEM. */
+ss_status ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const char fold[],
+                        const driven *coarse, const driven_result others[], size_t n);
+/* What a fit makes of each row. */
+ss_status ss_driven_predict(double out[], const driven_law *law, const driven *d, const driven_fit *fit);
+
+#endif

@@ -1,0 +1,451 @@
+/* driven_fit.c -- fit a friction law, driven by a measured motion, to the force.
+ *
+ * * The force is linear in the amplitudes of the law's parts and in what stands beside the law: an offset, a tilt,
+ * inertia, a viscous part.  Linear least squares finds these for each value of the other unknowns (variable
+ * projection), so that a search moves at most six.  It begins at points all over their ranges, of rows that were
+ * thinned, and at the fits of the laws that the law contains.
+ *
+ * * What a fit leaves is no white noise.  So errors come from the scatter of the slopes of the squares between
+ * blocks of time (the sandwich), and from the difference of the fits of the two folds. */
+#include "fit/driven.h"
+
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_qrng.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/least.h"
+
+#define RIDGE 1e-7                  /* of the columns' squares: columns that look alike share an amplitude */
+#define NUDGE 1e-3                  /* of an unknown, for slopes: less than errors, more than kinks */
+enum { KEPT = 3 };                  /* starts that are improved */
+
+/* Where a fit may go, and where its starts lie. */
+static const ss_range ranges[UNKNOWNS] = {
+    [LENGTH] = { -6.9, 1.1 }, [OTHER_LENGTH] = { -2, 2 }, [GAP] = { -6.9, 1.1 }, [EXPONENT] = { -0.69, 3 },
+    [BETA] = { 0.5, 1 }, [RISE] = { 0, 1.6 }, [SPEED] = { -6, 1.5 }, [SHAPE] = { -0.69, 1.4 } };
+static const ss_range starts[UNKNOWNS] = {
+    [LENGTH] = { -5, 1 }, [OTHER_LENGTH] = { -0.7, 0.7 }, [GAP] = { -4, 0.7 }, [EXPONENT] = { -0.5, 2 },
+    [BETA] = { 0.5, 1 }, [RISE] = { 0.1, 1.2 }, [SPEED] = { -4, 0.7 }, [SHAPE] = { -0.5, 1.1 } };
+
+typedef struct problem {
+    const driven_law *law;
+    const driven *d;
+    const char *fold;               /* of each row */
+    int without;                    /* the fold that is not fitted */
+    double *column[COLUMNS];        /* of each row; NULL: the law has no such column */
+    double *room;
+    size_t free[UNKNOWNS], n_free;
+    const double *given;            /* the unknowns where the fit starts */
+    driven_fit now;                 /* evaluated last */
+} problem;
+
+static ss_status
+problem_new(problem *p, const driven_law *law, const driven *d, const char *fold)
+{
+    *p = (problem){ .law = law, .d = d, .fold = fold, .without = ALL };
+    p->room = malloc(COLUMNS * d->n * sizeof *p->room);
+    if (p->room == NULL)
+        return SS_ENOMEM;
+    for (int k = 0; k < COLUMNS; k++)
+        if (k < (int)law->parts || (k >= VISCOUS && (k < SINE || d->angle != 0)))
+            p->column[k] = p->room + (size_t)k * d->n;
+    for (size_t k = 0; k < UNKNOWNS; k++)
+        if (law->free >> k & 1 || (k == DELAY && d->most_delay > 0))
+            p->free[p->n_free++] = k;
+    return SS_OK;
+}
+
+static int
+is_fitted(const problem *p, size_t i)
+{
+    return p->d->used[i] && p->fold[i] != p->without;
+}
+
+/* --- the columns --------------------------------------------------------------------------- */
+
+/* Let a column be late by a time, by its slopes between rows. */
+static void
+delay(const driven *d, double *c, double late)
+{
+    if (late > 0)
+        for (size_t i = d->n - 1; i > 0; i--)
+            c[i] -= late * (c[i] - c[i - 1]) / (d->t[i] - d->t[i - 1]);
+    else
+        for (size_t i = 0; i + 1 < d->n; i++)
+            c[i] -= late * (c[i + 1] - c[i]) / (d->t[i + 1] - d->t[i]);
+}
+
+static void
+fill_columns(problem *p, const double u[UNKNOWNS])
+{
+    static const double ones[DRIVEN_PARTS] = { 1, 1 };
+    const driven *d = p->d;
+    double memory = 0, part[DRIVEN_PARTS] = { 0 };
+    ss_scene scene = ss_scene_defaults;
+    double number[LAW_NUMBERS];
+    if (p->law->parts > 0) {
+        p->law->numbers(number, u, ones);
+        ss_driven_scene(&scene, p->law, number);
+    }
+    for (size_t i = 0; p->law->parts > 0 && i < d->n; i++) {
+        const piece q = { i > 0 ? d->x[i] - d->x[i - 1] : 0, i > 0 ? d->t[i] - d->t[i - 1] : 0, d->v[i], d->slow };
+        scene.model->drive(&scene, &memory, &q, part);
+        p->column[PART][i] = p->law->parts > 1 ? part[0] : part[0] + part[1];
+        if (p->law->parts > 1)
+            p->column[PART + 1][i] = part[1];
+    }
+    memcpy(p->column[VISCOUS], d->v, d->n * sizeof *d->v);
+    memcpy(p->column[TILT], d->x, d->n * sizeof *d->x);
+    memcpy(p->column[INERTIA], d->a, d->n * sizeof *d->a);
+    for (size_t i = 0; i < d->n; i++) {
+        double angle = (d->middle + d->x[i] * d->length) * d->angle;
+        p->column[OFFSET][i] = 1;
+        if (p->column[SINE] != NULL) {
+            p->column[SINE][i] = sin(angle);
+            p->column[COSINE][i] = cos(angle);
+        }
+    }
+    for (int k = 0; k < COLUMNS; k++)
+        if (p->column[k] != NULL && k != OFFSET && u[DELAY] != 0)
+            delay(d, p->column[k], u[DELAY] * d->step);
+}
+
+/* --- the amplitudes ------------------------------------------------------------------------ */
+
+/* Solve the normal equations g c = b of m columns, scaled. */
+static void
+solve(double g[COLUMNS][COLUMNS], const double b[], const int of[], size_t m, double c[])
+{
+    double a[COLUMNS * COLUMNS], size[COLUMNS];
+    for (size_t k = 0; k < m; k++) {
+        size[k] = g[of[k]][of[k]] > 0 ? sqrt(g[of[k]][of[k]]) : 1;
+        c[k] = b[of[k]] / size[k];
+        for (size_t l = 0; l <= k; l++)
+            a[k * m + l] = g[of[k]][of[l]] / (size[k] * size[l]) + (k == l ? RIDGE : 0);
+    }
+    gsl_matrix_view A = gsl_matrix_view_array(a, m, m);
+    gsl_vector_view C = gsl_vector_view_array(c, m);
+    gsl_linalg_cholesky_decomp1(&A.matrix);
+    gsl_linalg_cholesky_svx(&A.matrix, &C.vector);
+    for (size_t k = 0; k < m; k++)
+        c[k] /= size[k];
+}
+
+/* Find the amplitudes of the columns: one that would be negative, and may not, is 0. */
+static void
+find_amplitudes(problem *p)
+{
+    const driven *d = p->d;
+    double g[COLUMNS][COLUMNS] = { { 0 } }, b[COLUMNS] = { 0 }, c[COLUMNS];
+    int of[COLUMNS], worst = 0;
+    size_t m = 0;
+    for (int k = 0; k < COLUMNS; k++)
+        if (p->column[k] != NULL)
+            of[m++] = k;
+    for (size_t k = 0; k < m; k++)
+        for (size_t l = 0; l <= k; l++) {
+            const double *x = p->column[of[k]], *y = p->column[of[l]];
+            double sum = 0, with = 0;
+            for (size_t i = 0; i < d->n; i++)
+                if (is_fitted(p, i)) {
+                    sum += x[i] * y[i];
+                    with += x[i] * d->f[i];
+                }
+            g[of[k]][of[l]] = g[of[l]][of[k]] = sum;
+            b[of[k]] = with;
+        }
+    while (worst >= 0) {
+        solve(g, b, of, m, c);
+        worst = -1;
+        for (size_t k = 0; k < m; k++)
+            if (of[k] <= VISCOUS && c[k] < 0 && (worst < 0 || c[k] * b[of[k]] < c[worst] * b[of[worst]]))
+                worst = (int)k;
+        for (size_t k = (size_t)worst; worst >= 0 && k + 1 < m; k++)
+            of[k] = of[k + 1];
+        m -= worst >= 0;
+    }
+    memset(p->now.c, 0, sizeof p->now.c);
+    for (size_t k = 0; k < m; k++)
+        p->now.c[of[k]] = c[k];
+}
+
+static double
+left_of(const problem *p, const double c[], size_t i)
+{
+    double left = p->d->f[i];
+    for (int k = 0; k < COLUMNS; k++)
+        if (p->column[k] != NULL)
+            left -= c[k] * p->column[k][i];
+    return left;
+}
+
+/* Set p->now for these unknowns, whose columns are filled in; residual, of the rows fitted, may be NULL. */
+static void
+evaluate(problem *p, const double u[UNKNOWNS], double *residual)
+{
+    double sum = 0;
+    size_t n = 0;
+    find_amplitudes(p);
+    memcpy(p->now.u, u, sizeof p->now.u);
+    for (size_t i = 0; i < p->d->n; i++)
+        if (is_fitted(p, i)) {
+            double left = left_of(p, p->now.c, i);
+            sum += left * left;
+            if (residual != NULL)
+                residual[n] = left;
+            n++;
+        }
+    p->now.loss = sum / (double)n;
+}
+
+/* --- the search ---------------------------------------------------------------------------- */
+
+/* For ss_least_fit. */
+static ss_status
+residuals(const double *u, double *residual, double *slopes, void *user)
+{
+    problem *p = user;
+    double all[UNKNOWNS];
+    (void)slopes;
+    memcpy(all, p->given, sizeof all);
+    for (size_t k = 0; k < p->n_free; k++)
+        all[p->free[k]] = u[k];
+    fill_columns(p, all);
+    evaluate(p, all, residual);
+    return SS_OK;
+}
+
+static ss_range
+range_of(const problem *p, size_t unknown)
+{
+    return unknown == DELAY ? (ss_range){ -p->d->most_delay, p->d->most_delay } : ranges[unknown];
+}
+
+/* Improve a fit; the columns are then its own. */
+static ss_status
+improve(problem *p, driven_fit *fit)
+{
+    ss_range range[UNKNOWNS];
+    double u[UNKNOWNS], difference[UNKNOWNS], *residual = malloc(p->d->n * sizeof *residual);
+    least_end end;
+    least how = { .unknowns = p->n_free, .model = residuals, .user = p, .range = range, .difference = difference,
+                  .farthest = 1, .steps = 10, .tol = NUDGE, .gain = NUDGE };
+    if (residual == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < p->d->n; i++)
+        how.rows += (size_t)is_fitted(p, i);
+    for (size_t k = 0; k < p->n_free; k++) {
+        range[k] = range_of(p, p->free[k]);
+        u[k] = fmax(range[k].from, fmin(fit->u[p->free[k]], range[k].to));
+        difference[k] = u[k] > (range[k].from + range[k].to) / 2 ? -NUDGE : NUDGE;
+    }
+    const driven_fit start = *fit;
+    p->given = start.u;
+    ss_status st = p->n_free > 0 ? ss_least_fit(&end, &how, u, NULL, NULL) : SS_OK;
+    if (st == SS_OK)
+        st = residuals(u, residual, NULL, p);
+    *fit = p->now;
+    free(residual);
+    return st;
+}
+
+/* Keep p->now if it is among the best. */
+static void
+keep(driven_fit best[KEPT], driven_fit now)
+{
+    for (size_t k = 0; k < KEPT; k++)
+        if (now.loss < best[k].loss) {
+            driven_fit other = best[k];
+            best[k] = now;
+            now = other;
+        }
+}
+
+/* Find starts for the fits without either fold and of all rows. */
+static void
+search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[], size_t n)
+{
+    static const size_t points[] = { 1, 24, 40, 60 };
+    const size_t dim = p->n_free - (p->d->most_delay > 0);
+    gsl_qrng *all_over = dim > 0 ? gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)dim) : NULL;
+    for (size_t i = 0; i < (dim < 4 ? points[dim] : points[3]); i++) {
+        double u[UNKNOWNS], at[UNKNOWNS];
+        memcpy(u, p->law->held, sizeof u);
+        if (all_over != NULL)
+            gsl_qrng_get(all_over, at);
+        for (size_t k = 0; k < dim && all_over != NULL; k++)
+            u[p->free[k]] = starts[p->free[k]].from + at[k] * (starts[p->free[k]].to - starts[p->free[k]].from);
+        fill_columns(p, u);
+        for (p->without = 0; p->without <= ALL; p->without++) {
+            evaluate(p, u, NULL);
+            keep(best[p->without], p->now);
+        }
+    }
+    for (size_t i = 0; i < n; i++)
+        for (p->without = 0; p->without <= ALL; p->without++) {
+            if (others[i].law->parts == 0 || !(p->law->contains >> (others[i].law - ss_driven_law(0)) & 1))
+                continue;
+            double u[UNKNOWNS];
+            memcpy(u, p->law->held, sizeof u);
+            for (size_t k = 0; k < p->n_free; k++)
+                u[p->free[k]] = others[i].fit[p->without].u[p->free[k]];
+            fill_columns(p, u);
+            evaluate(p, u, NULL);
+            keep(best[p->without], p->now);
+        }
+    if (all_over != NULL)
+        gsl_qrng_free(all_over);
+}
+
+/* --- errors -------------------------------------------------------------------------------- */
+
+/* Find the covariance of the unknowns and the amplitudes of the fit of all rows, whose columns are filled in.
+ * slopes: room for a row of them for each row. */
+static void
+find_covariance(problem *p, driven_result *r, double *slopes)
+{
+    const driven *d = p->d;
+    const driven_fit *fit = &r->fit[ALL];
+    size_t of[UNKNOWNS + COLUMNS], m = 0;
+    double h[(UNKNOWNS + COLUMNS) * (UNKNOWNS + COLUMNS)] = { 0 }, size[UNKNOWNS + COLUMNS];
+    double score[BLOCKS + 1][UNKNOWNS + COLUMNS] = { { 0 } };
+    for (size_t k = 0; k < COLUMNS; k++)
+        if (fit->c[k] != 0) {
+            for (size_t i = 0; i < d->n; i++)
+                slopes[i * (UNKNOWNS + COLUMNS) + m] = p->column[k][i];
+            of[m++] = UNKNOWNS + k;
+        }
+    for (size_t j = 0; j < p->n_free; j++) {
+        const size_t k = p->free[j];
+        const ss_range range = range_of(p, k);
+        double u[UNKNOWNS];
+        memcpy(u, fit->u, sizeof u);
+        if (u[k] <= range.from || u[k] >= range.to)
+            continue;               /* it is held there */
+        double nudge = u[k] + NUDGE < range.to ? NUDGE : -NUDGE;
+        u[k] += nudge;
+        fill_columns(p, u);
+        for (size_t i = 0; i < d->n; i++)
+            slopes[i * (UNKNOWNS + COLUMNS) + m] = (r->left[i] - left_of(p, fit->c, i)) / nudge;
+        of[m++] = k;
+    }
+    for (size_t i = 0; i < d->n; i++) {
+        const double *s = slopes + i * (UNKNOWNS + COLUMNS);
+        for (size_t k = 0; k < m && d->used[i]; k++) {
+            score[i * BLOCKS / d->n][k] += s[k] * r->left[i];
+            for (size_t l = 0; l <= k; l++)
+                h[k * m + l] += s[k] * s[l];
+        }
+    }
+    for (size_t k = 0; k < m; k++)
+        size[k] = sqrt(h[k * (m + 1)]);
+    for (size_t k = 0; k < m; k++)
+        for (size_t l = 0; l <= k; l++)
+            h[k * m + l] = size[k] > 0 && size[l] > 0
+                ? h[k * m + l] / (size[k] * size[l]) + (k == l ? RIDGE : 0) : k == l;
+    gsl_matrix_view H = gsl_matrix_view_array(h, m, m);
+    gsl_linalg_cholesky_decomp1(&H.matrix);
+    for (size_t b = 0; b < BLOCKS; b++) {
+        for (size_t k = 0; k < m; k++)
+            score[b][k] /= size[k] > 0 ? size[k] : 1;
+        gsl_vector_view S = gsl_vector_view_array(score[b], m);
+        gsl_linalg_cholesky_svx(&H.matrix, &S.vector);
+        for (size_t k = 0; k < m; k++)
+            score[b][k] *= sqrt((double)BLOCKS / (double)(BLOCKS - m)) / (size[k] > 0 ? size[k] : 1);
+    }
+    for (size_t k = 0; k < m; k++)
+        score[BLOCKS][k] = of[k] < UNKNOWNS ? (r->fit[0].u[of[k]] - r->fit[1].u[of[k]]) / 2
+            : (r->fit[0].c[of[k] - UNKNOWNS] - r->fit[1].c[of[k] - UNKNOWNS]) / 2;
+    for (size_t b = 0; b <= BLOCKS; b++)
+        for (size_t k = 0; k < m; k++)
+            for (size_t l = 0; l < m; l++)
+                r->covariance[of[k]][of[l]] += score[b][k] * score[b][l];
+}
+
+/* --- the fit ------------------------------------------------------------------------------- */
+
+/* The fold of each row of a record with fewer rows. */
+static void
+copy_folds(char *to, const driven *coarse, const char *fold, const driven *d)
+{
+    for (size_t i = 0, k = 0; i < coarse->n; i++) {
+        while (k + 1 < d->n && d->row[k] < coarse->row[i])
+            k++;
+        to[i] = fold[k];
+    }
+}
+
+/* Fit without a fold, from the best of the starts, and add up what it leaves of that fold. */
+static ss_status
+fit_fold(driven_result *r, problem *p, problem *rough, driven_fit start[KEPT], double rows)
+{
+    const driven *d = p->d;
+    ss_status st = SS_OK;
+    driven_fit *fit = &r->fit[p->without];
+    *fit = start[0];
+    for (size_t k = 0; k < KEPT && st == SS_OK && isfinite(start[k].loss); k++) {
+        st = improve(rough, &start[k]);
+        if (start[k].loss < fit->loss || k == 0)
+            *fit = start[k];
+    }
+    if (st == SS_OK)
+        st = improve(p, fit);
+    for (size_t i = 0; i < d->n && st == SS_OK; i++) {
+        r->left[i] = left_of(p, fit->c, i);
+        if (d->used[i] && p->fold[i] == p->without) {
+            r->loss += r->left[i] * r->left[i] / rows;
+            r->block[i * BLOCKS / d->n] += r->left[i] * r->left[i] / rows;
+        }
+    }
+    return st;
+}
+
+ss_status
+ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const char fold[], const driven *coarse,
+              const driven_result others[], size_t n)
+{
+    problem p = { 0 }, rough = { 0 };
+    driven_fit start[FOLDS + 1][KEPT];
+    double rows = 0, *slopes = malloc(d->n * (UNKNOWNS + COLUMNS) * sizeof *slopes);
+    char *rough_fold = calloc(coarse->n, 1);
+    *out = (driven_result){ .law = law, .left = malloc(d->n * sizeof *out->left) };
+    ss_status st = slopes != NULL && rough_fold != NULL && out->left != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK)
+        st = problem_new(&p, law, d, fold);
+    if (st == SS_OK)
+        st = problem_new(&rough, law, coarse, rough_fold);
+    if (st == SS_OK) {
+        for (size_t i = 0; i < d->n; i++)
+            rows += d->used[i];
+        for (size_t k = 0; k < (FOLDS + 1) * KEPT; k++)
+            start[k / KEPT][k % KEPT].loss = INFINITY;
+        copy_folds(rough_fold, coarse, fold, d);
+        search(&rough, start, others, n);
+    }
+    for (int k = 0; k <= ALL && st == SS_OK; k++) {
+        p.without = rough.without = k;
+        st = fit_fold(out, &p, &rough, start[k], rows);
+    }
+    if (st == SS_OK)
+        find_covariance(&p, out, slopes);
+    free(p.room);
+    free(rough.room);
+    free(rough_fold);
+    free(slopes);
+    return st;
+}
+
+ss_status
+ss_driven_predict(double out[], const driven_law *law, const driven *d, const driven_fit *fit)
+{
+    problem p;
+    ss_status st = problem_new(&p, law, d, NULL);
+    if (st != SS_OK)
+        return st;
+    fill_columns(&p, fit->u);
+    for (size_t i = 0; i < d->n; i++)
+        out[i] = d->f[i] - left_of(&p, fit->c, i);
+    free(p.room);
+    return SS_OK;
+}

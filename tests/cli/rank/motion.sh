@@ -1,0 +1,34 @@
+# A contact is named from its motion and force, whatever the form, the sign, the units and the stamps.
+ss-sim -c t,x,v,f -s contact_damping=0 -s settle=0 -s duration=4 -s rate=1000 compliant-light | ss-noise --snr 60 > all.tsv
+law() {
+    ss-rank "$@" > rows && sed -n -e '/^# answer/s/ explains.*//p' rows
+    awk '$2 == "friction:" { print "friction", (($3 / 1.28 - 1)^2 < 0.01 && $4 > 0), $5 }
+         $2 == "contact_stiffness:" { print $2, (($3 / 209900 - 1)^2 < 0.01 && $4 > 0), $5 }' rows
+}
+law --motion x --column f all.tsv
+ss-cat -o all.au all.tsv
+law --motion v --column f all.au
+# rows that are not there, and a force on what moves
+awk '!/^#/ { if (NR % 7 != 3 && NR % 11 != 5) print $1 "," 1e3 * $2 "," (-$4) }' all.tsv |
+    { echo t_s,slip_mm,force_N; cat; } > uneven.csv
+ss-rank --motion slip_mm --column force_N uneven.csv | sed -n 's% explains.*%%; s%^# friction: 1.2[78].*%# friction: right%; 2p; /^# fri/p; /^# force/p'
+# what is left, and a scene that runs
+ss-rank --motion x --column f --residual left.csv all.tsv > /dev/null
+awk -F, 'NR == 1 { print } NR > 200 { s += $6 * $6; f += $4 * $4 } END { print s / f < 1e-4 }' left.csv
+ss-rank --motion x --column f --fit -s mass=2.42 -s stiffness=2310 -s x0=1e-3 all.tsv > law.scene
+sed -n '1s/ explains.*//p; /^model/p; /^mass/p' law.scene
+ss-sim law.scene | tail -n 1 | awk '{ print NF }'
+# an arm
+ss-signal sine --rate 500 --frequency 1 --duration 12 | awk '/^# col/ { print "# columns: t/s q/rad f/(N m)" } /^# / { if (!/col/) print }
+    !/^#/ { f = ($2 > p ? 1 : -1) * 2 + 3 * sin($2); p = $2; print $1 "\t" $2 "\t" f }' | ss-noise --snr 60 > arm.tsv
+ss-rank --motion q --column f --extra sin,cos arm.tsv | sed -n 's/ explains.*//p'
+# what tells nothing
+ss-signal chirp --rate 500 --frequency 0.01 --duration 5 | awk '/^# col/ { print "# columns: t/s x/m f/N" } /^# / { if (!/col/) print }
+    !/^#/ { print $1 "\t" $1 "\t" $2 }' > ramp.tsv
+ss-rank --motion x --column f ramp.tsv
+# wrong usage
+for wrong in "--motion x" "--motion x -c x" "--motion v -c f --extra sin,cos" "--motion x -c f --extra tan" \
+    "--motion x -c f --long" "--motion x -c f --fit" "--motion x -c f --as a" "--delay 2" "--motion x -c f -s mass=1"; do
+    # shellcheck disable=SC2086  # options
+    ss-rank $wrong all.tsv || echo $?
+done

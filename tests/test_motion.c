@@ -1,0 +1,356 @@
+/* test_motion.c -- which friction law a recording of motion and force follows: against ss-sim's own forces,
+ * against laws in closed form, and recordings that tell nothing. */
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip.h>
+#include "new_signal.h"
+#include "scene/model.h"
+#include "uniform.h"
+#include "unit.h"
+
+/* --- the law driven is the law simulated ---------------------------------------------------- */
+
+typedef struct place {
+    double t, x, f;             /* f: NaN at an event */
+} place;
+
+typedef struct places {
+    place *at;
+    size_t n, room;
+} places;
+
+static void
+add(places *p, place at)
+{
+    if (p->n == p->room)
+        p->at = realloc(p->at, (p->room = 2 * p->room + 1000) * sizeof *p->at);
+    assert_non_null(p->at);
+    p->at[p->n++] = at;
+}
+
+static int
+add_samples(const ss_sample *s, size_t n, void *user)
+{
+    for (size_t i = 0; i < n; i++)
+        add(user, (place){ s[i].t, s[i].x, s[i].f });
+    return 0;
+}
+
+static int
+add_event(const ss_event *e, void *user)
+{
+    add(user, (place){ e->t, e->x, NAN });
+    return 0;
+}
+
+static int
+by_time(const void *a, const void *b)
+{
+    const place *p = a, *q = b;
+    return (p->t > q->t) - (p->t < q->t);
+}
+
+/* An elastic contact, the motion of ss-sim, and its events inserted as samples.  f is f_k times a deflection whose
+ * pieces are added up: one rounding of x each. */
+static void
+drives_as_it_simulates(void **unused)
+{
+    static const char *const settings[] = { "contact_damping=0", "settle=0", "duration=4" };
+    (void)unused;
+    ss_scene scene;
+    places p = { 0 };
+    ss_sim_opts opts;
+    assert_int_equal(ss_scene_load(&scene, "compliant-light", settings, 3, NULL), SS_OK);
+    ss_sim_opts_init(&opts, sizeof opts);
+    opts.samples = add_samples;
+    opts.events = add_event;
+    opts.user = &p;
+    assert_int_equal(ss_sim_run(&scene, &opts, NULL, NULL), SS_OK);
+    qsort(p.at, p.n, sizeof *p.at, by_time);
+    double memory = 0, part[DRIVEN_PARTS], worst = 0;
+    size_t events = 0;
+    for (size_t i = 0; i < p.n; i++) {
+        const piece q = { i > 0 ? p.at[i].x - p.at[i - 1].x : 0, i > 0 ? p.at[i].t - p.at[i - 1].t : 0, 0, 0 };
+        scene.model->drive(&scene, &memory, &q, part);
+        events += isnan(p.at[i].f);
+        if (!isnan(p.at[i].f))
+            worst = fmax(worst, fabs(part[0] + part[1] - p.at[i].f));
+    }
+    print_message("%zu events, f within %.1e N\n", events, worst);
+    assert_true(events > 50 && worst <= 1e-9 * scene.friction);
+    free(p.at);
+}
+
+/* --- laws in closed form -------------------------------------------------------------------- */
+
+enum { ROWS = 3000 };
+
+typedef struct recording {
+    ss_signal *signal;
+    double *x, *v, *f;
+} recording;
+
+/* Ten cycles of a motion of 2 mm that is no sine, with columns x/mm and f/kN. */
+static recording
+record(void)
+{
+    ss_header *head = NULL;
+    recording r = { 0 };
+    assert_int_equal(ss_header_new(&head, ROWS / 10., 0, NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "x", "mm", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "v", "mm/s", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "f", "kN", NULL), SS_OK);
+    assert_int_equal(ss_signal_new(&r.signal, head, ROWS, NULL), SS_OK);
+    ss_header_free(head);
+    r.x = r.signal->values;
+    r.v = r.x + ROWS;
+    r.f = r.v + ROWS;
+    for (int i = 0; i < ROWS; i++) {
+        double w = 2 * M_PI, t = i / (ROWS / 10.);
+        r.x[i] = 2 * sin(w * t) + 0.4 * sin(1.7 * w * t);
+        r.v[i] = 2 * w * cos(w * t) + 0.4 * 1.7 * w * cos(1.7 * w * t);
+    }
+    return r;
+}
+
+static void
+add_noise(double *f, double size, uint64_t seed)
+{
+    for (int i = 0; i < ROWS; i++)
+        f[i] += size * sqrt(-2 * log(1 - uniform(&seed))) * cos(2 * M_PI * uniform(&seed));
+}
+
+static ss_motion_ranking *
+rank(const recording *r, size_t motion, const ss_motion_opts *opts)
+{
+    ss_motion_ranking *k = NULL;
+    ss_error err = { 0 };
+    if (ss_motion_ranking_new(&k, r->signal, motion, 2, opts, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    return k;
+}
+
+/* The number of this name is the truth within four of its errors, which are at most a tenth of it. */
+static void
+assert_number(const ss_motion_ranking *k, const char *name, double truth, const char *unit)
+{
+    for (size_t i = 0; i < k->n_numbers; i++)
+        if (strcmp(k->number[i].name, name) == 0) {
+            const ss_value v = k->number[i].value;
+            print_message("%s: %g +- %g, truth %g\n", name, v.value, v.error, truth);
+            assert_true(fabs(v.value - truth) <= 4 * v.error && v.error <= 0.1 * fabs(truth));
+            assert_string_equal(k->number[i].unit, unit);
+            return;
+        }
+    fail_msg("no %s", name);
+}
+
+static void
+assert_named(const ss_motion_ranking *k, const char *law)
+{
+    if (k->verdict != SS_NAMED || strcmp(k->row[0].law, law) != 0)
+        fail_msg("%s, not %s", k->answer, law);
+}
+
+static double
+slider(double *y, double dx, double most)
+{
+    return *y = fmax(-most, fmin(*y + dx, most));
+}
+
+static void
+fill_jenkins(recording *r)
+{
+    double y = 0;
+    for (int i = 0; i < ROWS; i++)
+        r->f[i] = 3 * slider(&y, i > 0 ? r->x[i] - r->x[i - 1] : 0, 0.5) / 0.5 + 0.2 * r->x[i] + 0.7;
+}
+
+static void
+names_an_elastic_slider(void **unused)
+{
+    recording r = record();
+    (void)unused;
+    fill_jenkins(&r);
+    add_noise(r.f, 0.03, 1);
+    ss_motion_ranking *k = rank(&r, 0, NULL);
+    assert_named(k, "compliant");
+    assert_number(k, "friction", 3, "kN");
+    assert_number(k, "contact_stiffness", 6, "kN/mm");
+    assert_number(k, "tilt", 0.2, "kN/mm");
+    assert_true(k->sign == 1 && ss_scene_get(&k->scene, "contact_stiffness") > 5.9e6
+                && ss_scene_get(&k->scene, "contact_stiffness") < 6.1e6);
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
+/* The force on what moves, by its velocity, and later than it by a row. */
+static void
+finds_sign_velocity_and_delay(void **unused)
+{
+    recording r = record();
+    ss_motion_opts opts;
+    (void)unused;
+    fill_jenkins(&r);
+    for (int i = ROWS - 1; i > 0; i--)
+        r.f[i] = -r.f[i - 1];
+    add_noise(r.f, 0.03, 2);
+    ss_motion_opts_init(&opts, sizeof opts);
+    opts.is_velocity = 1;
+    opts.delay = 2;
+    ss_motion_ranking *k = rank(&r, 1, &opts);
+    assert_named(k, "compliant");
+    assert_int_equal(k->sign, -1);
+    assert_number(k, "contact_stiffness", 6, "kN/mm");
+    assert_number(k, "delay", 10. / ROWS, "s");
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
+/* Dahl's law: an exponential of the motion between turns. */
+static void
+names_dahl(void **unused)
+{
+    recording r = record();
+    double z = 0;
+    (void)unused;
+    for (int i = 0; i < ROWS; i++) {
+        double dx = i > 0 ? r.x[i] - r.x[i - 1] : 0, way = dx > 0 ? 1 : -1;
+        z = way + (z - way) * exp(-fabs(dx) / 0.4);
+        r.f[i] = 2 * z + 0.05 * r.v[i];
+    }
+    add_noise(r.f, 0.02, 3);
+    ss_motion_ranking *k = rank(&r, 0, NULL);
+    assert_named(k, "dahl");
+    assert_number(k, "friction", 2, "kN");
+    assert_number(k, "contact_stiffness", 5, "kN/mm");
+    assert_number(k, "viscous_friction", 0.05, "kN s/mm");
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
+/* Dry friction with a Stribeck part, clipped, with gravity on an arm. */
+static void
+names_dry_friction(void **unused)
+{
+    recording r = record();
+    ss_motion_opts opts;
+    (void)unused;
+    for (int i = 0; i < ROWS; i++)
+        r.f[i] = (r.v[i] > 0 ? 1 : -1) * (2 + 1.5 / (1 + fabs(r.v[i]) / 2)) + 0.9 * sin(r.x[i]);
+    add_noise(r.f, 0.02, 4);
+    for (int i = 0; i < ROWS; i++)
+        r.f[i] = fmin(r.f[i], 3);
+    ss_motion_opts_init(&opts, sizeof opts);
+    opts.angle = 1;
+    ss_motion_ranking *k = rank(&r, 0, &opts);
+    assert_named(k, "stribeck");
+    assert_number(k, "friction", 2, "kN");
+    assert_number(k, "static_friction", 3.5, "kN");
+    assert_number(k, "sine", 0.9, "kN");
+    assert_true(k->clipped > 100);
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
+/* --- no law --------------------------------------------------------------------------------- */
+
+static void
+assert_answer(const recording *r, ss_verdict verdict, const char *words)
+{
+    ss_motion_ranking *k = rank(r, 0, NULL);
+    if (k->verdict != verdict || strstr(k->answer, words) == NULL)
+        fail_msg("'%s', not '%s'", k->answer, words);
+    ss_motion_ranking_free(k);
+}
+
+static void
+does_not_judge_what_tells_nothing(void **unused)
+{
+    recording r = record();
+    (void)unused;
+    assert_answer(&r, SS_NOT_JUDGED, "the force is constant");
+    fill_jenkins(&r);
+    double *moved = malloc(ROWS * sizeof *moved);
+    assert_non_null(moved);
+    memcpy(moved, r.x, ROWS * sizeof *moved);
+    for (int i = 0; i < ROWS; i++)
+        r.x[i] = 30. * i / ROWS + 0.001 * moved[i];
+    assert_answer(&r, SS_NOT_JUDGED, "one direction");
+    for (int i = 0; i < ROWS; i++)
+        r.x[i] = i < ROWS / 4 ? moved[i] : moved[ROWS / 4];
+    assert_answer(&r, SS_NOT_JUDGED, "mostly rest");
+    for (int i = 0; i < ROWS; i++)
+        r.x[i] = 1;
+    assert_answer(&r, SS_NOT_JUDGED, "the motion is constant");
+    free(moved);
+    ss_signal_free(r.signal);
+}
+
+/* A spring and a damper; noise; and two sliders of other lengths, which none of the laws has. */
+static void
+names_none_of_these(void **unused)
+{
+    recording r = record();
+    double y = 0, z = 0;
+    (void)unused;
+    for (int i = 0; i < ROWS; i++)
+        r.f[i] = r.x[i] + 0.1 * r.v[i];
+    add_noise(r.f, 0.03, 5);
+    assert_answer(&r, SS_NONE_FITS, "null");
+    memset(r.f, 0, ROWS * sizeof *r.f);
+    add_noise(r.f, 1, 6);
+    assert_answer(&r, SS_NONE_FITS, "none of these");
+    for (int i = 0; i < ROWS; i++) {
+        double dx = i > 0 ? r.x[i] - r.x[i - 1] : 0;
+        r.f[i] = slider(&y, dx, 0.1) / 0.1 + slider(&z, dx, 2) / 2;
+    }
+    add_noise(r.f, 0.005, 7);
+    assert_answer(&r, SS_NONE_FITS, "repeats");
+    ss_signal_free(r.signal);
+}
+
+static void
+writes_what_it_found(void **unused)
+{
+    recording r = record();
+    char text[4096];
+    (void)unused;
+    fill_jenkins(&r);
+    add_noise(r.f, 0.03, 1);
+    ss_motion_ranking *k = rank(&r, 0, NULL);
+    FILE *out = tmpfile();
+    assert_non_null(out);
+    assert_int_equal(ss_motion_ranking_write(k, out, SS_TSV, NULL), SS_OK);
+    rewind(out);
+    text[fread(text, 1, sizeof text - 1, out)] = '\0';
+    fclose(out);
+    assert_non_null(strstr(text, "# answer: compliant explains "));
+    assert_non_null(strstr(text, "\n1\tcompliant\t"));
+    double left = 0;
+    for (int i = ROWS / 10; i < ROWS; i++)
+        left += (r.f[i] - k->predicted[i]) * (r.f[i] - k->predicted[i]) / (0.9 * ROWS);
+    assert_true(k->rows == ROWS && sqrt(left) < 1.1 * 0.03);
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(drives_as_it_simulates),
+        cmocka_unit_test(names_an_elastic_slider),
+        cmocka_unit_test(finds_sign_velocity_and_delay),
+        cmocka_unit_test(names_dahl),
+        cmocka_unit_test(names_dry_friction),
+        cmocka_unit_test(does_not_judge_what_tells_nothing),
+        cmocka_unit_test(names_none_of_these),
+        cmocka_unit_test(writes_what_it_found),
+    };
+    gsl_set_error_handler_off();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
