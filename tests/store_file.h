@@ -49,7 +49,29 @@ place(const char *dataset)
 static inline ss_status
 load_place(ss_signal **out, const char *dataset, const ss_read_opts *opts, ss_error *err)
 {
-    return ss_signal_load(out, place(dataset), opts, err);
+    return ss_signal_read(out, NULL, place(dataset), opts, err);
+}
+
+/* Read all coefficients of a file into memory. */
+static inline ss_status
+read_map(ss_coefficients **out, const char *name, ss_error *err)
+{
+    ss_coefficients *map = NULL;
+    ss_status st = ss_coefficients_read(&map, NULL, name, err);
+    if (st != SS_OK)
+        return st;
+    const ss_scale *last = &map->scale[map->n_scales - 1];
+    double *w = malloc(2 * (last->offset + last->n) * sizeof *w);
+    for (size_t i = 0; st == SS_OK && i < map->n_scales; i++) {
+        const ss_scale *scale = &map->scale[i];
+        st = ss_map_read(map, &(ss_map_part){ i, 0, scale->n, w + 2 * scale->offset, NULL }, 1, err);
+    }
+    map->w = w;                         /* its source stays, for ss_coefficients_free */
+    if (st == SS_OK)
+        *out = map;
+    else
+        ss_coefficients_free(map);
+    return st;
 }
 
 static inline ss_signal *

@@ -58,19 +58,16 @@ readers_refuse_null(void **state)
     assert_refused(ss_base_new(&base, NULL, 0, &e), &e);
     ss_base_free(NULL);
     assert_refused(ss_reader_new(NULL, in, "in", NULL, &e), &e);
-    assert_refused(ss_reader_new(&reader, NULL, "in", NULL, &e), &e);
     assert_refused(ss_reader_new(&reader, in, NULL, NULL, &e), &e);
     assert_refused(ss_reader_rows(NULL, (double *[]){ &row }, 1, &n, &e), &e);
     assert_refused(ss_signal_read(NULL, in, "in", NULL, &e), &e);
-    assert_refused(ss_signal_read(&signal, NULL, "in", NULL, &e), &e);
     assert_refused(ss_coefficients_read(NULL, in, "in", &e), &e);
-    assert_refused(ss_coefficients_read(&c, NULL, "in", &e), &e);
-    assert_refused(ss_reader_load(NULL, "x", NULL, &e), &e);
-    assert_refused(ss_reader_load(&reader, NULL, NULL, &e), &e);
-    assert_refused(ss_store_read_coefficients(NULL, "x.h5", &e), &e);
-    assert_refused(ss_store_read_coefficients(&c, NULL, &e), &e);
-    assert_refused(ss_signal_load(NULL, "x", NULL, &e), &e);
-    assert_refused(ss_signal_load(&signal, NULL, NULL, &e), &e);
+    assert_refused(ss_reader_new(NULL, NULL, "x", NULL, &e), &e);
+    assert_refused(ss_reader_new(&reader, NULL, NULL, NULL, &e), &e);
+    assert_refused(ss_coefficients_read(NULL, NULL, "x.h5", &e), &e);
+    assert_refused(ss_coefficients_read(&c, NULL, NULL, &e), &e);
+    assert_refused(ss_signal_read(NULL, NULL, "x", NULL, &e), &e);
+    assert_refused(ss_signal_read(&signal, NULL, NULL, NULL, &e), &e);
     assert_int_equal(ftell(in), 0);
     fclose(in);
 }
@@ -120,8 +117,7 @@ makers_and_writers_refuse_null(void **state)
     assert_refused(ss_writer_end(NULL, 1, &e), &e);
     ss_writer_free(NULL);
     ss_coefficients *map = NULL;
-    assert_refused(ss_store_open_coefficients(NULL, "x.h5", &e), &e);
-    assert_refused(ss_store_open_coefficients(&map, NULL, &e), &e);
+    assert_refused(ss_coefficients_read(&map, NULL, NULL, &e), &e);
     assert_refused(ss_map_read(NULL, NULL, 0, &e), &e);
     assert_int_equal(head->n_columns + head->n_notes, 0);
     ss_header_free(head);
@@ -172,7 +168,6 @@ headers_and_samples_refuse_null(void **state)
     assert_int_equal(ss_reader_waits(NULL), 0);
     assert_int_equal(ss_reader_piece(NULL), 1);
     assert_refused(ss_writer_end(NULL, 0, NULL), NULL);
-    assert_refused(ss_reader_resample(NULL, 1, &e), &e);
     assert_refused(ss_reader_filter(NULL, NULL, &e), &e);
     assert_refused(ss_signal_filter(NULL, NULL, NULL, &e), &e);
     assert_refused(ss_signal_filter(&signal, NULL, NULL, &e), &e);
@@ -180,10 +175,7 @@ headers_and_samples_refuse_null(void **state)
     ss_filter_opts_init(&filter, sizeof filter);
     filter.size = 1;
     assert_refused(ss_signal_filter(&signal, NULL, &filter, &e), &e);
-    assert_refused(ss_reader_keep(NULL, NULL, &e), &e);
     assert_refused(ss_reader_rewind(NULL, &e), &e);
-    assert_refused(ss_signal_resample(NULL, NULL, 1, NULL), NULL);
-    assert_refused(ss_signal_resample(&signal, NULL, 1, NULL), NULL);
     assert_refused(ss_wave_new(NULL, SS_SINE, &ss_wave_defaults, &e), &e);
     ss_wave_opts wave;
     ss_wave_opts_init(&wave, sizeof wave);
@@ -705,7 +697,6 @@ plots_refuse_null(void **state)
     assert_refused(ss_plot_diagram(out, &table, NULL, 2, &opts, &e), &e);
     assert_int_equal(ss_plot_diagram(out, &table, y, 2, &none, &e), SS_EINVAL);
     assert_int_equal(ftell(out), 0);
-    assert_int_equal(ss_store_is_hdf5(NULL), 0);
     assert_non_null(ss_store_calls(&e));
     fclose(out);
 }
@@ -720,12 +711,12 @@ options_of_another_size_are_refused(void **state)
     ss_error err = { 0 };
     (void)state;
     ss_read_opts_init(&opts.known, sizeof opts);
-    assert_int_equal(ss_signal_load(&signal, "/dev/null", &opts.known, &err), SS_EINVAL);
+    assert_int_equal(ss_signal_read(&signal, NULL, "/dev/null", &opts.known, &err), SS_EINVAL);
     assert_non_null(strstr(err.text, "were they initialised?"));
     opts.known.size = 0;
-    assert_int_equal(ss_signal_load(&signal, "/dev/null", &opts.known, &err), SS_EINVAL);
+    assert_int_equal(ss_signal_read(&signal, NULL, "/dev/null", &opts.known, &err), SS_EINVAL);
     ss_read_opts_init(&opts.known, offsetof(ss_read_opts, progress));
-    assert_int_equal(ss_signal_load(&signal, "/dev/null", &opts.known, &err), SS_EDATA);
+    assert_int_equal(ss_signal_read(&signal, NULL, "/dev/null", &opts.known, &err), SS_EDATA);
 }
 
 static void

@@ -101,7 +101,7 @@ signals_keep_long_names_in_every_form(void **state)
     ss_status st = ss_record_write(&(ss_record){ .signal = signal }, NULL, path, SS_H5, &err);
     assert_told(st, &err);
     if (st == SS_OK) {
-        assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
+        assert_int_equal(ss_signal_read(&back, NULL, path, NULL, NULL), SS_OK);
         assert_same_header(signal->head, back->head);
         ss_signal_free(back);
     }
@@ -190,14 +190,12 @@ paths_of_10000_letters_are_refused(void **state)
     assert_int_equal(ss_record_write(&(ss_record){ .signal = signal }, NULL, path, SS_H5, NULL), SS_OK);
     for (int i = 0; i < 2; i++) {
         ss_error err = new_error();
-        assert_fails(ss_signal_load(&read, name[i], NULL, &err), &err);
+        assert_fails(ss_signal_read(&read, NULL, name[i], NULL, &err), &err);
         snprintf(place, sizeof place, "%s:/%s", path, name[i]);
-        assert_fails(ss_signal_load(&read, place, NULL, &err), &err);
-        assert_fails(ss_store_read_coefficients(&c, name[i], &err), &err);
-        assert_fails(ss_store_open_coefficients(&c, name[i], &err), &err);
+        assert_fails(ss_signal_read(&read, NULL, place, NULL, &err), &err);
+        assert_fails(ss_coefficients_read(&c, NULL, name[i], &err), &err);
         assert_fails(ss_record_write(&(ss_record){ .signal = signal }, NULL, name[i], SS_H5, &err), &err);
         assert_fails(ss_scene_load(&scene, name[i], NULL, 0, &err), &err);
-        assert_false(ss_store_is_hdf5(name[i]));
     }
     ss_signal_free(signal);
 }

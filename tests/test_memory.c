@@ -13,6 +13,7 @@
 #include <unistd.h>
 #include <stickslip.h>
 #include "map/map.h"
+#include "signal/resample.h"
 
 #include "find/drops.h"
 #include "find/events.h"
@@ -239,7 +240,8 @@ static ss_status
 read_twice(int variant)
 {
     static const char table[] = "t,x\n0,1\n0.1,\n0.2,3\n";
-    static const ss_read_opts opts = { READ_OPTS, .gaps = SS_GAPS_INTERPOLATE };
+    static const ss_read_opts opts[] = { { READ_OPTS, .rewinds = 1 },
+                                         { READ_OPTS, .gaps = SS_GAPS_INTERPOLATE, .rewinds = 1 } };
     double row[64], *column[16];
     for (int c = 0; c < 16; c++)
         column[c] = row + 4 * c;
@@ -247,9 +249,7 @@ read_twice(int variant)
     ss_reader *reader = NULL;
     const char *from = variant < 2 ? text[variant] : table;
     FILE *in = fmemopen((void *)from, variant < 2 ? length[variant] : sizeof table - 1, "r");
-    ss_status st = ss_reader_new(&reader, in, "in", variant < 2 ? NULL : &opts, &err);
-    if (st == SS_OK)
-        st = ss_reader_keep(reader, NULL, &err);
+    ss_status st = ss_reader_new(&reader, in, "in", &opts[variant >= 2], &err);
     for (int again = 0; st == SS_OK && again < 2; again++) {
         st = ss_reader_rows(reader, column, 4, &n, &err);
         if (st == SS_OK)
@@ -273,7 +273,11 @@ signals(int variant)
     static const size_t pick[] = { 0 };
     ss_signal *made = NULL;
     if (variant == 7) {
-        ss_status resampled = ss_signal_resample(&made, signal, 700, NULL);
+        ss_source *s = ss_source_of_signal(signal, "signal", NULL);
+        ss_status resampled = s != NULL ? ss_source_resample(&s, 700, 0, INFINITY, NULL) : SS_ENOMEM;
+        if (resampled == SS_OK)
+            resampled = ss_source_all(&made, s, NULL);
+        ss_source_free(s);
         ss_signal_free(made);
         return resampled;
     }
@@ -631,9 +635,7 @@ reductions(int variant)
     ss_plot_opts_init(&opts, sizeof opts);
     opts.decibels = 1;
     FILE *in = fmemopen(text[1], length[1], "r");
-    ss_status st = ss_reader_new(&reader, in, "in", NULL, &err);
-    if (st == SS_OK)
-        st = ss_reader_keep(reader, NULL, &err);
+    ss_status st = ss_reader_new(&reader, in, "in", &(ss_read_opts){ READ_OPTS, .rewinds = 1 }, &err);
     if (st == SS_OK)
         st = variant == 0 ? ss_plot_spectra(spectrum, reader, column, 1, &opts, &err)
             : variant == 1 ? ss_plot_xy(scrap, reader, 0, 1, &opts, &err)
@@ -741,12 +743,11 @@ loads(int variant)
     ss_coefficients *c = NULL;
     char member[80];
     snprintf(member, sizeof member, "%s:/signal/a", path);
-    ss_status st = variant == 0 ? ss_signal_load(&back, path, NULL, &err)
-                   : variant == 1 ? ss_signal_load(&back, member, NULL, &err)
-                   : variant == 2 ? ss_store_read_coefficients(&c, path, &err)
-                   : variant == 3 ? ss_signal_load(&back, member, &timed, &err)
-                   : ss_store_open_coefficients(&c, path, &err);
-    if (st == SS_OK && variant > 3) {
+    ss_status st = variant == 0 ? ss_signal_read(&back, NULL, path, NULL, &err)
+                   : variant == 1 ? ss_signal_read(&back, NULL, member, NULL, &err)
+                   : variant == 2 ? ss_signal_read(&back, NULL, member, &timed, &err)
+                   : ss_coefficients_read(&c, NULL, path, &err);
+    if (st == SS_OK && variant > 2) {
         static double w[2 * 100000];
         assert_true(c->scale[0].n > 1 && c->scale[0].n <= 100000);
         for (size_t n = 1; st == SS_OK && n <= c->scale[0].n; n += c->scale[0].n - 1)

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <stickslip.h>
 #include "contour_script.h"
+#include "read_opts.h"
 #include "new_signal.h"
 #include "plot/extremes.h"
 #include "plot/isoline.h"

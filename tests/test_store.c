@@ -35,7 +35,7 @@ a_signal_reads_back_exactly(void **state)
         ss_signal *signal = new_signal(length[i]), *back = NULL;
         signal->head->has_time = i % 2 == 0;
         write_ok(&(ss_record){ .signal = signal });
-        assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
+        assert_int_equal(ss_signal_read(&back, NULL, path, NULL, NULL), SS_OK);
         assert_int_equal(back->n, length[i]);
         assert_same_columns(signal->head, back->head);
         assert_same_notes(signal->head, back->head);
@@ -53,7 +53,7 @@ coefficients_read_back_exactly(void **state)
         ss_signal *signal = new_signal(500);
         ss_coefficients *c = transform(signal, dense), *back = NULL;
         write_ok(&(ss_record){ .signal = signal, .coefficients = c });
-        assert_int_equal(ss_store_read_coefficients(&back, path, NULL), SS_OK);
+        assert_int_equal(read_map(&back, path, NULL), SS_OK);
         assert_same_columns(c->head, back->head);
         assert_same_notes(c->head, back->head);
         assert_int_equal(back->n, c->n);
@@ -106,11 +106,11 @@ a_file_made_piece_by_piece_reads_back_exactly(void **state)
             assert_int_equal(ss_morlet_transform(&c, signal, 1, &opts, NULL), SS_OK);
             if (write_pieces(signal, c, row / 2, &err) != SS_OK)
                 fail_msg("%s", err.text);
-            assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
+            assert_int_equal(ss_signal_read(&back, NULL, path, NULL, NULL), SS_OK);
             assert_int_equal(back->n, signal->n);
             assert_same_columns(signal->head, back->head);
             assert_same_bits(signal->values, back->values, 3 * signal->n);
-            assert_int_equal(ss_store_read_coefficients(&again, path, NULL), SS_OK);
+            assert_int_equal(read_map(&again, path, NULL), SS_OK);
             assert_same_notes(c->head, again->head);
             assert_int_equal(again->n, c->n);
             assert_int_equal(again->n_scales, c->n_scales);
@@ -144,7 +144,7 @@ a_signal_of_unknown_length_reads_back_exactly(void **state)
         assert_int_equal(ss_header_note(signal->head, "late", "a note: at the end", NULL), SS_OK);
         assert_int_equal(ss_writer_end(writer, n, NULL), SS_OK);
         ss_writer_free(writer);
-        assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
+        assert_int_equal(ss_signal_read(&back, NULL, path, NULL, NULL), SS_OK);
         assert_int_equal(back->n, n);
         assert_same_columns(signal->head, back->head);
         assert_same_notes(signal->head, back->head);
@@ -208,7 +208,7 @@ error_of_file(const ss_signal *signal, const ss_morlet_opts *opts)
     ss_morlet *plan = NULL;
     double worst = 0;
     exact.engine = SS_ENGINE_QUADRATURE, exact.accuracy = 1e-13, exact.rounded = 0, exact.force = 1;
-    assert_int_equal(ss_store_read_coefficients(&back, path, NULL), SS_OK);
+    assert_int_equal(read_map(&back, path, NULL), SS_OK);
     assert_int_equal(ss_morlet_new(&plan, signal->n, signal->head->rate, &exact, NULL), SS_OK);
     assert_int_equal(ss_morlet_grid(plan)->n_scales, back->n_scales);
     double *w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w);
@@ -344,7 +344,7 @@ scales_can_be_read_one_by_one(void **state)
         size_t longest = c->scale[c->n_scales - 1].n;
         double *w = malloc(2 * longest * sizeof *w), *level = malloc(longest * sizeof *level);
         write_ok(&(ss_record){ .signal = signal, .coefficients = c });
-        assert_int_equal(ss_store_open_coefficients(&map, path, NULL), SS_OK);
+        assert_int_equal(ss_coefficients_read(&map, NULL, path, NULL), SS_OK);
         assert_null(map->w);
         assert_true(map->n == c->n && map->n_scales == c->n_scales);
         assert_same_notes(c->head, map->head);
@@ -519,7 +519,7 @@ write_columns(size_t n)
     int attached = H5Aexists(t, "REFERENCE_LIST") > 0;
     H5Dclose(t);
     H5Fclose(file);
-    assert_int_equal(ss_signal_load(&back, path, NULL, NULL), SS_OK);
+    assert_int_equal(ss_signal_read(&back, NULL, path, NULL, NULL), SS_OK);
     assert_int_equal(back->head->n_columns, n);
     assert_same_bits(back->values, signal->values, n);
     ss_signal_free(back);
@@ -555,7 +555,7 @@ rows_are_those_of_the_whole_signal(void **state)
             write_ok(&(ss_record){ .signal = signal });
         else
             assert_int_equal(write_pieces(small, c, 0, &err), SS_OK);
-        if (ss_reader_load(&reader, path, NULL, &err) != SS_OK)
+        if (ss_reader_new(&reader, NULL, path, NULL, &err) != SS_OK)
             fail_msg("%s", err.text);
         assert_string_equal(ss_reader_header(reader)->column[2].name, "t");
         do {

@@ -150,7 +150,7 @@ hdf5_reports_nothing_and_is_left_as_it_was(void **state)
     FILE *damaged = fopen(path, "wb");
     fputs("\211HDF\r\n\032\n", damaged);
     fclose(damaged);
-    assert_int_equal(ss_signal_load(&signal, path, NULL, NULL), SS_EDATA);
+    assert_int_equal(ss_signal_read(&signal, NULL, path, NULL, NULL), SS_EDATA);
     assert_int_equal(ss_record_write(&(ss_record){ .has_events = 1 }, NULL, "/nonexistent/run.h5", SS_H5, NULL),
                      SS_EIO);
     assert_int_equal(reports, 0);

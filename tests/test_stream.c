@@ -623,7 +623,7 @@ refuses_streams_that_are_cut_or_changed(void **state)
         assert_refused(text, size, "samples: 300", "samples: x", "length of a record");
         assert_refused(text, size, "samples: 300", "samples: 300\n# samples: 300", "twice");
         assert_refused(text, size, "\t1\n# samples", "\t0\n# samples", "edge is 0");
-        assert_refused(text, size, "stream: yes", "stream: no", "no line '# samples");
+        assert_refused(text, size, "stream: yes", "stream: no", "lack their option 'samples");
     }
     free(text);
 }

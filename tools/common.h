@@ -67,8 +67,6 @@ ss_reader *tool_read_rows(const char *path, const ss_read_opts *opts);
 double **tool_columns(size_t n, size_t rows);
 /* Read at most max rows, as ss_reader_rows does, or die.  Returns their number; 0 at the end. */
 size_t tool_rows(ss_reader *reader, double *const column[], size_t max);
-/* What tool_read_rows does for --resample, with a reader that was opened otherwise. */
-void tool_resample(ss_reader *reader, const char *path, const ss_read_opts *opts);
 /* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
 ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
 /* Read coefficients from "-", a file or HDF5, or die. */
@@ -83,8 +81,6 @@ ss_scene tool_read_scene_by(const char *path, const tool_texts *settings, const 
 /* The name of a scene without directories, and the settings that change its physics, in one line;
  * to be freed. */
 char *tool_name_scene(const char *path, const tool_texts *settings);
-/* 1 if path holds HDF5 or names a dataset in it, else 0. */
-int tool_is_hdf5(const char *path);
 /* Append a word to a list of at least 8 bytes for a message: "a, b", and " ..." where no more fits. */
 void tool_list(char *list, size_t size, const char *word);
 /* The index of a column by name or number, or die with a list of the columns.  If name is NULL:

@@ -53,36 +53,13 @@ tool_open(const char *path)
     return in;
 }
 
-/* 1 if a signal must still be resampled.  Delimited text that has the rate already has been. */
-static int
-is_resampled(const ss_header *head, const char *path, const ss_read_opts *opts)
-{
-    double own = head->rate, rate = opts != NULL ? opts->resample : 0;
-    if (!(rate > 0) || !(own < rate || own > rate))
-        return 0;
-    if (own > rate)
-        tool_warn("%s: frequencies above %g Hz fold down", tool_input_name(path), rate / 2);
-    return 1;
-}
-
-void
-tool_resample(ss_reader *reader, const char *path, const ss_read_opts *opts)
-{
-    ss_error err = { 0 };
-    if (is_resampled(ss_reader_header(reader), path, opts))
-        tool_check(ss_reader_resample(reader, opts->resample, &err), &err);
-}
-
 ss_reader *
 tool_read_rows(const char *path, const ss_read_opts *opts)
 {
     ss_reader *reader = NULL;
     ss_error err = { 0 };
-    if (is_stdin(path))
-        tool_check(ss_reader_new(&reader, stdin, "<stdin>", opts, &err), &err);
-    else
-        tool_check(ss_reader_load(&reader, path, opts, &err), &err);
-    tool_resample(reader, path, opts);
+    FILE *in = is_stdin(path) ? stdin : NULL;
+    tool_check(ss_reader_new(&reader, in, tool_input_name(path), opts, &err), &err);
     return reader;
 }
 
@@ -107,21 +84,13 @@ tool_rows(ss_reader *reader, double *const column[], size_t max)
 ss_signal *
 tool_read_signal(const char *path, const ss_read_opts *opts)
 {
-    ss_signal *signal = NULL, *other;
+    ss_signal *signal = NULL;
     ss_error err = { 0 };
-    if (is_stdin(path))
-        tool_check(ss_signal_read(&signal, stdin, "<stdin>", opts, &err), &err);
-    else
-        tool_check(ss_signal_load(&signal, path, opts, &err), &err);
+    FILE *in = is_stdin(path) ? stdin : NULL;
+    tool_check(ss_signal_read(&signal, in, tool_input_name(path), opts, &err), &err);
     if (opts != NULL && opts->progress.function != NULL)
         tool_reading_done();
-    if (!is_resampled(signal->head, path, opts))
-        return signal;
-    if (signal->n < 2)
-        tool_die("%s: one row cannot be resampled", tool_input_name(path));
-    tool_check(ss_signal_resample(&other, signal, opts->resample, &err), &err);
-    ss_signal_free(signal);
-    return other;
+    return signal;
 }
 
 ss_overlay *
@@ -143,14 +112,8 @@ tool_read_coefficients(const char *path)
 {
     ss_coefficients *coefficients = NULL;
     ss_error err = { 0 };
-    if (tool_is_hdf5(tool_reads(path))) {
-        tool_check(ss_store_read_coefficients(&coefficients, path, &err), &err);
-        return coefficients;
-    }
-    FILE *in = tool_open(path);
+    FILE *in = is_stdin(path) ? stdin : NULL;
     tool_check(ss_coefficients_read(&coefficients, in, tool_input_name(path), &err), &err);
-    if (in != stdin)
-        fclose(in);
     return coefficients;
 }
 
@@ -197,14 +160,6 @@ ss_scene
 tool_read_scene(const char *path, const tool_texts *settings)
 {
     return tool_read_scene_by(path, settings, "--set");
-}
-
-int
-tool_is_hdf5(const char *path)
-{
-    if (strcmp(path, "-") == 0)
-        return 0;
-    return ss_store_is_hdf5(path) || (access(path, F_OK) != 0 && strstr(path, ":/") != NULL);
 }
 
 char *

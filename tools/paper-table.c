@@ -178,7 +178,7 @@ print_contact(const char *path, const char *name, const char *column_name)
     ss_features_opts opts;
     ss_features_opts_init(&opts, sizeof opts);
     int said = strncmp(name, "figure2", 7) != 0 && strncmp(name, "figure3", 7) != 0;
-    tool_check(ss_signal_load(&signal, path, NULL, &err), &err);
+    tool_check(ss_signal_read(&signal, NULL, path, NULL, &err), &err);
     const ss_header *head = signal->head;
     int column = ss_header_column(head, column_name);
     double m = note_number(head, "mass"), k = note_number(head, "stiffness");
@@ -206,7 +206,7 @@ print_figure(const char *path)
     ss_coefficients *c = NULL;
     ss_error err = { 0 };
     char name[64];
-    tool_check(ss_store_read_coefficients(&c, path, &err), &err);
+    tool_check(ss_coefficients_read(&c, NULL, path, &err), &err);
     name_figure(name, path);
     printf("\n%s\n  the paper: %s\n", name, find_words(name));
     print_maxima(c);

@@ -129,9 +129,6 @@ find_trend(ss_reader *reader, double *const wanted[], const double *value, ss_de
 static void
 draw_rows(drawing *d, ss_reader *reader)
 {
-    ss_error err = { 0 };
-    if (d->detrend != SS_DETREND_NONE)
-        tool_check(ss_reader_keep(reader, d->reading.opts.folder, &err), &err);
     const ss_header *head = ss_reader_header(reader);
     size_t column = open_overview(d, head), piece = ss_reader_piece(reader), n;
     double *x = tool_room(NULL, piece, sizeof *x), **wanted = tool_room(NULL, head->n_columns, sizeof *wanted);
@@ -151,45 +148,28 @@ draw_rows(drawing *d, ss_reader *reader)
     end_overview(d);
 }
 
-/* 1 if a file that can be read twice holds a signal. */
-static int
-draw_recording(drawing *d)
-{
-    ss_error err = { 0 };
-    ss_reader *reader = NULL;
-    struct stat s;
-    if (stat(d->path, &s) != 0 || !S_ISREG(s.st_mode))
-        return 0;
-    FILE *in = tool_open(d->path);
-    ss_status st = ss_reader_new(&reader, in, d->path, &d->reading.opts, &err);
-    int is_signal = st != SS_EKIND && !(st == SS_EDATA && s.st_size == 0);
-    if (is_signal) {
-        tool_check(st, &err);
-        tool_resample(reader, d->path, &d->reading.opts);
-        draw_rows(d, reader);
-    }
-    ss_reader_free(reader);
-    fclose(in);
-    return is_signal;
-}
-
 /* --- coefficients -------------------------------------------------------------------------- */
 
+/* A stream holds coefficients; a file may hold a signal instead, whose map is drawn as its rows come. */
 static void
 open_input(drawing *d)
 {
-    ss_error err = { 0 };
+    ss_error err = { 0 }, other;
+    ss_reader *reader = NULL;
+    struct stat is;
     d->opts.progress = d->reading.opts.progress = (ss_progress){ tool_progress, d };
-    if (!tool_is_hdf5(d->path)) {
-        if (!draw_recording(d))
-            d->coefficients = d->own = tool_read_coefficients(d->path);
+    d->reading.opts.rewinds = d->detrend != SS_DETREND_NONE;
+    if (strcmp(d->path, "-") == 0 || (stat(d->path, &is) == 0 && !S_ISREG(is.st_mode))) {
+        d->coefficients = d->own = tool_read_coefficients(d->path);
         return;
     }
-    ss_status st = ss_store_open_coefficients(&d->own, tool_reads(d->path), &err);
+    ss_status st = ss_coefficients_read(&d->own, NULL, tool_reads(d->path), &err);
     if (st == SS_EKIND) {
-        ss_reader *reader = tool_read_rows(d->path, &d->reading.opts);
-        draw_rows(d, reader);
+        st = ss_reader_new(&reader, NULL, d->path, &d->reading.opts, &other);
+        if (st == SS_OK)
+            draw_rows(d, reader);
         ss_reader_free(reader);
+        tool_check(st, st == SS_EKIND ? &err : &other);
         return;
     }
     tool_check(st, &err);
@@ -222,8 +202,8 @@ find_signal(drawing *d)
     d->reading.opts.progress = (ss_progress){ NULL, NULL };
     if (path != NULL)
         compare_clocks(signal = tool_read_signal(path, &d->reading.opts), path, d->coefficients);
-    else if (tool_is_hdf5(d->path)) {
-        ss_status st = ss_signal_load(&signal, path = d->path, NULL, &err);
+    else if (strcmp(d->path, "-") != 0) {
+        ss_status st = ss_signal_read(&signal, NULL, path = d->path, NULL, &err);
         if (st != SS_EKIND)                     /* the file has one */
             tool_check(st, &err);
     }

@@ -153,12 +153,11 @@ find_levels(ss_reader *reader, const double *chosen, double *const x[])
 static void
 change_rows(tool_kind kind, ss_noise *noise)
 {
+    reading.opts.rewinds = !isnan(snr);
     ss_reader *reader = tool_read_rows(path, &reading.opts);
     size_t n, all = 0;
     char text[128];
     ss_error err = { 0 };
-    if (!isnan(snr))
-        tool_check(ss_reader_keep(reader, reading.opts.folder, &err), &err);
     ss_header *head = NULL;
     ss_header_copy(&head, ss_reader_header(reader), NULL);
     if (head == NULL)

@@ -203,17 +203,6 @@ choose_columns(drawing *d, const char *path, const tool_texts *name)
         d->column[i] = name->n > 0 ? find_signal_column(d->xy, head, path, name->text[i]) : i;
 }
 
-/* A reader of a signal of any length. */
-static ss_reader *
-open_signal(const char *path, const ss_read_opts *reading, int is_read_again)
-{
-    ss_error err = { 0 };
-    ss_reader *reader = tool_read_rows(path, reading);
-    if (is_read_again)
-        tool_check(ss_reader_keep(reader, reading->folder, &err), &err);
-    return reader;
-}
-
 /* For the legend: without folders. */
 static const char *
 file_name(const char *path)
@@ -225,19 +214,21 @@ file_name(const char *path)
 /* Draw the named columns of a signal, or all, or one over another, in the form of d. */
 static void
 draw_signal(const char *path, const tool_texts *name, drawing d, const char *over, const char *features,
-            const char *output, const ss_read_opts *reading, ss_plot_opts *opts)
+            const char *output, ss_read_opts *reading, ss_plot_opts *opts)
 {
     ss_error err = { 0 };
     ss_read_opts plainly;
     ss_read_opts_init(&plainly, sizeof plainly);
     plainly.folder = reading->folder;
-    d.reader = open_signal(path, reading, d.xy || d.spectrum);
+    reading->rewinds = d.xy || d.spectrum;
+    plainly.rewinds = d.xy;
+    d.reader = tool_read_rows(path, reading);
     choose_columns(&d, path, name);
     const ss_header *head = ss_reader_header(d.reader);
     opts->name = file_name(path);
     if (over != NULL) {
         opts->over_name = file_name(over);
-        opts->over = open_signal(over, &plainly, d.xy);
+        opts->over = tool_read_rows(over, &plainly);
     }
     tool_note("%s: columns: %zu, at %.9g Hz", tool_input_name(path), head->n_columns, head->rate);
     ss_overlay *overlay = tool_read_overlay(features, SS_KIND_FEATURES);

@@ -109,8 +109,8 @@ static int
 is_scene(const char *path)
 {
     int standard = strcmp(path, "-") == 0, scene;
-    if (!standard && tool_is_hdf5(path))
-        return 0;
+    if (!standard && access(path, F_OK) != 0 && strstr(path, ":/") != NULL)
+        return 0;               /* a dataset in HDF5 */
     if (standard)
         keep_input();
     FILE *in = standard ? stdin : fopen(tool_reads(path), "rb");

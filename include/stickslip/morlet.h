@@ -62,7 +62,7 @@ typedef struct ss_morlet_opts {
     double accuracy;            /* TOL: the error of a coefficient is at most TOL x (largest |W| of its
                                    scale) + 16 DBL_EPSILON a^1/2 max|x|, with the 1/a norm
                                    16 DBL_EPSILON max|x|, and never less than the least step of a double */
-    int rounded;                /* 1: leave 7/8 of TOL for the rounding of ss_store_writer */
+    int rounded;                /* 1: leave 7/8 of TOL for the rounding of ss_writer_new */
     ss_norm norm;
     int admissible;             /* 1: h has its second term too: exp(i omega_c t) becomes
                                    exp(i omega_c t) - exp(-omega_c^2/2) */
@@ -239,7 +239,10 @@ struct ss_coefficients {
 ss_status ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
                        const ss_morlet_opts *opts, ss_error *err);
 /* Read text or AU, told apart by the first bytes, of a record or of a stream that has ended.  The
- * reader may read more of in than it needs, and nothing may have been read from a pipe before. */
+ * reader may read more of in than it needs, and nothing may have been read from a pipe before.
+ *
+ * If in is NULL, name is the path of a file, also of HDF5.  That stays open until *out is freed: ss_map_read reads its
+ * coefficients, in the memory of one scale, and w is NULL.  SS_EKIND: the file holds no coefficients. */
 ss_status ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err);
 void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is allowed */
 

@@ -103,7 +103,7 @@ ss_status ss_scene_write(const ss_scene *scene, FILE *out, ss_error *err);
  * the scene's: its t = 0 is the start of settling.  The caller frees *base with ss_base_free.
  * SS_EDATA: the column's unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
 ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
-/* The same from a column of a file, of any format that ss_reader_load opens.  column is its name or number;
+/* The same from a column of a file, of any format that ss_reader_new opens.  column is its name or number;
  * NULL or "": the column z, or the only column. */
 ss_status ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err);
 /* If the scene names a base_file, read it and set scene->base to *base; else *base becomes NULL.

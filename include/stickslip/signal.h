@@ -84,8 +84,10 @@ typedef struct ss_read_opts {
                                    delimited text the first row is then at 0, whatever its columns */
     ss_gaps gaps;               /* delimited text and arrays in HDF5; filled gaps become a note of the
                                    header, see ss_header_gaps */
-    double resample;            /* [Hz] delimited text: rate of the clock to which stamps of any spacing
-                                   are brought, by cubic splines; 0: the stamps must be uniform */
+    double resample;            /* [Hz] rate to which the rows are brought, by the cubic spline through each
+                                   column, in constant memory; 0: they stay.  Stamps in delimited text may then
+                                   have any spacing.  Frequencies above half the rate fold down.  Reading
+                                   fails where there is but one row */
     const char *time_unit;      /* where there is a column or dataset of time: unit of the column of time; NULL: the unit in the
                                    file, or if it has none seconds, or the unit with which the stamps
                                    are dates of this century */
@@ -108,6 +110,8 @@ typedef struct ss_read_opts {
     int stamps;                 /* 1: the time of each row [s] is a further column, the last.  Rows of a table
                                    may then have any spacing, unless they are resampled; the rate is that of
                                    their usual step */
+    int rewinds;                /* 1: ss_reader_rewind works.  A source that cannot go back is read to its end
+                                   when it is opened; more than 2^18 numbers of it are kept in a temporary file */
 } ss_read_opts;
 /* Fill in the defaults, all zeros; size is sizeof(ss_read_opts). */
 void ss_read_opts_init(ss_read_opts *opts, size_t size);
@@ -127,21 +131,19 @@ typedef struct ss_reader ss_reader;
 
 /* Open a stream of any format that stickslip-signal(5) describes; its first bytes tell which.  The
  * caller keeps and closes in.  The reader bypasses its buffer, so nothing may have been read from
- * a pipe before.  Messages call the file by name.  opts may be NULL.
+ * a pipe before.  Messages call it by name.  opts may be NULL.
  *
  * Text and AU streams are read as they arrive, in constant memory.  So is delimited text from a pipe whose rate is
  * given, or whose first 16 stamps are numbers on a clock without rounding, unless gaps, resample or table are set.
  * Other delimited text and .npy are first read to their end, to check their clock.  If they have more than 2^18 numbers, these are kept in a
- * temporary file, 8 bytes for each number and each row.  Memory grows with gaps only. */
+ * temporary file, 8 bytes for each number and each row.  Memory grows with gaps only. *
+ * If in is NULL, name is the path of a file, which the reader closes.  Of HDF5, "FILE" is /signal, as this library
+ * writes it, and "FILE:/path/to/dataset" a real dataset of one or two dimensions, of MATLAB v7.3 files too; in
+ * one of two dimensions the columns are the shorter one.  A dataset takes its clock from opts->rate or opts->time.
+ * SS_EDATA: /signal has a clock, and opts ask for another; SS_EKIND: there is no /signal.  HDF5 is read chunk by
+ * chunk, in constant memory. */
 ss_status ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts,
                         ss_error *err);
-/* Open the file at path, of any format; the reader closes it.  Of HDF5, "FILE" is /signal, as this library
- * writes it, and "FILE:/path/to/dataset" a real dataset of one or two dimensions, of MATLAB v7.3 files too; in
- * one of two dimensions the columns are the shorter one.
- *
- * A dataset takes its clock from opts->rate or opts->time.  SS_EDATA: /signal has a clock, and opts ask for
- * another; SS_EKIND: there is no /signal.  HDF5 is read chunk by chunk, in constant memory. */
-ss_status ss_reader_load(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err);
 const ss_header *ss_reader_header(const ss_reader *reader);     /* owned by the reader */
 
 /* Read at most max rows: the value of row i in column c becomes column[c][i].  NULL for a column: its
@@ -154,15 +156,7 @@ size_t ss_reader_piece(const ss_reader *reader);
 int ss_reader_waits(const ss_reader *reader);
 void ss_reader_free(ss_reader *reader);         /* NULL is allowed */
 
-/* Make a reader that is at its first row give its rows at another rate [Hz], as ss_signal_resample has them,
- * in constant memory.  Reading fails where there is but one row. */
-ss_status ss_reader_resample(ss_reader *reader, double rate, ss_error *err);
-
-/* Let a reader that is at its first row go back there.  A source that cannot is read to its end; more than
- * 2^18 numbers of it are kept in a temporary file, in this folder (NULL: see ss_read_opts).  After a failure
- * it can only be freed. */
-ss_status ss_reader_keep(ss_reader *reader, const char *folder, ss_error *err);
-/* Go back to the first row.  SS_EINVAL: it cannot. */
+/* Go back to the first row.  SS_EINVAL: it cannot, as ss_read_opts.rewinds was 0. */
 ss_status ss_reader_rewind(ss_reader *reader, ss_error *err);
 
 /* A whole signal in memory. */
@@ -172,11 +166,10 @@ typedef struct ss_signal {
     double *values;             /* column after column: row i of column c is values[c * n + i] */
 } ss_signal;
 
-/* Read all rows of a stream, or of a file, as ss_reader_new, ss_reader_load and ss_reader_rows do.  The caller frees each signal that a
- * function makes with ss_signal_free. */
+/* Read all rows of a stream or, if in is NULL, of a file, as ss_reader_new and ss_reader_rows do.  The caller frees
+ * each signal that a function makes with ss_signal_free. */
 ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts,
                          ss_error *err);
-ss_status ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err);
 /* Make a signal of n rows of zeros, with a copy of head. */
 ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n, ss_error *err);
 /* Read the rows of a signal, which must live as long as the reader, and which can go back to the first. */
@@ -202,13 +195,6 @@ const char *ss_format_name(size_t i);
 int ss_format_find(ss_format *found, const char *name);
 /* 1 if the format holds words, 0 if it holds only numbers or cannot be written. */
 int ss_format_has_words(ss_format format);
-
-/* Copy a signal to another rate [Hz], by the cubic spline through each column; a long signal is
- * interpolated part by part, which is as exact.  Frequencies above
- * half the new rate must have been filtered out before.  SS_EINVAL: the signal has fewer than two
- * rows, or the rate is not positive; SS_ERANGE: a value of the spline is larger than a double can
- * hold. */
-ss_status ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_error *err);
 
 /* --- filtering ----------------------------------------------------------------------------- */
 

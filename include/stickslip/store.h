@@ -1,5 +1,4 @@
-/* stickslip/store.h -- write signals, events and coefficients in any format, as they come or at once, and read
- * coefficients in HDF5.
+/* stickslip/store.h -- write signals, events and coefficients in any format, as they come or at once.
  *
  * A format is written to a stream, or, if it is HDF5 (in the layout of stickslip-hdf5(5)), to a path.  There a
  * complete file replaces an existing one; after a failure there is none.  A caller that needs the old file until
@@ -66,18 +65,7 @@ typedef struct ss_record {
 } ss_record;
 ss_status ss_record_write(const ss_record *record, FILE *out, const char *path, ss_format format, ss_error *err);
 
-/* 1 if the file is HDF5 (its signature is at byte 0, 512, 1024, ...); 0 if it is not, or cannot be
- * read. */
-int ss_store_is_hdf5(const char *path);
-
-/* Read all of /wavelet.  The caller frees *out with ss_coefficients_free. */
-ss_status ss_store_read_coefficients(ss_coefficients **out, const char *path, ss_error *err);
-
-/* Read its grid alone.  The file stays open until *out is freed: ss_map_read reads coefficients from it,
- * in the memory of one scale. */
-ss_status ss_store_open_coefficients(ss_coefficients **out, const char *path, ss_error *err);
-
-/* All of this that needs the HDF5 library, as one table.  A program that is linked with the static library may
+/* All that needs the HDF5 library, as one table.  A program that is linked with the static library may
  * define this function itself: to open the shared library when a file needs it, and return what the function there
  * returns.  NULL, with the reason in *err: there is none. */
 struct ss_store_calls;

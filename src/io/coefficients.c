@@ -73,66 +73,13 @@ copy_header(coefficient_reader *r)
     return st;
 }
 
-static ss_status
-required(const coefficient_reader *r, const char *key, const char **value)
-{
-    *value = ss_header_find_note(r->coef->head, key);
-    if (*value == NULL || **value == '\0')
-        return ss_fail(r->err, SS_EDATA, "%s: no line '# %s: ...'", r->in->source->name, key);
-    return SS_OK;
-}
-
-static ss_status
-required_number(const coefficient_reader *r, const char *key, double hi, double *x)
-{
-    const char *value;
-    char *end;
-    ss_status st = required(r, key, &value);
-    if (st != SS_OK)
-        return st;
-    *x = ss_number_parse(value, &end);
-    if (end == value || *end != '\0' || !(*x > 0 && *x <= hi))
-        return ss_fail(r->err, SS_EDATA, "%s: '# %s: %s' is out of range", r->in->source->name, key,
-                       value);
-    return SS_OK;
-}
-
-static int
-says_yes(const coefficient_reader *r, const char *key)
-{
-    const char *value = ss_header_find_note(r->coef->head, key);
-    return value != NULL && strcmp(value, "yes") == 0;
-}
-
 /* Read the options that determine the grid. */
 static ss_status
 read_options(coefficient_reader *r)
 {
-    ss_coefficients *coef = r->coef;
-    const char *column, *unit, *name = r->in->source->name;
-    double samples = 0, voices;
-    ss_status st;
-    r->opts = ss_morlet_defaults;
-    r->opts.dense = says_yes(r, "dense");
-    r->opts.exact = ss_header_find_note(coef->head, "lattice") == NULL;
-    if (!says_yes(r, "stream") && (st = required_number(r, "samples", 0x1p53, &samples)) != SS_OK)
-        return st;
-    if ((st = required_number(r, "center", 1000, &r->opts.center)) != SS_OK
-        || (st = required_number(r, "voices", 1024, &voices)) != SS_OK
-        || (st = required(r, "column", &column)) != SS_OK)
-        return st;
-    if (!r->opts.dense && (st = required_number(r, "step", 1e100, &r->opts.step)) != SS_OK)
-        return st;
-    if (samples != floor(samples) || voices != floor(voices))
-        return ss_fail(r->err, SS_EDATA, "%s: samples and voices are not whole numbers", name);
-    coef->n = (size_t)samples;
-    coef->center = r->opts.center;
-    r->opts.voices = (int)voices;
     ss_error why = { 0 };
-    if (ss_morlet_check(coef->n > 0 ? coef->n : 1, coef->head->rate, &r->opts, &why) != SS_OK)
-        return ss_fail(r->err, SS_EDATA, "%s: %s", name, why.text);
-    unit = ss_header_find_note(coef->head, "unit");
-    return ss_header_add_column(coef->head, column, unit != NULL ? unit : "", NULL);
+    ss_status st = ss_coefficients_take_notes(r->coef, &r->opts, &why);
+    return st == SS_EDATA ? ss_fail(r->err, st, "%s: %s", r->in->source->name, why.text) : st;
 }
 
 /* --- rows */
@@ -345,8 +292,7 @@ read_all(coefficient_reader *r, FILE *in, const char *name)
     r->coef = calloc(1, sizeof *r->coef);
     if (r->coef == NULL)
         return SS_ENOMEM;
-    if ((st = copy_header(r)) != SS_OK || (st = read_options(r)) != SS_OK
-        || (st = ss_header_gaps(&r->coef->gap, &r->coef->n_gaps, r->coef->head, NULL)) != SS_OK)
+    if ((st = copy_header(r)) != SS_OK || (st = read_options(r)) != SS_OK)
         return st;
     r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);
     if (r->part_of == NULL)
@@ -359,8 +305,11 @@ ss_status
 ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err)
 {
     coefficient_reader r = { .err = err };
-    if (out == NULL || in == NULL || name == NULL)
+    if (out == NULL || name == NULL)
         return SS_FAIL_NULL(err);
+    const struct format *format = in == NULL ? ss_format_of_file(name) : NULL;
+    if (format != NULL)
+        return format->open_map(out, name, err);
     ss_status st = read_all(&r, in, name);
     for (size_t i = 0; i < r.n_parts; i++)
         free(r.part[i].w);

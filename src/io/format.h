@@ -6,6 +6,7 @@
 
 #include <stddef.h>
 #include <stdio.h>
+#include <stickslip/morlet.h>
 #include <stickslip/signal.h>
 #include "io/input.h"
 #include "signal/source.h"
@@ -35,6 +36,7 @@ struct format {
     int (*is_file)(const char *path);
     ss_status (*open_file)(ss_source **out, const char *path, const char *place, const ss_read_opts *opts,
                            ss_error *err);
+    ss_status (*open_map)(ss_coefficients **out, const char *path, ss_error *err);     /* the coefficients in it */
 
     /* To write numbers: begin a file with a header whose first line is magic; NULL: no stream is written. */
     ss_status (*begin)(FILE *out, const ss_header *head, const char *magic, ss_error *err);

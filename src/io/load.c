@@ -83,7 +83,7 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
         return SS_FAIL_NULL(err);
     ss_status st = check_regular(path, err);
     if (st == SS_OK)
-        st = ss_signal_load(&signal, path, NULL, err);
+        st = ss_signal_read(&signal, NULL, path, NULL, err);
     if (st != SS_OK)
         return st;
     int c = base_column(signal->head, column);

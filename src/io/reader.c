@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <stickslip/store.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "base/options.h"
 #include "signal/filter.h"
 #include "signal/header.h"
@@ -39,6 +39,52 @@ take_opts(ss_read_opts *opts, const ss_read_opts *given, ss_error *err)
 
 /* --- opening ------------------------------------------------------------------------------- */
 
+#define MOST 1e6                /* samples for each row: a short file cannot fill a disk */
+
+/* Bring the rows to the rate that was asked for, unless a table has brought its own to it. */
+static ss_status
+resample(ss_source **s, const ss_read_opts *opts, ss_error *err)
+{
+    const char *name = (*s)->name;
+    double own = (*s)->head->rate, rate = opts->resample;
+    char text[300];
+    if (!(rate > 0) || !(own < rate || own > rate))
+        return SS_OK;
+    if (!(rate / own <= MOST))
+        return ss_fail(err, SS_EDATA, "%s: each sample would become %.3g at %g Hz; at most %g are made", name,
+                       rate / own, rate, MOST);
+    if (own > rate && opts->warn != NULL) {
+        ss_print_to(text, sizeof text, "%.200s: frequencies above %g Hz fold down", name, rate / 2);
+        opts->warn(SS_OK, text, opts->user);
+    }
+    ss_status st = ss_refuse_range(name, rate, (*s)->head->start, err);
+    return st == SS_OK ? ss_source_resample(s, rate, 0, INFINITY, err) : st;
+}
+
+/* Open the file at a path: a stream becomes reader->file, what only its path opens, with or without ":/" and a place
+ * in it, the reader's source. */
+static ss_status
+open_path(ss_reader *reader, const char *path, const ss_read_opts *opts, ss_error *err)
+{
+    struct stat is;
+    const char *colon = stat(path, &is) != 0 ? strstr(path, ":/") : NULL;
+    char *file = strndup(path, colon != NULL ? (size_t)(colon - path) : strlen(path));
+    if (file == NULL)
+        return ss_fail_memory(err, path);
+    const struct format *format = ss_format_of_file(file);
+    ss_status st = SS_OK;
+    if (format != NULL)
+        st = format->open_file(&reader->source, file, colon != NULL ? colon + 1 : NULL, opts, err);
+    else if (colon != NULL && stat(file, &is) == 0)
+        st = ss_fail(err, SS_EDATA, "%s: not an HDF5 file, so '%s' is not in it", file, colon + 1);
+    else if ((reader->file = fopen(file, "rb")) == NULL)
+        st = ss_fail_errno(err, file, errno);
+    else if (fstat(fileno(reader->file), &is) == 0 && S_ISDIR(is.st_mode))
+        st = ss_fail_errno(err, file, EISDIR);
+    free(file);
+    return st;
+}
+
 ss_status
 ss_reader_open(ss_reader **out, FILE *in, const char *name, struct opening *o, ss_error *err)
 {
@@ -52,12 +98,20 @@ ss_reader_open(ss_reader **out, FILE *in, const char *name, struct opening *o, s
     if (reader == NULL)
         return ss_fail_memory(err, name);
     o->in = &reader->in;
-    st = ss_input_open(&reader->in, in, name, err);
-    reader->in.progress = o->opts->progress;
+    if (in == NULL)
+        st = open_path(reader, name, &opts, err);
+    if (st == SS_OK && reader->source == NULL) {
+        st = ss_input_open(&reader->in, in != NULL ? in : reader->file, name, err);
+        reader->in.progress = opts.progress;
+        if (st == SS_OK)
+            st = ss_format_open(&reader->source, o, err);
+    }
     if (st == SS_OK)
-        st = ss_format_open(&reader->source, o, err);
+        st = ss_source_adjust(&reader->source, &opts, err);
     if (st == SS_OK)
-        st = ss_source_adjust(&reader->source, o->opts, err);
+        st = resample(&reader->source, &opts, err);
+    if (st == SS_OK && opts.rewinds)
+        st = ss_source_keep(&reader->source, opts.folder, err);
     if (st == SS_OK)
         *out = reader;
     else
@@ -68,73 +122,10 @@ ss_reader_open(ss_reader **out, FILE *in, const char *name, struct opening *o, s
 ss_status
 ss_reader_new(ss_reader **out, FILE *in, const char *name, const ss_read_opts *opts, ss_error *err)
 {
-    if (out == NULL || in == NULL || name == NULL)
+    if (out == NULL || name == NULL)
         return SS_FAIL_NULL(err);
     struct opening o = { .opts = opts, .kind = SS_KIND_SIGNAL };
     return ss_reader_open(out, in, name, &o, err);
-}
-
-/* Open a file of a format that only its path opens. */
-static ss_status
-open_place(ss_reader **out, const struct format *format, const char *path, const char *place,
-           const ss_read_opts *given, ss_error *err)
-{
-    ss_read_opts opts;
-    ss_status st = take_opts(&opts, given, err);
-    if (st != SS_OK)
-        return st;
-    ss_reader *reader = calloc(1, sizeof *reader);
-    if (reader == NULL)
-        return ss_fail_memory(err, path);
-    st = format->open_file(&reader->source, path, place, &opts, err);
-    if (st == SS_OK)
-        st = ss_source_adjust(&reader->source, &opts, err);
-    if (st == SS_OK)
-        *out = reader;
-    else
-        ss_reader_free(reader);
-    return st;
-}
-
-static ss_status
-open_stream(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err)
-{
-    struct stat st;
-    FILE *in = fopen(path, "rb");
-    if (in == NULL)
-        return ss_fail_errno(err, path, errno);
-    ss_status status = fstat(fileno(in), &st) == 0 && S_ISDIR(st.st_mode)
-                       ? ss_fail_errno(err, path, EISDIR)
-                       : ss_reader_new(out, in, path, opts, err);
-    if (status == SS_OK)
-        (*out)->file = in;
-    else
-        fclose(in);
-    return status;
-}
-
-ss_status
-ss_reader_load(ss_reader **out, const char *path, const ss_read_opts *opts, ss_error *err)
-{
-    struct stat st;
-    if (out == NULL || path == NULL)
-        return SS_FAIL_NULL(err);
-    *out = NULL;
-    const struct format *format = ss_format_of_file(path);
-    if (format != NULL)
-        return open_place(out, format, path, NULL, opts, err);
-    const char *colon = strstr(path, ":/");
-    if (colon == NULL || stat(path, &st) == 0)
-        return open_stream(out, path, opts, err);
-    char *file = strndup(path, (size_t)(colon - path));
-    if (file == NULL)
-        return ss_fail_memory(err, path);
-    format = ss_format_of_file(file);
-    ss_status status = format != NULL ? open_place(out, format, file, colon + 1, opts, err)
-        : stat(file, &st) != 0 ? ss_fail_errno(err, file, errno)
-        : ss_fail(err, SS_EDATA, "%s: not an HDF5 file, so '%s' is not in it", file, colon + 1);
-    free(file);
-    return status;
 }
 
 void
@@ -184,29 +175,6 @@ ss_reader_rewind(ss_reader *reader, ss_error *err)
 }
 
 ss_status
-ss_reader_keep(ss_reader *reader, const char *folder, ss_error *err)
-{
-    return reader != NULL ? ss_source_keep(&reader->source, folder, err) : SS_FAIL_NULL(err);
-}
-
-#define MOST 1e6                /* samples for each row: a short file cannot fill a disk */
-
-ss_status
-ss_reader_resample(ss_reader *reader, double rate, ss_error *err)
-{
-    if (reader == NULL)
-        return SS_FAIL_NULL(err);
-    if (!(rate > 0) || !isfinite(rate))
-        return ss_fail(err, SS_EINVAL, "nothing can be resampled at %g Hz", rate);
-    const ss_source *s = reader->source;
-    if (!(rate / s->head->rate <= MOST))
-        return ss_fail(err, SS_EDATA, "%s: each sample would become %.3g at %g Hz; at most %g are made",
-                       s->name, rate / s->head->rate, rate, MOST);
-    ss_status st = ss_refuse_range(s->name, rate, s->head->start, err);
-    return st == SS_OK ? ss_source_resample(&reader->source, rate, 0, INFINITY, err) : st;
-}
-
-ss_status
 ss_reader_filter(ss_reader *reader, const ss_filter_opts *opts, ss_error *err)
 {
     return reader != NULL ? ss_source_filter(&reader->source, opts, err) : SS_FAIL_NULL(err);
@@ -230,16 +198,6 @@ ss_reader_of_signal(ss_reader **out, const ss_signal *signal, ss_error *err)
     return SS_ENOMEM;
 }
 
-/* Read all rows of a reader that was opened with this status. */
-static ss_status
-read_all(ss_signal **out, ss_reader *reader, ss_status st, ss_error *err)
-{
-    if (st == SS_OK)
-        st = ss_source_all(out, reader->source, err);
-    ss_reader_free(reader);
-    return st;
-}
-
 ss_status
 ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts, ss_error *err)
 {
@@ -248,16 +206,8 @@ ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *
         return SS_FAIL_NULL(err);
     *out = NULL;
     ss_status st = ss_reader_new(&reader, in, name, opts, err);
-    return read_all(out, reader, st, err);
-}
-
-ss_status
-ss_signal_load(ss_signal **out, const char *path, const ss_read_opts *opts, ss_error *err)
-{
-    ss_reader *reader = NULL;
-    if (out == NULL)
-        return SS_FAIL_NULL(err);
-    *out = NULL;
-    ss_status st = ss_reader_load(&reader, path, opts, err);
-    return read_all(out, reader, st, err);
+    if (st == SS_OK)
+        st = ss_source_all(out, reader->source, err);
+    ss_reader_free(reader);
+    return st;
 }

@@ -67,6 +67,67 @@ note_options(ss_header *head, size_t n, const ss_morlet_opts *opts)
     return failed ? SS_ENOMEM : SS_OK;
 }
 
+static int
+says_yes(const ss_header *head, const char *key)
+{
+    const char *value = ss_header_find_note(head, key);
+    return value != NULL && strcmp(value, "yes") == 0;
+}
+
+/* The number in a note, more than 0 and at most `most`. */
+static ss_status
+read_number(const ss_header *head, const char *key, double most, double *x, ss_error *err)
+{
+    const char *value = ss_header_find_note(head, key);
+    char *end;
+    if (value == NULL || *value == '\0')
+        return ss_fail(err, SS_EDATA, "the coefficients lack their option '%s'", key);
+    *x = ss_number_parse(value, &end);
+    return end > value && *end == '\0' && *x > 0 && *x <= most ? SS_OK
+        : ss_fail(err, SS_EDATA, "the option '%s: %s' is out of range", key, value);
+}
+
+ss_status
+ss_morlet_opts_of_notes(ss_morlet_opts *opts, size_t *samples, const ss_header *head, ss_error *err)
+{
+    const char *norm = ss_header_find_note(head, "norm");
+    double n = 0, voices;
+    *opts = ss_morlet_defaults;
+    opts->dense = says_yes(head, "dense");
+    opts->exact = ss_header_find_note(head, "lattice") == NULL;
+    opts->norm = norm != NULL && strcmp(norm, norm_name[SS_NORM_L1]) == 0 ? SS_NORM_L1 : SS_NORM_L2;
+    opts->admissible = says_yes(head, "admissible");
+    ss_status st = read_number(head, "voices", ss_morlet_ranges.voices.to, &voices, err);
+    if (st == SS_OK)
+        st = read_number(head, "center", ss_morlet_ranges.center.to, &opts->center, err);
+    if (st == SS_OK && !opts->dense)
+        st = read_number(head, "step", 1e100, &opts->step, err);
+    if (st == SS_OK && (ss_header_find_note(head, "samples") != NULL || !says_yes(head, "stream")))
+        st = read_number(head, "samples", 0x1p53, &n, err);
+    if (st != SS_OK)
+        return st;
+    if (n != floor(n) || voices != floor(voices))
+        return ss_fail(err, SS_EDATA, "samples and voices are not whole numbers");
+    *samples = (size_t)n;
+    opts->voices = (int)voices;
+    return SS_OK;
+}
+
+ss_status
+ss_coefficients_take_notes(ss_coefficients *map, ss_morlet_opts *opts, ss_error *err)
+{
+    const char *column = ss_header_find_note(map->head, "column"), *unit = ss_header_find_note(map->head, "unit");
+    ss_status st = ss_morlet_opts_of_notes(opts, &map->n, map->head, err);
+    if (st == SS_OK && (column == NULL || *column == '\0'))
+        st = ss_fail(err, SS_EDATA, "the coefficients lack their option 'column'");
+    if (st == SS_OK && ss_morlet_check(map->n > 0 ? map->n : 1, map->head->rate, opts, err) != SS_OK)
+        st = SS_EDATA;
+    if (st == SS_OK)
+        st = ss_header_gaps(&map->gap, &map->n_gaps, map->head, err);
+    map->center = opts->center;
+    return st == SS_OK ? ss_header_add_column(map->head, column, unit, err) : st;
+}
+
 ss_status
 ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
                        const ss_morlet_opts *given, ss_error *err)

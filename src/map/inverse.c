@@ -36,7 +36,7 @@ typedef struct solver {
     block_sums *sums;               /* NULL: no scale is computed in blocks */
     wavelet **wave;                 /* of each scale that is not */
     double *x, *gradient, *step, *image;
-    double *part, *scratch;
+    double *part, *given, *scratch; /* given: the coefficients of a part */
     double unit[2];                 /* the coefficients are times both */
     int exponent;                   /* all of these are divided by 2^exponent */
     double bounds;                  /* the upper frame bound over the lower one */
@@ -66,12 +66,13 @@ norm2(const double *x, size_t n)
 }
 
 /* w becomes the coefficients that are given, a part of scale i, less w. */
-static void
-subtract(const solver *s, size_t i, span part, double *w)
+static ss_status
+subtract(const solver *s, size_t i, span part, double *w, ss_error *err)
 {
-    const double *given = s->coef->w + 2 * (s->coef->scale[i].offset + part.first);
-    for (size_t k = 0; k < 2 * part.n; k++)
-        w[k] = given[k] * s->unit[0] * s->unit[1] - w[k];
+    ss_status st = ss_map_read(s->coef, &(ss_map_part){ i, part.first, part.n, s->given, NULL }, 1, err);
+    for (size_t k = 0; st == SS_OK && k < 2 * part.n; k++)
+        w[k] = s->given[k] * s->unit[0] * s->unit[1] - w[k];
+    return st;
 }
 
 /* Add the adjoint of a part of scale i to samples, those of blocks not before the sums' end. */
@@ -97,10 +98,10 @@ one_scale(solver *s, size_t i, const record *rec, const spectra *sp, int rest, d
         n = ss_morlet_part_length(s->plan, i, k);
         span part = { k, n < sc->n - k ? n : sc->n - k };
         ss_status st = ss_morlet_part(s->plan, i, rec, sp, s->scratch, s->wave[i], part, &most, s->part, err);
+        if (st == SS_OK && rest)
+            st = subtract(s, i, part, s->part, err);
         if (st != SS_OK)
             return st;
-        if (rest)
-            subtract(s, i, part, s->part);
         sum += norm2(s->part, 2 * part.n);
         add_adjoint(s, i, part, s->part, to);
     }
@@ -267,46 +268,17 @@ find_bounds(solver *s)
 
 /* --- the plan that made them ------------------------------------------------------------------ */
 
-static int
-note_says(const ss_coefficients *c, const char *key, const char *value)
-{
-    const char *note = ss_header_find_note(c->head, key);
-    return note != NULL && strcmp(note, value) == 0;
-}
-
-static ss_status
-read_options(const ss_coefficients *c, ss_morlet_opts *opts, ss_error *err)
-{
-    static const char *const needed[] = { "voices", "norm", "admissible" };
-    const char *step = ss_header_find_note(c->head, "step");
-    const ss_scale *longest = &c->scale[0], *shortest = &c->scale[c->n_scales - 1];
-    char *end;
-    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
-        if (ss_header_find_note(c->head, needed[i]) == NULL)
-            return ss_fail(err, SS_EDATA, "the coefficients lack their option '%s'", needed[i]);
-    *opts = ss_morlet_defaults;
-    opts->center = c->center;
-    opts->voices = (int)ss_number_parse(ss_header_find_note(c->head, "voices"), &end);
-    opts->dense = note_says(c, "dense", "yes");
-    opts->exact = ss_header_find_note(c->head, "lattice") == NULL;
-    if (!opts->dense)
-        opts->step = step != NULL ? ss_number_parse(step, &end)
-            : longest->b_num / longest->b_den / longest->a;
-    opts->norm = note_says(c, "norm", "l1") ? SS_NORM_L1 : SS_NORM_L2;
-    opts->admissible = note_says(c, "admissible", "yes");
-    opts->octaves = opts->force = 1;
-    opts->m0 = shortest->m;
-    opts->m1 = longest->m;
-    opts->accuracy = 1e-12;
-    return SS_OK;
-}
-
 static ss_status
 make_plan(solver *s, ss_error *err)
 {
     const ss_coefficients *c = s->coef;
     ss_morlet_opts opts;
-    ss_status st = read_options(c, &opts, err);
+    size_t n;
+    ss_status st = ss_morlet_opts_of_notes(&opts, &n, c->head, err);
+    opts.octaves = opts.force = 1;
+    opts.m0 = c->scale[c->n_scales - 1].m;
+    opts.m1 = c->scale[0].m;
+    opts.accuracy = 1e-12;
     if (st != SS_OK || (st = ss_morlet_new(&s->plan, c->n, c->head->rate, &opts, err)) != SS_OK)
         return st;
     int same = s->plan->n_scales == c->n_scales;
@@ -317,34 +289,40 @@ make_plan(solver *s, ss_error *err)
 }
 
 /* Choose the power of two with which the coefficients' squares neither overflow nor vanish. */
-static void
-choose_unit(solver *s)
+static ss_status
+choose_unit(solver *s, size_t most, ss_error *err)
 {
     const ss_coefficients *c = s->coef;
-    double most = 0;
+    double largest = 0;
+    ss_status st = SS_OK;
     for (size_t i = 0; i < c->n_scales; i++)
-        for (size_t k = 2 * c->scale[i].offset; k < 2 * (c->scale[i].offset + c->scale[i].n); k++)
-            most = fmax(most, fabs(c->w[k]));
-    frexp(most, &s->exponent);
+        for (size_t k = 0, n; st == SS_OK && k < c->scale[i].n; k += n) {
+            n = c->scale[i].n - k < most ? c->scale[i].n - k : most;
+            st = ss_map_read(c, &(ss_map_part){ i, k, n, s->given, NULL }, 1, err);
+            for (size_t v = 0; st == SS_OK && v < 2 * n; v++)
+                largest = fmax(largest, fabs(s->given[v]));
+        }
+    frexp(largest, &s->exponent);
     s->unit[0] = ldexp(1, -s->exponent / 2);
     s->unit[1] = ldexp(1, -s->exponent - -s->exponent / 2);
+    return st;
 }
 
 static ss_status
-make_room(solver *s)
+make_room(solver *s, ss_error *err)
 {
     const ss_morlet *plan = s->plan;
     size_t n = plan->n, most = 0;
-    choose_unit(s);
     for (size_t i = 0; i < plan->n_scales; i++)
         most = plan->scale[i].n > most ? plan->scale[i].n : most;
     most = most < ss_morlet_part_most(plan) ? most : ss_morlet_part_most(plan);
     s->wave = calloc(plan->n_scales, sizeof(wavelet *));
     s->part = malloc(2 * most * sizeof *s->part);
+    s->given = malloc(2 * most * sizeof *s->given);
     s->gradient = malloc(n * sizeof *s->gradient);
     s->step = malloc(n * sizeof *s->step);
     s->image = malloc(n * sizeof *s->image);
-    if (s->wave == NULL || s->part == NULL || s->gradient == NULL || s->step == NULL
+    if (s->wave == NULL || s->part == NULL || s->given == NULL || s->gradient == NULL || s->step == NULL
         || s->image == NULL || ss_morlet_scratch(plan, &s->scratch) != SS_OK)
         return SS_ENOMEM;
     if (plan->blocks != NULL && (s->sums = ss_block_sums_new(plan->blocks)) == NULL)
@@ -353,7 +331,7 @@ make_room(solver *s)
         if (!ss_blocks_covers(plan->blocks, i)
             && (s->wave[i] = ss_wavelet_new(&plan->opts, plan->scale[i].a, plan->rate, n)) == NULL)
             return SS_ENOMEM;
-    return SS_OK;
+    return choose_unit(s, most, err);
 }
 
 static void
@@ -363,6 +341,7 @@ release(solver *s)
         ss_wavelet_free(s->wave[i]);
     free(s->wave);
     free(s->part);
+    free(s->given);
     free(s->gradient);
     free(s->step);
     free(s->image);
@@ -390,7 +369,7 @@ ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double t
         st = ss_fail(err, SS_ESCALE, "the grid is too coarse to be inverted, its frame bounds being "
                      "a factor of %.3g apart; more voices or a smaller step are needed", s.bounds);
     if (st == SS_OK)
-        st = make_room(&s);
+        st = make_room(&s, err);
     if (st == SS_OK)
         st = ss_signal_new(out, coefficients->head, coefficients->n, NULL);
     if (st == SS_OK) {

@@ -12,6 +12,12 @@
 #define SS_LATTICE "b = n B, B the largest 2^p/m samples <= step a, m of 1 3 5 7 9 15 21 25 35 45"
 /* The names of all notes that describe coefficients, as ss_header_forget takes them. */
 extern const char *const ss_coefficient_notes[];
+/* The options from which a grid follows, as these notes have them, and the number of samples; 0: a stream has
+ * not ended.  SS_EDATA. */
+ss_status ss_morlet_opts_of_notes(ss_morlet_opts *opts, size_t *samples, const ss_header *head, ss_error *err);
+/* The same for a map that is read and has but the notes of its head: its n and center and the column of head
+ * are set. */
+ss_status ss_coefficients_take_notes(ss_coefficients *map, ss_morlet_opts *opts, ss_error *err);
 /* The share of the promised 16 eps for the parts of the wavelet that are left out. */
 #define TAIL_FLOOR (4 * DBL_EPSILON)
 #define REACH 8.5                       /* exp(-REACH^2/2) = 2e-16 */

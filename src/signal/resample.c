@@ -230,29 +230,3 @@ ss_resample_count(double first, double last, double rate)
 {
     return floor((last - first) * rate + AT_END) + 1;
 }
-
-ss_status
-ss_signal_resample(ss_signal **out, const ss_signal *signal, double rate, ss_error *err)
-{
-    if (out == NULL || signal == NULL)
-        return SS_FAIL_NULL(err);
-    const ss_header *head = signal->head;
-    size_t n = signal->n;
-    *out = NULL;
-    if (n < 2 || !(rate > 0) || !isfinite(rate))
-        return ss_fail(err, SS_EINVAL, "%zu sample%s cannot be resampled at %g Hz", n, PLURAL(n), rate);
-    ss_status st = ss_refuse_range("signal", rate, head->start, err);
-    if (st != SS_OK)
-        return st;
-    double samples = ss_resample_count(head->start, head->start + (double)(n - 1) / head->rate, rate);
-    if (!(samples < (double)(SIZE_MAX / sizeof samples / (head->n_columns + 1) / 2)))
-        return ss_fail_memory(err, NULL);
-    ss_source *s = ss_source_of_signal(signal, "signal", err);
-    st = s != NULL ? ss_source_resample(&s, rate, 0, INFINITY, err) : SS_ENOMEM;
-    if (st == SS_OK) {
-        s->length = (uint64_t)samples;          /* so that all of it finds room at once */
-        st = ss_source_all(out, s, err);
-    }
-    ss_source_free(s);
-    return st;
-}

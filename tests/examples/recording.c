@@ -47,7 +47,7 @@ main(int argc, char *argv[])
     opts.detrend = SS_DETREND_MEAN;
     opts.norm = SS_NORM_L1;             /* a sine then reads at its own frequency */
 
-    ss_status status = ss_signal_load(&signal, argv[1], &read, &err);
+    ss_status status = ss_signal_read(&signal, NULL, argv[1], &read, &err);
     int column = status == SS_OK ? ss_header_column(signal->head, argv[2]) : -1;
     if (status == SS_OK && column < 0) {
         snprintf(err.text, sizeof err.text, "%s: no column '%.40s'", argv[1], argv[2]);

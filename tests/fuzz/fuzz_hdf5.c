@@ -44,21 +44,20 @@ static void
 read_coefficients(const uint8_t *bytes, size_t size)
 {
     ss_error err = { 0 };
-    h5_file file = { .id = open_image(bytes, size), .path = "in", .err = &err };
-    if (file.id < 0)
+    ss_coefficients *c = NULL;
+    hid_t id = open_image(bytes, size);
+    if (id < 0)
         return;
-    wavelet_reader reader = { .file = &file };
-    ss_coefficients *c = calloc(1, sizeof *c);
-    ss_status status = c != NULL ? ss_wavelet_reader_open(&reader, &file, c) : SS_ENOMEM;
-    double *w = status == SS_OK ? malloc(2 * reader.total * sizeof *w) : NULL;
-    for (size_t i = 0; w != NULL && status == SS_OK && i < c->n_scales; i++)
-        status = ss_wavelet_reader_scale(&reader, c, i, w + 2 * c->scale[i].offset);
+    ss_status status = ss_h5_begin_coefficients(&c, id, "in", &err);
+    for (size_t i = 0; status == SS_OK && i < c->n_scales; i++) {
+        size_t n = c->scale[i].n;
+        double *w = malloc(2 * n * sizeof *w);
+        status = w != NULL ? ss_map_read(c, &(ss_map_part){ i, 0, n, w, NULL }, 1, &err) : SS_ENOMEM;
+        free(w);
+    }
     if (status != SS_OK && status != SS_ENOMEM)
         fuzz_check_refusal(status == SS_EIO ? SS_EDATA : status, &err);
-    free(w);
-    ss_wavelet_reader_close(&reader);
     ss_coefficients_free(c);
-    ss_h5_close(&file);
 }
 
 int

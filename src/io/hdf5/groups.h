@@ -80,22 +80,9 @@ ss_status ss_wavelet_writer_append(wavelet_writer *w, size_t i, size_t n, const 
 ss_status ss_wavelet_writer_end(wavelet_writer *w, size_t samples);
 void ss_wavelet_writer_free(wavelet_writer *w);
 
-typedef struct wavelet_reader {
-    h5_file *file;
-    ss_coefficients *grid;      /* while it is read */
-    int dense;
-    hid_t group, part[2];       /* part: re and im, if dense, else -1 */
-    size_t total;               /* coefficients of all scales */
-    double *row;                /* the longest, re or im */
-} wavelet_reader;
-
-/* Read the grid of a map that has nothing yet; to be closed even after a failure. */
-ss_status ss_wavelet_reader_open(wavelet_reader *r, h5_file *file, ss_coefficients *map);
-/* The coefficients of scale i, as pairs. */
-ss_status ss_wavelet_reader_scale(wavelet_reader *r, const ss_coefficients *map, size_t i, double *w);
-void ss_wavelet_reader_close(wavelet_reader *r);        /* the file stays open */
-
-/* The coefficients of a file, which stay there (read.c). */
+/* The coefficients of a file, which stay there (wavelet_reader.c). */
 ss_status ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err);
+/* The same for a file that is open, unless id < 0, and becomes the map's. */
+ss_status ss_h5_begin_coefficients(ss_coefficients **out, hid_t id, const char *path, ss_error *err);
 
 #endif

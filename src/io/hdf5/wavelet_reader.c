@@ -1,249 +1,226 @@
-/* wavelet_reader.c -- read the coefficients of /wavelet, scale by scale.
+/* wavelet_reader.c -- the coefficients of /wavelet as a map, which stay in the file.
  *
- * Another program may have changed a file, so every size is checked before it is used: the sizes of
- * datasets must agree with each other, and sizes in attributes with the datasets. */
+ * The notes hold the options of the transform and j the numbers of its scales: the grid follows from these.
+ * Another program may have changed a file, so every dataset must have the size that the grid gives. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 #include "io/hdf5/groups.h"
+#include "map/plan.h"
+
+/* The source of a map that lies in a file. */
+typedef struct file_source {
+    ss_map_source source;               /* must be the first member */
+    h5_file file;
+    char *path;
+    ss_error error;
+    hid_t group, part[2];               /* part: re and im, if dense, else -1 */
+    int dense;
+    double *row;                        /* room for re or im of the longest scale */
+    double *w;                          /* the coefficients of scale `held`; NULL: of none yet */
+    size_t longest, held;
+} file_source;
 
 static const char *const part_name[] = { "re", "im" };
 
-static ss_status
-add_grid_column(h5_file *file, hid_t group, ss_header *head)
-{
-    char *name = NULL, *unit = NULL;
-    ss_status status = ss_h5_get_text(file, group, "column", &name);
-    if (status == SS_OK)
-        status = ss_h5_get_text(file, group, "column_units", &unit);
-    if (status == SS_OK && name != NULL && name[0] != '\0')
-        status = ss_header_add_column(head, name, unit, NULL);
-    free(name);
-    free(unit);
-    return status;
-}
-
-static ss_status
-get_lattice(h5_file *file, hid_t group, ss_scale *scale)
-{
-    ss_status status = ss_h5_need_number(file, group, "b_num", 1e-300, 1e300, &scale->b_num);
-    if (status == SS_OK)
-        status = ss_h5_need_number(file, group, "b_den", 1e-300, 1e300, &scale->b_den);
-    return status;
-}
-
-/* SS_EDATA unless scale i is one of this record's grid, and shorter than the one before. */
-static ss_status
-check_scale(const wavelet_reader *r, hid_t group, size_t i)
-{
-    const ss_coefficients *c = r->grid;
-    const ss_scale *s = &c->scale[i];
-    double last = (double)(c->n - 1) / c->head->rate;
-    const char *wrong = !(fabs(s->a / exp2(s->m) - 1) < 1e-12)
-                        || !(fabs(s->f * 2 * M_PI * s->a / c->center - 1) < 1e-12)
-                        ? "scale, m and frequency do not agree"
-                        : i > 0 && !(s->a < s[-1].a)
-                        ? "the scales do not descend"
-                        : s->n == 0 || !(ss_scale_b(s, s->n - 1) <= last && ss_scale_b(s, s->n) > last)
-                        ? "the translations are not those that the record has room for" : NULL;
-    return wrong == NULL ? SS_OK : ss_h5_fail(r->file, SS_EDATA, group, "", wrong);
-}
-
-/* Give the next n of all coefficients to this scale. */
-static ss_status
-add_scale(wavelet_reader *r, ss_scale *scale, size_t n)
-{
-    if (n > SIZE_MAX / (2 * sizeof(double)) - r->total)
-        return SS_ENOMEM;
-    scale->n = n;
-    scale->offset = r->total;
-    r->total += n;
-    return SS_OK;
-}
+/* --- the grid ------------------------------------------------------------------------------ */
 
 static hid_t
-open_scale(hid_t parent, size_t i)
+open_scale(const file_source *s, char name[32], size_t i)
 {
-    char name[32];
-    snprintf(name, sizeof name, "scale%03zu", i);
-    return ss_h5_open_group(parent, name);
+    snprintf(name, 32, "scale%03zu", i);
+    return ss_h5_open_group(s->group, name);
 }
 
+/* SS_EDATA unless re and im have this shape, a row a scale if they are rectangles. */
 static ss_status
-get_scale(wavelet_reader *r, size_t i)
+check_parts(file_source *s, hid_t group, size_t rows, size_t n)
 {
-    double j;
-    h5_file *file = r->file;
-    ss_scale *scale = &r->grid->scale[i];
-    size_t n = 0, n_im;
-    ss_status status;
-    hid_t group = open_scale(r->group, i);
-    if (group < 0) {
-        char name[32];
-        snprintf(name, sizeof name, "scale%03zu", i);
-        return ss_h5_fail(file, SS_EDATA, r->group, name, "no such group");
-    }
-    if ((status = ss_h5_need_number(file, group, "j", -1e6, 1e6, &j)) == SS_OK
-        && (status = ss_h5_need_number(file, group, "m", -1e4, 1e4, &scale->m)) == SS_OK
-        && (status = ss_h5_need_number(file, group, "scale", 1e-300, 1e300, &scale->a)) == SS_OK
-        && (status = ss_h5_need_number(file, group, "frequency", 1e-300, 1e300, &scale->f)) == SS_OK
-        && (status = get_lattice(file, group, scale)) == SS_OK
-        && (status = ss_h5_read_size(file, group, "re", &n)) == SS_OK
-        && (status = ss_h5_read_size(file, group, "im", &n_im)) == SS_OK
-        && (status = add_scale(r, scale, n)) == SS_OK
-        && (status = check_scale(r, group, i)) == SS_OK)
-        scale->j = (int)j;
-    H5Gclose(group);
-    return status;
-}
-
-/* SS_EDATA unless a dataset is a rectangle with a row for each scale and a value for each sample. */
-static ss_status
-check_rectangle(const wavelet_reader *r, const char *name)
-{
-    const ss_coefficients *c = r->grid;
-    hid_t group = r->group;
-    size_t claimed;
-    ss_status status = ss_h5_read_size(r->file, group, name, &claimed);
-    if (status != SS_OK)
-        return status;
-    hsize_t dims[H5S_MAX_RANK] = { 0 };
-    hid_t id = ss_h5_open_dataset(group, name), space = H5Dget_space(id);
-    int good = H5Sget_simple_extent_ndims(space) == 2
-        && H5Sget_simple_extent_dims(space, dims, NULL) == 2
-        && dims[0] == c->n_scales && dims[1] == c->n;
-    H5Sclose(space);
-    H5Dclose(id);
-    return good ? SS_OK
-        : ss_h5_fail(r->file, SS_EDATA, group, name, "not a row a scale of a value a sample");
-}
-
-/* Read the scales of rectangles; each of their numbers is a dataset. */
-static ss_status
-get_dense(wavelet_reader *r)
-{
-    static const char *const name[] = { "m", "scale", "frequency", "j" };
-    h5_file *file = r->file;
-    hid_t group = r->group;
-    size_t n = r->grid->n_scales;
-    ss_status status = check_rectangle(r, "re");
-    if (status == SS_OK)
-        status = check_rectangle(r, "im");
-    double *row = malloc((4 * n + 1) * sizeof *row);
-    if (row == NULL)
-        status = SS_ENOMEM;
-    for (size_t k = 0; status == SS_OK && k < 4; k++) {
-        status = ss_h5_read_values(file, group, name[k], row + k * n, n);
-        if (status == SS_OK)
-            status = ss_h5_check_finite(file, group, name[k], row + k * n, n);
-    }
-    for (size_t i = 0; status == SS_OK && i < n; i++) {
-        ss_scale *scale = &r->grid->scale[i];
-        scale->m = row[i];
-        scale->a = row[n + i];
-        scale->f = row[2 * n + i];
-        if (!(scale->a >= 1e-300 && scale->f >= 1e-300 && fabs(row[3 * n + i]) <= 1e6)) {
-            status = ss_h5_fail(file, SS_EDATA, group, "scale", "a scale is out of range");
+    ss_status st = SS_OK;
+    for (int k = 0; st == SS_OK && k < 2; k++) {
+        hsize_t dims[H5S_MAX_RANK] = { 0 };
+        size_t claimed;
+        if ((st = ss_h5_read_size(&s->file, group, part_name[k], &claimed)) != SS_OK)
             break;
-        }
-        scale->j = (int)row[3 * n + i];
-        if ((status = get_lattice(file, group, scale)) == SS_OK
-            && (status = add_scale(r, scale, r->grid->n)) == SS_OK)
-            status = check_scale(r, group, i);
+        hid_t id = ss_h5_open_dataset(group, part_name[k]), space = H5Dget_space(id);
+        int rank = H5Sget_simple_extent_dims(space, dims, NULL);
+        H5Sclose(space);
+        H5Dclose(id);
+        if (rank != 1 + s->dense || dims[rank - 1] != n || (s->dense && dims[0] != rows))
+            st = ss_h5_fail(&s->file, SS_EDATA, group, part_name[k], "not the coefficients of the grid that the "
+                            "notes give");
     }
-    free(row);
-    return status;
+    return st;
 }
 
-/* Read the scales, without their coefficients. */
 static ss_status
-read_grid(wavelet_reader *r)
+add_scale(file_source *s, ss_coefficients *map, double j, const ss_morlet_opts *opts)
 {
-    h5_file *file = r->file;
-    hid_t group = r->group;
-    ss_coefficients *c = r->grid;
-    double rate, samples, scales, number;
-    ss_status status;
-    if ((status = ss_h5_read_header(file, group, &c->head)) != SS_OK
-        || (status = add_grid_column(file, group, c->head)) != SS_OK
-        || (status = ss_h5_need_number(file, group, "rate", 1e-100, 1e100, &rate)) != SS_OK
-        || (status = ss_h5_need_number(file, group, "samples", 1, H5_MAX_VALUES, &samples)) != SS_OK
-        || (status = ss_h5_need_number(file, group, "scales", 1, 1e6, &scales)) != SS_OK
-        || (status = ss_h5_need_number(file, group, "center", 2, 1000, &c->center)) != SS_OK
-        || (status = ss_h5_need_number(file, group, "dense", 0, 1, &number)) != SS_OK)
-        return status;
-    c->n = (size_t)samples;
-    c->n_scales = (size_t)scales;
-    c->scale = calloc(c->n_scales + 1, sizeof *c->scale);
-    if (c->scale == NULL)
-        return SS_ENOMEM;
-    r->dense = number != 0;
-    if (r->dense)
-        status = get_dense(r);
-    for (size_t i = 0; status == SS_OK && !r->dense && i < c->n_scales; i++)
-        status = get_scale(r, i);
-    return status == SS_OK ? ss_header_gaps(&c->gap, &c->n_gaps, c->head, NULL) : status;
+    size_t i = map->n_scales;
+    ss_scale *scale = &map->scale[i];
+    ss_error why = { 0 };
+    char name[32];
+    if (!(fabs(j) <= 500.0 * opts->voices) || j != rint(j) || (i > 0 && !(j < scale[-1].j)))
+        return ss_h5_fail(&s->file, SS_EDATA, s->group, "j", "not numbers of scales that descend");
+    if (ss_morlet_scale_at(scale, (int)j, NAN, map->n, map->head->rate, opts, &why) != SS_OK)
+        return ss_h5_fail(&s->file, SS_EDATA, s->group, "j", why.text);
+    scale->offset = i > 0 ? scale[-1].offset + scale[-1].n : 0;
+    map->n_scales++;
+    s->longest = scale->n > s->longest ? scale->n : s->longest;
+    if (s->dense)
+        return scale->n == map->n ? SS_OK : ss_h5_fail(&s->file, SS_EDATA, s->group, "", "not dense, as it says");
+    hid_t group = open_scale(s, name, i);
+    ss_status st = group < 0 ? ss_h5_fail(&s->file, SS_EDATA, s->group, name, "no such group")
+        : check_parts(s, group, 1, scale->n);
+    H5Gclose(group);
+    return st;
 }
 
-ss_status
-ss_wavelet_reader_open(wavelet_reader *r, h5_file *file, ss_coefficients *map)
+static ss_status
+read_grid(file_source *s, ss_coefficients *map)
 {
-    size_t longest = 0;
-    r->file = file;
-    r->group = r->part[0] = r->part[1] = -1;
-    r->grid = map;
+    h5_file *file = &s->file;
+    ss_morlet_opts opts;
+    ss_error why = { 0 };
+    double dense, *j = NULL;
+    size_t n = 0;
     if (H5Lexists(file->id, "wavelet", H5P_DEFAULT) <= 0)
-        return ss_fail_wanted(ss_h5_fail(file, SS_EKIND, 0, "", "no /wavelet in it"),
-                              SS_KIND_COEFFICIENTS, file->err);
-    r->group = ss_h5_open_group(file->id, "wavelet");
-    if (r->group < 0)
+        return ss_fail_wanted(ss_h5_fail(file, SS_EKIND, 0, "", "no /wavelet in it"), SS_KIND_COEFFICIENTS, file->err);
+    if ((s->group = ss_h5_open_group(file->id, "wavelet")) < 0)
         return ss_h5_fail(file, SS_EDATA, 0, "/wavelet", "not a group of this file");
-    ss_status status = read_grid(r);
-    if (status != SS_OK)
-        return status;
-    for (size_t i = 0; i < r->grid->n_scales; i++)
-        longest = r->grid->scale[i].n > longest ? r->grid->scale[i].n : longest;
-    for (int k = 0; k < 2 && r->dense; k++)
-        r->part[k] = ss_h5_open_dataset(r->group, part_name[k]);
-    r->row = malloc(longest * sizeof *r->row);
-    return r->row != NULL ? SS_OK : SS_ENOMEM;
+    ss_status st = ss_h5_read_header(file, s->group, &map->head);
+    if (st == SS_OK)
+        st = ss_h5_need_number(file, s->group, "dense", 0, 1, &dense);
+    if (st == SS_OK)
+        st = ss_h5_read_size(file, s->group, "j", &n);
+    if (st == SS_OK && (st = ss_coefficients_take_notes(map, &opts, &why)) == SS_EDATA)
+        return ss_h5_fail(file, st, 0, "", why.text);
+    if (st == SS_OK && map->n == 0)
+        return ss_h5_fail(file, SS_EDATA, 0, "", "the note 'samples' is missing");
+    if (st != SS_OK)
+        return st;
+    s->dense = dense != 0;
+    map->scale = calloc(n + 1, sizeof *map->scale);
+    j = malloc((n + 1) * sizeof *j);
+    st = map->scale == NULL || j == NULL ? SS_ENOMEM
+        : n == 0 ? ss_h5_fail(file, SS_EDATA, s->group, "j", "no scales")
+        : ss_h5_read_values(file, s->group, "j", j, n);
+    if (st == SS_OK && s->dense)
+        st = check_parts(s, s->group, n, map->n);
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        st = add_scale(s, map, j[i], &opts);
+    free(j);
+    for (int k = 0; st == SS_OK && s->dense && k < 2; k++)
+        s->part[k] = ss_h5_open_dataset(s->group, part_name[k]);
+    if (st == SS_OK && (s->row = malloc(s->longest * sizeof *s->row)) == NULL)
+        st = SS_ENOMEM;
+    return st;
 }
 
-/* Read row i of re (k = 0) or im (k = 1) of a rectangle. */
+/* --- the coefficients ---------------------------------------------------------------------- */
+
+/* Read all of scale i. */
 static ss_status
-read_row(wavelet_reader *r, int k, size_t i, size_t n)
+read_scale(file_source *s, size_t i, size_t n, double *w)
 {
     const hsize_t at[2] = { i, 0 }, count[2] = { 1, n };
-    return ss_h5_read_piece(r->part[k], 2, at, count, r->row) ? SS_OK
-        : ss_h5_fail(r->file, SS_EIO, r->group, part_name[k], "cannot be read");
+    char name[32];
+    hid_t group = s->dense ? s->group : open_scale(s, name, i);
+    ss_status st = SS_OK;
+    for (size_t k = 0; st == SS_OK && k < 2; k++) {
+        if (!s->dense)
+            st = ss_h5_read_values(&s->file, group, part_name[k], s->row, n);
+        else if (!ss_h5_read_piece(s->part[k], 2, at, count, s->row))
+            st = ss_h5_fail(&s->file, SS_EIO, group, part_name[k], "cannot be read");
+        if (st == SS_OK)
+            st = ss_h5_check_finite(&s->file, group, part_name[k], s->row, n);
+        for (size_t c = 0; st == SS_OK && c < n; c++)
+            w[2 * c + k] = s->row[c];
+    }
+    if (!s->dense)
+        H5Gclose(group);
+    return st;
+}
+
+/* HDF5 takes as long for a part of a scale as for all of it: the last one is kept. */
+static ss_status
+read_parts(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err)
+{
+    file_source *s = (file_source *)map->source;
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        size_t scale = part[i].scale;
+        int all = part[i].w != NULL && part[i].n == map->scale[scale].n;
+        if (!all && s->w == NULL && (s->w = malloc(2 * s->longest * sizeof *s->w)) == NULL)
+            return ss_fail_memory(err, s->path);
+        double *whole = all ? part[i].w : s->w;
+        if (all || s->held != scale)
+            QUIETLY(
+                st = read_scale(s, scale, map->scale[scale].n, whole);
+            );
+        if (!all)
+            s->held = st == SS_OK ? scale : SIZE_MAX;
+        if (st == SS_OK && !all)
+            ss_map_give(&part[i], 0, part[i].n, s->w + 2 * part[i].first);
+    }
+    if (st != SS_OK && err != NULL)
+        *err = s->error;
+    return st;
+}
+
+static void
+close_file(ss_map_source *source)
+{
+    file_source *s = (file_source *)source;
+    QUIETLY(
+        H5Dclose(s->part[0]);
+        H5Dclose(s->part[1]);
+        H5Gclose(s->group);
+        ss_h5_close(&s->file);
+    );
+    free(s->path);
+    free(s->row);
+    free(s->w);
+    free(s);
 }
 
 ss_status
-ss_wavelet_reader_scale(wavelet_reader *r, const ss_coefficients *map, size_t i, double *w)
+ss_h5_begin_coefficients(ss_coefficients **out, hid_t id, const char *path, ss_error *err)
 {
-    size_t n = map->scale[i].n;
-    hid_t group = r->dense ? r->group : open_scale(r->group, i);
-    ss_status status = SS_OK;
-    for (size_t k = 0; status == SS_OK && k < 2; k++) {
-        status = r->dense ? read_row(r, (int)k, i, n)
-                          : ss_h5_read_values(r->file, group, part_name[k], r->row, n);
-        if (status == SS_OK)
-            status = ss_h5_check_finite(r->file, group, part_name[k], r->row, n);
-        for (size_t c = 0; status == SS_OK && c < n; c++)
-            w[2 * c + k] = r->row[c];
+    ss_coefficients *map = calloc(1, sizeof *map);
+    file_source *s = calloc(1, sizeof *s);
+    if (map == NULL || s == NULL) {
+        free(map);
+        free(s);
+        return ss_fail_memory(err, path);
     }
-    if (!r->dense)
-        H5Gclose(group);
-    return status;
+    *s = (file_source){ .source = { read_parts, close_file }, .held = SIZE_MAX, .path = strdup(path), .group = -1,
+                        .part = { -1, -1 } };
+    s->file = (h5_file){ .id = id, .path = s->path, .err = &s->error };
+    map->source = &s->source;
+    ss_status st = SS_ENOMEM;
+    if (s->path != NULL)
+        QUIETLY(
+            st = id < 0 ? ss_h5_open(&s->file) : SS_OK;
+            if (st == SS_OK)
+                st = read_grid(s, map);
+        );
+    if (st == SS_ENOMEM)
+        ss_fail_memory(err, path);
+    else if (st != SS_OK && err != NULL)
+        *err = s->error;
+    if (st == SS_OK)
+        *out = map;
+    else
+        ss_coefficients_free(map);
+    return st;
 }
 
-void
-ss_wavelet_reader_close(wavelet_reader *r)
+ss_status
+ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err)
 {
-    H5Dclose(r->part[0]);
-    H5Dclose(r->part[1]);
-    H5Gclose(r->group);
-    free(r->row);
+    return ss_h5_begin_coefficients(out, -1, path, err);
 }
