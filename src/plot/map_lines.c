@@ -1,8 +1,7 @@
 /* map_lines.c -- draw lines of equal value on a map, and their labels.
  *
- * isoline.c traces the lines.  Each level has a label on at least one line; the lines with the
- * fewest places for a label get theirs first.  Another long line has a label if it covers no other
- * label. */
+ * isoline.c traces the lines.  Each level has a label on the longest of its lines: in the middle, or at the place
+ * nearest to it where the label covers no other; if there is none, where it covers least. */
 #include "plot/map.h"
 
 #include <math.h>
@@ -13,27 +12,27 @@
 #include "base/sort.h"
 #include "plot/isoline.h"
 
-enum { LEVELS_MAX = 40, LABELS_MAX = 80 };
-#define LONG 0.15                       /* least length of a line with a second label, in widths of the map */
+enum { LEVELS_MAX = 40 };
 #define RIM 0.04                        /* labels avoid the border of the map by this */
 #define TALL 0.055                      /* the height of a label and its rim, in heights of the map */
 
-/* A piece of a line; the values at all corners of its cells are known. */
-typedef struct piece {
-    size_t first, n;                /* of the points */
-    double level, length;           /* [widths of the map] */
-    int is_longest;                 /* of its level */
-} piece;
+typedef struct label {
+    double point[2];                /* in units of the grid */
+    double at[2], width;            /* in widths and heights of the map */
+    double level;
+} label;
 
 typedef struct lines {
     FILE *out;
     const map_grid *g;
     const double *height;
     double level;
-    double (*point)[2];             /* of all pieces, in units of the grid */
-    piece *piece;
-    size_t n_points, n_pieces, points_room, pieces_room;
+    double (*longest)[2];           /* of the pieces of lines of this level: its points */
+    size_t n, room;
+    double length;                  /* and its length, in widths of the map */
     int no_memory;
+    label label[LEVELS_MAX];
+    size_t labels;
 } lines;
 
 static void
@@ -44,13 +43,13 @@ write_point(const lines *s, const double point[2], double level)
     ss_print(s->out, "%.6g\n", level);
 }
 
-/* Are all corners of the cell around a point known? */
+/* Are the values at both ends of the side of a cell known, on which a point lies? */
 static int
 is_known(const lines *s, const double point[2])
 {
     size_t n = s->g->x.n, x = (size_t)point[0], y = (size_t)point[1];
     size_t x1 = (size_t)ceil(point[0]), y1 = (size_t)ceil(point[1]);
-    return isfinite(s->height[y * n + x] + s->height[y * n + x1] + s->height[y1 * n + x] + s->height[y1 * n + x1]);
+    return isfinite(s->height[y * n + x] + s->height[y1 * n + x1]);
 }
 
 /* The place of a point in the map, 0 to 1 on each axis. */
@@ -64,107 +63,62 @@ place_of(double place[2], const lines *s, const double point[2])
     }
 }
 
-/* Write the pieces of a line, and keep them for their labels. */
+/* Write the pieces of a line between unknown values, and keep the longest of the level. */
 static void
 write_line(const double (*point)[2], size_t n, int high_left, void *user)
 {
     lines *s = user;
     (void)high_left;
-    for (size_t first = 0, end; first < n && !s->no_memory; first = end + 1) {
-        for (end = first; end < n && is_known(s, point[end]); end++)
+    for (size_t first = 0, end; first < n; first = end + 1) {
+        double length = 0, at[2], last[2] = { 0, 0 };
+        for (end = first; end < n && is_known(s, point[end]); end++) {
             write_point(s, point[end], s->level);
-        if (end == first)
-            continue;
-        putc('\n', s->out);
-        piece p = { s->n_points, end - first, s->level, 0, 0 };
-        for (size_t i = first + 1; i < end; i++) {
-            double at[2], last[2];
-            place_of(at, s, point[i]);
-            place_of(last, s, point[i - 1]);
-            p.length += hypot(at[0] - last[0], at[1] - last[1]);
+            place_of(at, s, point[end]);
+            length += end > first ? hypot(at[0] - last[0], at[1] - last[1]) : 0;
+            memcpy(last, at, sizeof last);
         }
-        void *points = ss_list_grow(s->point, &s->points_room, s->n_points + p.n, sizeof *s->point);
-        s->point = points != NULL ? points : s->point;
-        void *pieces = ss_list_room(s->piece, &s->pieces_room, s->n_pieces, sizeof *s->piece);
-        s->piece = pieces != NULL ? pieces : s->piece;
-        s->no_memory = points == NULL || pieces == NULL;
+        if (end > first)
+            putc('\n', s->out);
+        if (end == first || length < s->length)
+            continue;
+        void *room = ss_list_grow(s->longest, &s->room, end - first, sizeof *s->longest);
+        s->no_memory |= room == NULL;
         if (s->no_memory)
             return;
-        memcpy(s->point + s->n_points, point + first, p.n * sizeof *point);
-        s->n_points += p.n;
-        s->piece[s->n_pieces++] = p;
+        s->longest = room;
+        s->n = end - first;
+        s->length = length;
+        memcpy(room, point + first, s->n * sizeof *point);
     }
 }
 
-/* --- their labels -------------------------------------------------------------------------- */
-
-typedef struct label {
-    double at[2], width;            /* in widths and heights of the map */
-} label;
-
-/* The distance of a label from the next of n and from the rim, 1 if it just touches none. */
+/* The distance of a label from the next and from the rim, 1 if it just touches none. */
 static double
-clearance(const label l[], size_t n, const label *new)
+clearance(const lines *s, const label *new)
 {
     double nearest = 1;
     for (int k = 0; k < 2; k++)
         nearest = fmin(nearest, fmin(new->at[k], 1 - new->at[k]) / (k == 0 ? new->width / 2 : RIM));
-    for (size_t i = 0; i < n; i++)
-        nearest = fmin(nearest, fmax(fabs(new->at[0] - l[i].at[0]) / ((new->width + l[i].width) / 2),
-                                     fabs(new->at[1] - l[i].at[1]) / TALL));
+    for (const label *l = s->label; l < s->label + s->labels; l++)
+        nearest = fmin(nearest, fmax(fabs(new->at[0] - l->at[0]) / ((new->width + l->width) / 2),
+                                     fabs(new->at[1] - l->at[1]) / TALL));
     return nearest;
 }
 
-/* First the longest piece of each level, in ascending order of length; then the other pieces, in
- * descending order. */
-static int
-by_need(const void *a, const void *b)
-{
-    const piece *p = a, *q = b;
-    if (p->is_longest != q->is_longest)
-        return q->is_longest - p->is_longest;
-    int order = (p->length > q->length) - (p->length < q->length);
-    return order == 0 ? (p->first > q->first) - (p->first < q->first) : p->is_longest ? order : -order;
-}
-
-/* Label a piece in its middle, or at the nearest point that has room; if no point has room and the
- * piece is the longest of its level, at the point where the label covers least. */
 static void
-write_labels(lines *s)
+place_label(lines *s)
 {
-    label l[LABELS_MAX];
-    size_t n = 0;
-    for (size_t i = 0, end; i < s->n_pieces; i = end) {
-        size_t longest = i;
-        for (end = i; end < s->n_pieces && s->piece[end].level == s->piece[i].level; end++)
-            longest = s->piece[end].length > s->piece[longest].length ? end : longest;
-        s->piece[longest].is_longest = 1;
+    double most = -INFINITY;
+    label new = { .level = s->level, .width = 0.02 + 0.022 * snprintf(NULL, 0, "%g", s->level) }, best = new;
+    for (size_t k = 0; k < s->n && most < 1; k++) {
+        memcpy(new.point, s->longest[k % 2 == 0 ? s->n / 2 - k / 2 : s->n / 2 + k / 2], sizeof new.point);
+        place_of(new.at, s, new.point);
+        double clear = clearance(s, &new);
+        best = clear > most ? new : best;
+        most = fmax(most, clear);
     }
-    if (s->n_pieces > 0)
-        qsort(s->piece, s->n_pieces, sizeof *s->piece, by_need);
-    fputs("$label << EOD\n", s->out);
-    for (const piece *p = s->piece; p < s->piece + s->n_pieces && n < LABELS_MAX; p++) {
-        const double *best = NULL;
-        double most = p->is_longest ? 0 : 1 - 1e-9;
-        label new = { .width = 0.02 + 0.022 * snprintf(NULL, 0, "%g", p->level) };
-        if (!p->is_longest && p->length < LONG)
-            continue;
-        for (size_t k = 0; k < p->n && most < 1; k++) {
-            const double *at = s->point[p->first + (k % 2 == 0 ? p->n / 2 - k / 2 : p->n / 2 + k / 2)];
-            place_of(new.at, s, at);
-            double clear = clearance(l, n, &new);
-            if (clear <= most)
-                continue;
-            most = clear;
-            best = at;
-            l[n] = new;
-        }
-        if (best != NULL) {
-            write_point(s, best, p->level);
-            n++;
-        }
-    }
-    fputs("EOD\n", s->out);
+    if (s->n > 0)
+        s->label[s->labels++] = best;
 }
 
 /* --- levels --------------------------------------------------------------------------------- */
@@ -217,14 +171,19 @@ ss_map_write_lines(FILE *out, const map_grid *g, const double *height, ss_error 
     fputs("$line << EOD\n", out);
     for (size_t i = 0; st == SS_OK && i < levels; i++) {
         s.level = level[i];
+        s.n = 0;
+        s.length = 0;
         st = ss_isolines(&map, level[i], write_line, &s);
+        st = s.no_memory ? SS_ENOMEM : st;
+        if (st == SS_OK)
+            place_label(&s);
     }
+    fputs("EOD\n$label << EOD\n", out);
+    for (const label *l = s.label; l < s.label + s.labels; l++)
+        write_point(&s, l->point, l->level);
     fputs("EOD\n", out);
-    if (st == SS_OK && !s.no_memory)
-        write_labels(&s);
-    free(s.point);
-    free(s.piece);
+    free(s.longest);
     free(filled);
     free(known);
-    return st == SS_OK && !s.no_memory ? SS_OK : ss_fail_memory(err, NULL);
+    return st == SS_OK ? SS_OK : ss_fail_memory(err, NULL);
 }
