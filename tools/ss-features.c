@@ -25,7 +25,7 @@ static const char usage[] =
 "  -j, --jobs=N            work on N files at a time (1)\n"
 "      --summary           one summary a row, of one file too\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE       .tsv or .csv; --format=tsv|csv of standard output\n"
+"  -o, --output=FILE       .tsv .csv .json; --format=tsv|csv|json of stdout\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 /* The columns of displacement and force, if none are named. */

@@ -15,8 +15,8 @@ static const char usage[] =
 "      --stop=DB        what the stop bands are below the pass band (80)\n"
 "  -c, --column=NAME|N  filter and write only this column (repeatable)\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE    write to FILE.tsv, .au, .csv or .h5\n"
-"      --format=FORM    on standard output: tsv (default), au or csv\n"
+"  -o, --output=FILE    write to FILE.tsv, .au, .csv, .json or .h5\n"
+"      --format=FORM    on standard output: tsv (default), au, csv, json\n"
 "  -q, --quiet          no warnings\n"
 "  -v, --verbose        report the filter\n"
 "  -h, --help           show this text and exit\n"

@@ -28,7 +28,7 @@ static const char usage[] =
 "      --wisdom=FILE      let FFTW measure the fastest FFTs, keep them in FILE\n"
 "      --check            compare methods; --exact-bits: no rounding in HDF5\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE      .tsv, .au, .csv, or .h5; --format=tsv|au|csv\n"
+"  -o, --output=FILE      .tsv .au .csv .json .h5; --format=tsv|au|csv|json\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 /* In the order of the library's enumerations. */

@@ -26,8 +26,8 @@ static const char usage[] =
 TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    a gnuplot script (.gp, the default), a picture (.png,\n"
-"                       .svg, .pdf, .eps), or numbers of a spectrum (.tsv, .csv)\n"
-"      --format=tsv|csv these numbers on standard output\n"
+"                       .svg, .pdf, .eps), or a spectrum as .tsv, .csv or .json\n"
+"      --format=FORM    these numbers on standard output: tsv, csv or json\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 typedef struct drawing {

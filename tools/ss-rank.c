@@ -36,7 +36,7 @@ static const char usage[] =
 "      --fit             write the scene of the law that is named; needs --set of\n"
 "                        mass and stiffness\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE     .tsv or .csv, with --fit any name; --format=tsv|csv; with\n"
+"  -o, --output=FILE     .tsv .csv .json, --fit: any; --format=tsv|csv|json; with\n"
 "                        --motion also a picture: .gp, .png, .svg, .pdf, .eps\n"
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";

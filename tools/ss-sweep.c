@@ -28,7 +28,7 @@ static const char usage[] =
 "  -j, --threads=N       work on N points at a time (1)\n"
 "      --shard=I/N       every N-th point only: index I modulo N\n"
 "  -r, --resume=FILE     append to FILE the rows that it lacks, or begin it\n"
-"  -o, --output=FILE     .tsv or .csv; --format=tsv|csv of standard output\n"
+"  -o, --output=FILE     .tsv .csv .json; --format=tsv|csv|json of stdout\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 typedef struct request {
@@ -164,6 +164,8 @@ parse(request *req, int argc, char *argv[])
         tool_usage("--resume needs a file: what went to standard output cannot be read again");
     if (req->resume != NULL && req->path != NULL)
         tool_usage("--resume and --output exclude each other");
+    if (req->resume != NULL && req->text.format == SS_JSON)
+        tool_usage("--resume goes on with .tsv or .csv, not with JSON");
 }
 
 /* --- rows ---------------------------------------------------------------------------------- */

@@ -185,11 +185,12 @@ typedef enum ss_format {
     SS_TSV,                     /* text with tabs, of the fewest digits that give the same double */
     SS_AU,                      /* Sun AU with 64-bit floats and the header as its annotation */
     SS_CSV,                     /* for other programs: a line of names, then rows with commas */
-    SS_H5                       /* HDF5, which is no stream: see stickslip/store.h */
+    SS_H5,                      /* HDF5, which is no stream: see stickslip/store.h */
+    SS_JSON                     /* for other programs: an object a row; null is what is not known */
 } ss_format;
 
 /* The name of the i-th format in which streams can be written, which is also the ending of its files: "tsv",
- * "au", "csv"; NULL after the last. */
+ * "au", "csv", "json"; NULL after the last. */
 const char *ss_format_name(size_t i);
 /* If a format of this name can be written, return 1 and store it in *found; else return 0. */
 int ss_format_find(ss_format *found, const char *name);

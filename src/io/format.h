@@ -46,6 +46,9 @@ struct format {
     int has_notes;              /* 1: lines "# key: value" are allowed everywhere */
     char separator;             /* of cells that may be words; '\0': it holds numbers only */
     void (*word)(FILE *out, const char *word);  /* write such a cell; NULL: as it is */
+    /* Write the name before a cell, and what separates it; NULL: names stand in the header.  A row then ends with a
+     * brace. */
+    void (*key)(FILE *out, const char *name, int first);
 };
 
 /* The list, in the order of ss_format: ss_format_tsv and so on.  The format without magic is tried
@@ -55,6 +58,7 @@ struct format {
     row(au) \
     row(delimited) \
     row(hdf5) \
+    row(json) \
     row(wav) \
     row(npy)
 
@@ -64,7 +68,8 @@ FORMAT_LIST(FORMAT_DECLARATION)
 #define FORMAT_NUMBER(name) FORMAT_##name,
 enum { FORMAT_LIST(FORMAT_NUMBER) FORMATS };
 #undef FORMAT_NUMBER
-_Static_assert((int)SS_TSV == FORMAT_tsv && (int)SS_AU == FORMAT_au && (int)SS_CSV == FORMAT_delimited,
+_Static_assert((int)SS_TSV == FORMAT_tsv && (int)SS_AU == FORMAT_au && (int)SS_CSV == FORMAT_delimited
+               && (int)SS_JSON == FORMAT_json,
                "the list has the order of ss_format");
 
 /* Begins the table of a format, FORMAT(au) = { ... };.  Without a row of the list it does not compile. */

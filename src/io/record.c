@@ -50,12 +50,18 @@ ss_rows_notes(struct rows *rows, const ss_header *head, const char *const own[])
 /* --- cells --------------------------------------------------------------------------------- */
 
 static void
-write_cell(struct rows *rows, const char *word)
+write_cell(struct rows *rows, const char *name, const char *word, int is_word)
 {
-    if (rows->cells++ > 0)
-        fputc(rows->format->separator, rows->out);
-    if (rows->format->word != NULL)
-        rows->format->word(rows->out, word);
+    const struct format *format = rows->format;
+    if (format->key != NULL)
+        format->key(rows->out, name, rows->cells == 0);
+    else if (rows->cells > 0)
+        fputc(format->separator, rows->out);
+    rows->cells++;
+    if (format->key != NULL && !is_word)
+        fputs(isdigit((unsigned char)word[word[0] == '-']) ? word : "null", rows->out);
+    else if (format->word != NULL)
+        format->word(rows->out, word);
     else
         fputs(word, rows->out);
 }
@@ -66,8 +72,10 @@ write_name(struct rows *rows, const char *name, const char *unit)
 {
     if (!rows->names)
         return 0;
+    if (rows->format->key != NULL)
+        return 1;
     if (!rows->format->has_notes) {
-        write_cell(rows, name);
+        write_cell(rows, name, name, 1);
         return 1;
     }
     if (rows->cells++ == 0)
@@ -80,7 +88,7 @@ void
 ss_rows_word(struct rows *rows, const char *name, const char *word)
 {
     if (!write_name(rows, name, ""))
-        write_cell(rows, word);
+        write_cell(rows, name, word, 1);
 }
 
 void
@@ -88,7 +96,8 @@ ss_rows_count(struct rows *rows, const char *name, size_t n)
 {
     char text[SS_NUMBER_MAX];
     snprintf(text, sizeof text, "%zu", n);
-    ss_rows_word(rows, name, text);
+    if (!write_name(rows, name, ""))
+        write_cell(rows, name, text, 0);
 }
 
 void
@@ -96,7 +105,7 @@ ss_rows_number(struct rows *rows, const char *name, const char *unit, double x)
 {
     char text[SS_NUMBER_MAX];
     if (!write_name(rows, name, unit))
-        write_cell(rows, ss_number_text(text, x));
+        write_cell(rows, name, ss_number_text(text, x), 0);
 }
 
 void
@@ -104,7 +113,7 @@ ss_rows_rounded(struct rows *rows, const char *name, const char *unit, double x,
 {
     char text[SS_NUMBER_MAX];
     if (!write_name(rows, name, unit))
-        write_cell(rows, ss_number_rounded(text, x, digits));
+        write_cell(rows, name, ss_number_rounded(text, x, digits), 0);
 }
 
 void
@@ -119,7 +128,8 @@ ss_rows_value(struct rows *rows, const char *name, const char *unit, ss_value v)
 void
 ss_rows_end(struct rows *rows)
 {
-    fputc('\n', rows->out);
+    if (rows->format->key == NULL || !rows->names)
+        fputs(rows->format->key != NULL ? "}\n" : "\n", rows->out);
     rows->cells = 0;
     rows->names = 0;
 }

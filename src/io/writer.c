@@ -26,6 +26,7 @@ struct stream {
     double rate, start;
     size_t has_time;            /* of samples: 1: there is a column of time */
     size_t columns, row;        /* and the rows so far */
+    ss_header *names;           /* and those, if each cell has its own; else NULL */
     ss_span *gap;               /* of coefficients */
     size_t n_gaps;
     int open_end;               /* of coefficients: the length of the record comes last */
@@ -41,6 +42,16 @@ drain(struct stream *s, ss_error *err)
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
 }
 
+/* Write the name of a cell, if it has one. */
+static ss_status
+name_cell(struct stream *s, const char *name, int first, ss_error *err)
+{
+    ss_status st = s->format->key != NULL || s->out.used > OUTPUT_ROOM - SS_NUMBER_MAX ? drain(s, err) : SS_OK;
+    if (s->format->key != NULL)
+        s->format->key(s->out.file, name, first);
+    return st;
+}
+
 static ss_status
 write_samples(ss_writer *w, double *const column[], size_t n, ss_error *err)
 {
@@ -50,8 +61,7 @@ write_samples(ss_writer *w, double *const column[], size_t n, ss_error *err)
     ss_status st = SS_OK;
     for (size_t i = 0; s->holds == SAMPLES && st == SS_OK && i < n; i++, s->row++)
         for (size_t k = 0; st == SS_OK && k < cells; k++) {
-            if (s->out.used > OUTPUT_ROOM - SS_NUMBER_MAX)
-                st = drain(s, err);
+            st = name_cell(s, k < time ? "t" : s->names != NULL ? s->names->column[k - time].name : "", k == 0, err);
             double x = k < time ? s->start + (double)s->row / s->rate : column[k - time][i];
             s->out.used += number(s->out.buffer + s->out.used, x, k + 1 == cells);
         }
@@ -71,6 +81,13 @@ write_coefficients(ss_writer *w, const ss_scale *scale, size_t first, size_t n, 
     for (size_t i = 0; s->holds == COEFFICIENTS && st == SS_OK && i < n; i++, c += 2) {
         double b = ss_scale_b(scale, first + i);
         int edge = wavelet_edge(scale, first + i, samples, s->rate, s->start, s->gap, s->n_gaps);
+        const double row[COEFFICIENT_COLUMNS] = { scale->m, scale->a, b, scale->f, c[0], c[1], edge };
+        for (int k = 0; s->format->key != NULL && st == SS_OK && k < COEFFICIENT_COLUMNS; k++) {
+            st = name_cell(s, ss_coefficient_columns[k][0], k == 0, err);
+            s->out.used += number(s->out.buffer + s->out.used, row[k], k + 1 == COEFFICIENT_COLUMNS);
+        }
+        if (s->format->key != NULL)
+            continue;
         char *to = s->out.buffer + s->out.used;
         memcpy(to, m_and_a, sizeof m_and_a);    /* the constant size lets compilers avoid a call */
         to += length;
@@ -138,6 +155,7 @@ static void
 free_stream(ss_writer *w)
 {
     free(((struct stream *)w)->gap);
+    ss_header_free(((struct stream *)w)->names);
     free(w);
 }
 
@@ -179,18 +197,19 @@ new_stream(ss_writer **out_writer, FILE *out, ss_format format, const ss_content
     s->has_time = head->has_time && s->format->has_time ? 1 : 0;
     s->columns = head->n_columns;
     s->gap = NULL;
+    s->names = NULL;
     s->open_end = 0;
     s->row = s->out.used = 0;
     s->out.file = out;
-    ss_status st = SS_OK;
-    if (what->events) {
+    ss_status st = s->format->key != NULL ? ss_header_copy(&s->names, head, err) : SS_OK;
+    if (st == SS_OK && what->events) {
         if ((st = ss_rows_begin(&s->rows, out, format, SS_KIND_EVENTS, err)) == SS_OK) {
             ss_rows_notes(&s->rows, head, (const char *const []){ NULL });      /* it has none of its own */
             write_event(&s->rows, &(ss_event){ .t = 0 });       /* the names */
         }
-    } else if (what->grid != NULL)
+    } else if (st == SS_OK && what->grid != NULL)
         st = begin_coefficients(s, head, err);
-    else
+    else if (st == SS_OK)
         st = s->format->begin(out, head, ss_kind_magic(SS_KIND_SIGNAL), err);
     if (st == SS_OK)
         *out_writer = &s->base;

@@ -261,6 +261,8 @@ ss_sweep_resume(const ss_sweep_text *given, FILE *in, const char *name, size_t *
     if (in == NULL || name == NULL || rows == NULL || end == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = take(&own, given, err);
+    if (st == SS_OK && given->format == SS_JSON)
+        st = ss_fail(err, SS_EINVAL, "rows of JSON are not resumed");
     if (st == SS_OK)
         st = make_header(&header, &own.text, err);
     size_t at = 0, lines = 0;
