@@ -110,7 +110,7 @@ libdir   := $(LIBDIR)
 TOOL_LIBS = $(NUMERICS) -ldl
 endif
 OBJECTS := $(LIB_OBJ) $(TOOL_OBJ) $(TOOLS:%=$(BUILD)/tools/%.o) \
-	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o $(BUILD)/tests/clock.o $(BUILD)/tests/rig.o \
+	$(TESTS:%=$(BUILD)/tests/%.o) $(BENCHES:%=$(BUILD)/tests/%.o) $(BUILD)/tests/oracle.o $(BUILD)/tests/clock.o $(BUILD)/tests/rig.o $(BUILD)/tests/decay.o \
 	$(BUILD)/tests/random_scene.o \
 	$(FUZZERS:%=$(BUILD)/tests/%.o) $(BUILD)/tests/fuzz/common.o $(BUILD)/tests/fuzz/replay.o
 
@@ -179,6 +179,7 @@ $(BUILD)/tests/test_random $(BUILD)/tests/test_rigs $(BUILD)/tests/test_taylor $
 	$(BUILD)/tests/proof/prove_events: $(BUILD)/tests/random_scene.o
 $(BUILD)/tests/test_trade: $(BUILD)/tests/clock.o
 $(BUILD)/tests/test_rig: $(BUILD)/tests/rig.o
+$(BUILD)/tests/test_backbone: $(BUILD)/tests/decay.o
 
 # The harness of a reader: with libFuzzer, and over files that are named.
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/common.o $(STATIC)

@@ -11,6 +11,7 @@
 #ifndef STICKSLIP_H
 #define STICKSLIP_H
 
+#include <stickslip/backbone.h>
 #include <stickslip/status.h>
 #include <stickslip/number.h>
 #include <stickslip/scene.h>

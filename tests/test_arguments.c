@@ -364,6 +364,20 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_maxima_along(&maxima, &n, NULL, 0, 1, 1, &e), &e);
     assert_refused(ss_features_find(NULL, signal, 0, NULL, &e), &e);
     assert_refused(ss_features_find(&features, NULL, 0, NULL, &e), &e);
+    ss_backbone *backbone;
+    ss_backbone none_found = { .why = "nothing" };
+    assert_refused(ss_backbone_find(NULL, signal, 0, NULL, &e), &e);
+    assert_refused(ss_backbone_find(&backbone, NULL, 0, NULL, &e), &e);
+    assert_int_equal(ss_backbone_find(&backbone, signal, 0, NULL, &e), SS_EINVAL);  /* no column */
+    assert_refused(ss_backbone_write(NULL, signal, 0, stdout, SS_TSV, NULL), NULL);
+    assert_refused(ss_backbone_write(&none_found, NULL, 0, stdout, SS_TSV, NULL), NULL);
+    assert_refused(ss_backbone_write(&none_found, signal, 0, NULL, SS_TSV, NULL), NULL);
+    assert_int_equal(ss_backbone_write(&none_found, signal, 0, stdout, SS_TSV, NULL), SS_EINVAL);
+    assert_refused(ss_backbone_scene(NULL, &none_found, signal, 0, 1, NULL), NULL);
+    assert_refused(ss_backbone_scene(&scene, NULL, signal, 0, 1, NULL), NULL);
+    assert_refused(ss_backbone_scene(&scene, &none_found, NULL, 0, 1, NULL), NULL);
+    ss_backbone_free(NULL);
+    e.text[0] = '\0';
     assert_refused(ss_ranking_new(NULL, signal, 0, &scene, 1, NULL, &e), &e);
     assert_refused(ss_ranking_new(&ranking, NULL, 0, &scene, 1, NULL, &e), &e);
     assert_refused(ss_ranking_new(&ranking, signal, 0, NULL, 1, NULL, &e), &e);
@@ -403,6 +417,9 @@ options_know_their_size(void **state)
     ss_error e = { 0 };
     (void)state;
     ss_features_opts_init(&features, sizeof features);
+    ss_backbone_opts backbone;
+    ss_backbone_opts_init(&backbone, sizeof backbone);
+    assert_true(backbone.size == sizeof backbone && backbone.mode == 0);
     ss_steady_opts_init(&steady, sizeof steady);
     ss_sweep_opts_init(&sweep, sizeof sweep);
     ss_trade_opts_init(&trade, sizeof trade);

@@ -138,5 +138,5 @@ _stickslip()
     fi
 }
 
-complete -F _stickslip ss-cat ss-contour ss-features ss-filter ss-morlet ss-noise ss-plot ss-rank ss-report ss-signal ss-sim \
-    ss-sweep ss-trade
+complete -F _stickslip ss-backbone ss-cat ss-contour ss-features ss-filter ss-morlet ss-noise ss-plot ss-rank ss-report \
+    ss-signal ss-sim ss-sweep ss-trade

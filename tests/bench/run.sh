@@ -80,6 +80,8 @@ if [ "$LONG_RECORD" = 1 ]; then
     "$out/cost_features" | expand -t 18
     compile cover_features ''
     "$out/cover_features" | expand -t 22 || echo "errors of ss-features do not cover as they should"
+    compile cover_backbone tests/decay.c
+    "$out/cover_backbone"
     compile cover_identity tests/rig.c
     "$out/cover_identity" | expand -t 18 || echo "numbers of ss-features are not of what they say"
 fi

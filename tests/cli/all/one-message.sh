@@ -36,6 +36,7 @@ ss-contour c.tsv --signal
 ss-contour c.tsv --events
 ss-contour c.tsv --features
 ss-features
+ss-backbone
 ss-rank
 ss-trade
 ss-sim

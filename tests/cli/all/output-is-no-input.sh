@@ -71,6 +71,7 @@ for end in .gp .svg; do
 done
 refused scene  .tsv 'ss-sim --events --set duration=0.1 $in -o $out'
 refused signal .tsv 'ss-features $in -o $out'
+refused signal .tsv 'ss-backbone -c a $in -o $out'
 refused signal .tsv 'ss-rank -c a $in coulomb -o $out'
 refused scene  .tsv 'ss-rank -c a signal $in -o $out'
 refused scene  .scene 'ss-rank --fit -c a signal $in -o $out'

@@ -44,7 +44,7 @@ for file in coefficients.tsv coefficients.au features.tsv events.tsv sweep.tsv t
     refused ss-cat $file
 done
 ss-noise --snr 20 < signal.h5 > out && echo 'HDF5 from a stream?'
-for tool in ss-features ss-morlet ss-plot ss-rank ss-trade 'ss-noise --snr 20'; do
+for tool in ss-features ss-backbone ss-morlet ss-plot ss-rank ss-trade 'ss-noise --snr 20'; do
     refused $tool coefficients.tsv
 done
 refused ss-contour --signal my.scene coefficients.h5

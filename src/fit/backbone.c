@@ -1,0 +1,531 @@
+/* backbone.c -- follow a free decay block by block.
+ *
+ * The record is averaged over groups of samples, to some 32 a period at most.  Blocks of a few periods follow each
+ * other without gap or overlap (backbone_block.c), each started by what the blocks before tell of s and w.  What is
+ * smooth through them (backbone_smooth.c) is where they are fitted again: about a curve that bends as the decay
+ * does.  What it leaves of the record shows lines, which then stand beside the decay in all blocks. */
+#include "fit/backbone.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/fft.h"
+#include "base/list.h"
+#include "base/options.h"
+
+enum { RICH = 32, PARTS = 8, FEW = 3, LEVELS = 20, REFITS = 3 };         /* samples a period that are enough; parts in which a line is looked
+                                                   at; blocks that are a decay */
+#define LONG 12.0               /* periods of a block, where noise wants it long */
+#define NEPER 0.11512925464970229       /* a decibel */
+#define FALL .35                /* of ln A in a block, at most */
+#define NEAR .15                /* of the frequency: a line so near is part of the decay */
+#define OUTSTANDING 60.0        /* times the median power: a line, as noise never is */
+
+typedef struct decay {
+    const ss_backbone_opts *opts;
+    double *x;                  /* what is looked at; NaN: missing */
+    size_t n, group;            /* samples, each of so many of the record's */
+    double w;                   /* per sample: where to look */
+    size_t first, end;          /* samples of the decay, nearly */
+    lines beside;
+    block *block;
+    size_t n_blocks, room;
+    const char *why, *start, *stop;
+} decay;
+
+static int
+ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* --- where it is ----------------------------------------------------------------------------- */
+
+/* The frequency of the strongest line in n samples, per sample, weighed by frequency, as slow changes have more power
+ * than they matter (and an offset has none in differences); or of the one nearest to near > 0 that has a hundredth of its power.  0: there is none. */
+static ss_status
+find_line(double *w, const double *x, size_t n, double near)
+{
+    size_t size = 2;
+    real_fft f;
+    double best = 0;
+    while (size < n)
+        size *= 2;
+    *w = 0;
+    if (ss_real_fft_new(&f, size, 0) != SS_OK)
+        return SS_ENOMEM;
+    memset(f.x, 0, size * sizeof *f.x);
+    for (size_t i = 1; i < n; i++)
+        f.x[i] = x[i] - x[i - 1];
+    ss_real_fft_run(&f);
+    double unit = 2 * M_PI / (double)size, *power = f.x;
+    for (size_t k = 0; k <= size / 2; k++)
+        power[k] = (f.x[2 * k] * f.x[2 * k] + f.x[2 * k + 1] * f.x[2 * k + 1]) / (double)(k > 0 ? k : 1);
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t k = (size_t)(2.5 * (double)size / (double)n); k < size / 2; k++)
+            if (k > 0 && power[k] >= power[k - 1] && power[k] > power[k + 1]
+                && (pass == 0 ? power[k] > best : near > 0 && power[k] > best / 100
+                    && fabs((double)k * unit - near) < fabs(*w - near))) {
+                best = pass == 0 ? power[k] : best;
+                *w = (double)k * unit;
+            }
+    ss_real_fft_free(&f);
+    return SS_OK;
+}
+
+/* Average groups of the record's samples.  Those at a limit that the record reaches three times are clipped. */
+static ss_status
+take_record(decay *d, const double *x, size_t n)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    size_t at_lo = 0, at_hi = 0;
+    d->n = n / d->group;
+    d->x = malloc((d->n + 1) * sizeof *d->x);
+    if (d->x == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        at_lo = x[i] < lo ? 1 : at_lo + (x[i] == lo);
+        at_hi = x[i] > hi ? 1 : at_hi + (x[i] == hi);
+        lo = fmin(lo, x[i]);
+        hi = fmax(hi, x[i]);
+    }
+    lo = at_lo < 3 ? -INFINITY : lo;
+    hi = at_hi < 3 ? INFINITY : hi;
+    for (size_t i = 0; i < d->n; i++) {
+        double sum = 0;
+        for (size_t k = i * d->group; k < (i + 1) * d->group; k++)
+            sum += x[k] > lo && x[k] < hi ? x[k] : NAN;
+        d->x[i] = sum / (double)d->group;
+    }
+    return SS_OK;
+}
+
+/* Set first, where the mean over a period, turned by w, is largest, and end, where it is near its least. */
+static ss_status
+find_extent(decay *d)
+{
+    size_t width = (size_t)fmax(round(2 * M_PI / d->w), 1), n = d->n > width ? d->n - width + 1 : 0;
+    double complex *turned = malloc((d->n + 1) * sizeof *turned), sum = 0;
+    double *size = malloc((n + 1) * sizeof *size), least = INFINITY;
+    for (size_t i = 0; turned != NULL && size != NULL && i < d->n; i++) {
+        turned[i] = isnan(d->x[i]) ? 0 : d->x[i] * cexp(CMPLX(0, -d->w * (double)i));
+        sum += turned[i] - (i >= width ? turned[i - width] : 0);
+        if (i + 1 < width)
+            continue;
+        size_t k = i + 1 - width;
+        size[k] = cabs(sum);
+        if (size[k] > size[d->first]) {
+            d->first = k;
+            least = INFINITY;
+        }
+        least = fmin(least, size[k]);
+    }
+    for (d->end = d->first; size != NULL && d->end < n && size[d->end] > 2 * least; d->end++)
+        ;
+    d->end = n > 0 ? d->end + width - 1 : 0;
+    free(turned);
+    ss_status st = turned != NULL && size != NULL ? SS_OK : SS_ENOMEM;
+    free(size);
+    return st;
+}
+
+/* --- block by block -------------------------------------------------------------------------- */
+
+/* The length of a block at an amplitude and a bend: three periods, more beside a line that is near; less where ln A
+ * would fall by more than FALL; more where noise asks for it, or where there would be over 400 blocks. */
+static size_t
+block_length(const decay *d, bend at, double amplitude, double noise)
+{
+    double period = 2 * M_PI / at.w, length = 3 * period, samples = 2 * noise / (amplitude * amplitude) / (.05 * .05);
+    if (d->opts->periods > 0)
+        return (size_t)ceil(d->opts->periods * period);
+    for (size_t i = 0; i < d->beside.n; i++)
+        length = fmax(length, fmin(fabs(2 * M_PI * 1.8 / (d->beside.w[i] - at.w)), LONG * period));
+    if (at.s * length > FALL)
+        length = fmax(FALL / at.s, 1.5 * period);
+    length = fmax(length, fmin(samples, LONG * period));
+    return (size_t)ceil(fmax(fmax(length, (double)(d->end - d->first) / 400), 14 + 3. * (double)d->beside.n));
+}
+
+/* The best of fits of the first block, from many frequencies. */
+static int
+first_block(const decay *d, block *b, size_t length, double s)
+{
+    int found = 0;
+    double half = M_PI / (double)length;
+    for (double w = d->w * .7; w < d->w * 1.3; w += half / 2) {
+        block trial;
+        if (ss_block_fit(&trial, d->x, d->first, d->first + length, (bend){ s, w, 0, 0 }, &d->beside, 0)
+            && fabs(trial.rate[PHASE] - d->w) < .4 * d->w && (!found || trial.left < b->left)) {
+            *b = trial;
+            found = 1;
+        }
+    }
+    return found;
+}
+
+/* Follow the decay, from first on, as far as it is seen.  Each block starts from s and w of those before, weighed so
+ * that older ones count less by each e-fold lost. */
+static ss_status
+follow(decay *d)
+{
+    double period = 2 * M_PI / d->w, s = 1 / (double)(d->end - d->first + 1), sure[TRACKS] = { 0 };
+    double noise = 0, free_of_noise = 0;
+    bend at = { s, d->w, 0, 0 };
+    size_t first = d->first;
+    d->n_blocks = 0;
+    d->stop = "end of the record";
+    for (;;) {
+        block *grown = ss_list_room(d->block, &d->room, d->n_blocks, sizeof *grown);
+        if (grown == NULL)
+            return SS_ENOMEM;
+        d->block = grown;
+        block *b = &grown[d->n_blocks], *last = d->n_blocks > 0 ? b - 1 : NULL;
+        double level = last != NULL ? last->y[LEVEL] - at.s * ((double)first - last->t) : 0;
+        size_t length = last != NULL ? block_length(d, at, exp(level), noise)
+            : block_length(d, at, 1, 0);
+        if (first + length > d->n)
+            return SS_OK;
+        int found = last != NULL ? ss_block_fit(b, d->x, first, first + length, at, &d->beside, 0)
+            : first_block(d, b, length, s);
+        if (!found || (last != NULL && fabs(b->rate[PHASE] - at.w) > .3 * at.w)) {
+            d->stop = "noise";
+            return SS_OK;
+        }
+        if (last == NULL && -b->rate[LEVEL] * (double)length > 1.5 * FALL && (double)length > 1.6 * period) {
+            s = -b->rate[LEVEL];                /* it decays so fast that the block must be shorter */
+            at = (bend){ s, b->rate[PHASE], 0, 0 };
+            length = block_length(d, at, 1, 0);
+            if (!ss_block_fit(b, d->x, first, first + length, at, &d->beside, 0))
+                return SS_OK;
+        }
+        noise = last == NULL ? b->left / b->free : (noise * free_of_noise + b->left) / (free_of_noise + b->free);
+        free_of_noise = fmin(free_of_noise + b->free, 5 * b->free);
+        double error = sqrt(b->cov[LEVEL][0] * noise), lost = fmax(at.s * (double)length, 0);
+        if (last != NULL && error > .2)
+            d->stop = "noise";
+        else if (last != NULL && b->y[LEVEL] < last->y[LEVEL] - 2.5)
+            d->stop = "the motion stops";
+        else if (last != NULL && b->y[LEVEL] > last->y[LEVEL] + .3 + 5 * error)
+            d->stop = "the amplitude grows";
+        else {
+            for (int k = 0; k < TRACKS; k++) {
+                double r = b->cov[k][2] * noise, *to = k == LEVEL ? &at.s : &at.w;
+                double gain = last != NULL ? (sure[k] + at.s * at.s * lost) / (sure[k] + at.s * at.s * lost + r) : 1;
+                *to += gain * ((k == LEVEL ? -b->rate[k] : b->rate[k]) - *to);
+                sure[k] = gain * r;
+            }
+            d->n_blocks++;
+            first = b->end;
+            continue;
+        }
+        return SS_OK;
+    }
+}
+
+/* The noise of each block, from those about it. */
+static void
+share_noise(decay *d)
+{
+    for (size_t i = 0; i < d->n_blocks; i++) {
+        double left = 0, n = 0;
+        for (size_t k = i > 2 ? i - 2 : 0; k < d->n_blocks && k <= i + 2; k++) {
+            left += d->block[k].left;
+            n += d->block[k].free;
+        }
+        d->block[i].noise = left / n + 1e-24 * exp(2 * d->block[i].y[LEVEL]);
+    }
+}
+
+/* Draw a smooth curve through the blocks, and fit them again about it: where noise is large, what a block alone finds is
+ * biased. */
+static ss_status
+settle(decay *d)
+{
+    for (size_t i = 0; i < d->n_blocks; i++)
+        d->block[i].at = (bend){ 0, d->block[i].rate[PHASE], 0, 0 };
+    for (int pass = 0; pass < REFITS; pass++) {
+        share_noise(d);
+        if (ss_blocks_smooth(d->block, d->n_blocks, 1) != SS_OK)
+            return SS_ENOMEM;
+        for (size_t i = 0; pass + 1 < REFITS && i < d->n_blocks; i++) {
+            block *b = &d->block[i], again;
+            if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside, 1)) {
+                again.at = b->at;
+                *b = again;
+            }
+        }
+    }
+    return SS_OK;
+}
+
+/* --- lines beside it ------------------------------------------------------------------------- */
+
+/* What the smooth curve leaves of the samples of all blocks, to be freed; NULL: no memory. */
+static double *
+leave(const decay *d, size_t *n)
+{
+    size_t first = d->block->first;
+    *n = d->block[d->n_blocks - 1].end - first;
+    double *left = malloc((*n + 1) * sizeof *left);
+    for (size_t i = 0; left != NULL && i < d->n_blocks; i++)
+        for (size_t k = d->block[i].first; k < d->block[i].end; k++) {
+            const block *b = &d->block[i];
+            double u = (double)k - b->t, level = b->level - u * (b->at.s + u * b->at.ds / 2);
+            double x = d->x[k] - exp(level) * cos(b->phase + u * (b->at.w + u * b->at.dw / 2));
+            left[k - first] = isnan(x) ? 0 : x;
+        }
+    return left;
+}
+
+/* 1: a line at w may be the decay itself or its harmonics, or one that is known. */
+static int
+is_known(const decay *d, double w, size_t n)
+{
+    double of = d->block[d->n_blocks / 2].at.w, width = 12 / (double)n;
+    int known = fabs(w - of) < NEAR * of + width;
+    for (int h = 2; h <= 3; h++)
+        known |= fabs(w - h * of) < .03 * h * of + width;
+    for (size_t i = 0; i < d->beside.n; i++)
+        known |= fabs(w - d->beside.w[i]) < 4 * d->beside.s[i] + width;
+    return known;
+}
+
+/* The decay and the frequency of a line near *w, from its amplitudes and phases in parts of n samples. */
+static double
+line_decay(double *w, const double *left, size_t n)
+{
+    double complex z[PARTS];
+    double sum = 0, t = 0, tt = 0, level = 0, t_level = 0, phase = 0, t_phase = 0, last = 0;
+    for (size_t i = 0; i < PARTS; i++) {
+        z[i] = 0;
+        for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++)
+            z[i] += left[k] * cexp(CMPLX(0, -*w * (double)k));
+        double weight = creal(z[i] * conj(z[i])) + 1e-300, at = (double)i, turn = carg(z[i]);
+        turn -= 2 * M_PI * round((turn - last) / (2 * M_PI));
+        last = turn;
+        sum += weight, t += weight * at, tt += weight * at * at;
+        level += weight * log(weight) / 2, t_level += weight * at * log(weight) / 2;
+        phase += weight * turn, t_phase += weight * at * turn;
+    }
+    double spread = (tt - t * t / sum) * (double)n / PARTS;
+    *w += (t_phase - t * phase / sum) / spread;
+    return fmax(-(t_level - t * level / sum) / spread, 0);
+}
+
+/* Add to those beside it the strongest line, if it stands out.  Returns 0 if none does. */
+static ss_status
+add_line(decay *d, int *found)
+{
+    size_t n, size = 2, best = 0;
+    double *left = leave(d, &n);
+    real_fft f = { NULL, NULL };
+    *found = 0;
+    while (size < 2 * n)
+        size *= 2;
+    if (left == NULL || ss_real_fft_new(&f, size, 0) != SS_OK) {
+        free(left);
+        return SS_ENOMEM;
+    }
+    memset(f.x, 0, size * sizeof *f.x);
+    for (size_t i = 0; i < n; i++)
+        f.x[i] = left[i] * (1 - cos(2 * M_PI * ((double)i + .5) / (double)n));
+    ss_real_fft_run(&f);
+    double unit = 2 * M_PI / (double)size, *power = f.x;
+    for (size_t k = 0; k <= size / 2; k++)
+        power[k] = f.x[2 * k] * f.x[2 * k] + f.x[2 * k + 1] * f.x[2 * k + 1];
+    for (size_t k = (size_t)(3 * (double)size / (double)n); k < size / 2; k++)
+        if (power[k] > power[k - 1] && power[k] > power[k + 1] && power[k] > power[best] && !is_known(d, (double)k * unit, n))
+            best = k;
+    double w = (double)best * unit, peak = power[best];
+    qsort(power, size / 2, sizeof *power, ascending);
+    if (peak > OUTSTANDING * power[size / 4]) {
+        *found = 1;
+        d->beside.s[d->beside.n] = line_decay(&w, left, n);
+        d->beside.w[d->beside.n++] = w;
+    }
+    ss_real_fft_free(&f);
+    free(left);
+    return SS_OK;
+}
+
+/* --- levels without phase -------------------------------------------------------------------- */
+
+/* The straight line through levels [dB] first ... end - 1, in nepers. */
+static block
+fit_level(const double *x, size_t first, size_t end, double w)
+{
+    double n = (double)(end - first), t = (double)(first + end - 1) / 2, sum = 0, slope = 0, tt = n * (n * n - 1) / 12;
+    block b = { .first = first, .end = end, .t = t, .free = n - 2, .at = { 0, w, 0, 0 } };
+    for (size_t i = first; i < end; i++) {
+        sum += x[i];
+        slope += x[i] * ((double)i - t);
+    }
+    for (size_t i = first; i < end; i++)
+        b.left += pow((x[i] - sum / n - slope / tt * ((double)i - t)) * NEPER, 2);
+    b.y[LEVEL] = sum / n * NEPER;
+    b.rate[LEVEL] = slope / tt * NEPER;
+    b.cov[LEVEL][0] = 1 / n;
+    b.cov[LEVEL][2] = 1 / tt;
+    return b;
+}
+
+/* Cut levels, from the highest down to what they end in, into blocks. */
+static ss_status
+find_levels(decay *d, const double *x, size_t n, double rate)
+{
+    size_t most = 0, tail = n - n / 10;
+    double w = 2 * M_PI * d->opts->level_frequency / rate;
+    d->group = 1;
+    d->w = w;
+    d->block = calloc(LEVELS, sizeof *d->block);
+    if (d->block == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 1; i < n; i++)
+        most = x[i] > x[most] ? i : most;
+    if (n < most + 4 * LEVELS || most >= tail)
+        return SS_OK;
+    block last = fit_level(x, tail, n, w);
+    if (last.rate[LEVEL] > .3 * (last.y[LEVEL] - x[most] * NEPER) / (double)(n - most)) {
+        d->stop = "noise";                      /* it ends in a floor */
+        for (size_t i = most; i < n && x[i] * NEPER > last.y[LEVEL] + 10 * NEPER; i++)
+            tail = i;
+    } else
+        tail = n;
+    if (tail < most + 4 * LEVELS)
+        return SS_OK;
+    for (size_t i = 0; i < LEVELS; i++)
+        d->block[d->n_blocks++] = fit_level(x, most + (tail - most) * i / LEVELS, most + (tail - most) * (i + 1) / LEVELS, w);
+    share_noise(d);
+    return ss_blocks_smooth(d->block, d->n_blocks, 0);
+}
+
+/* --- the whole ------------------------------------------------------------------------------- */
+
+static const ss_backbone_opts defaults = { .size = sizeof defaults };
+void
+ss_backbone_opts_init(ss_backbone_opts *opts, size_t size)
+{
+    ss_options_init(opts, size, &defaults, sizeof defaults);
+}
+
+static ss_status
+make_rows(ss_backbone *out, const decay *d, const decay_source *source)
+{
+    double unit = source->rate;
+    out->row = calloc(d->n_blocks, sizeof *out->row);
+    if (out->row == NULL)
+        return SS_ENOMEM;
+    for (; out->n < d->n_blocks; out->n++) {
+        const block *b = &d->block[out->n];
+        double whole = hypot(b->at.s, b->at.w), w0 = sqrt(whole * whole + b->at.ds);
+        double uneven = fmax(b->at.ds, 0) / b->at.w / 2;    /* friction acts by half periods, not smoothly */
+        double es = hypot(b->error[LEVEL], uneven * M_PI * M_PI * b->at.s / b->at.w), ew = hypot(b->error[PHASE], uneven);
+        double ew0 = hypot(hypot(b->at.w * ew, b->at.s * es), b->bend_error / 2) / w0;
+        out->row[out->n] = (ss_backbone_row){
+            .t = (b->t + .5 - .5 / (double)d->group) / unit, .amplitude = exp(b->level),
+            .frequency = { w0 * unit / (2 * M_PI), ew0 * unit / (2 * M_PI) },
+            .damping_ratio = { b->at.s / whole, b->at.w * hypot(b->at.w * es, b->at.s * ew) / (whole * whole * whole) },
+            .periods = (double)(b->end - b->first) * b->at.w / (2 * M_PI) };
+        if (!source->has_phase) {
+            out->row[out->n].frequency = (ss_value){ d->opts->level_frequency, NAN };
+            out->row[out->n].damping_ratio.error = es / whole;
+        }
+    }
+    return SS_OK;
+}
+
+/* Why blocks are no decay; NULL: they are one. */
+static const char *
+no_decay(const decay *d)
+{
+    if (!(d->w > 0))
+        return "nothing oscillates";
+    if (d->n_blocks < FEW)
+        return d->n_blocks > 0 && strcmp(d->stop, "end of the record") == 0 ? "it has under three blocks of periods"
+            : "nothing stands above the noise for three blocks of periods";
+    const block *b = d->block, *last = b + d->n_blocks - 1;
+    double lost = b->y[LEVEL] - last->y[LEVEL], error = sqrt(b->cov[LEVEL][0] * b->noise + last->cov[LEVEL][0] * last->noise);
+    return lost > 5 * error && lost > .05 ? NULL : "the oscillation does not decay";
+}
+
+static ss_status
+find(decay *d, const double *x, size_t n, decay_source *source)
+{
+    ss_status st = find_line(&d->w, x, n, 2 * M_PI * d->opts->mode / source->rate);
+    if (st != SS_OK)
+        return st;
+    d->group = (size_t)fmax(floor(2 * M_PI / d->w / RICH), 1);
+    d->w *= (double)d->group;
+    source->rate /= (double)d->group;
+    st = d->w > 0 ? take_record(d, x, n) : SS_OK;
+    if (st == SS_OK && d->w > 0)
+        st = find_extent(d);
+    for (int more = d->w > 0; st == SS_OK && more;) {
+        more = 0;
+        st = follow(d);
+        if (st == SS_OK && d->n_blocks >= FEW)
+            st = settle(d);
+        if (st == SS_OK && d->n_blocks >= FEW && d->beside.n < LINES_MAX)
+            st = add_line(d, &more);
+    }
+    return st;
+}
+
+ss_status
+ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, const ss_backbone_opts *opts,
+                 ss_error *err)
+{
+    ss_backbone_opts own;
+    if (out == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
+    *out = NULL;
+    ss_status st = ss_options_take(&own, sizeof own, &defaults, opts, err);
+    if (st != SS_OK)
+        return st;
+    if (column >= signal->head->n_columns)
+        return ss_fail_column(err, column, signal->head->n_columns);
+    if (!(own.mode >= 0 && own.level_frequency >= 0 && own.mass >= 0) || (own.periods != 0 && !(own.periods >= 1.5)))
+        return ss_fail(err, SS_EINVAL, "an option is out of its range");
+    const ss_column *of = &signal->head->column[column];
+    decay_source source = { signal->head->rate, !(own.level_frequency > 0), of->unit, ss_motion_order(of->unit), own.mass };
+    if (own.mass > 0 && source.order < 0)
+        return ss_fail(err, SS_EINVAL, "a mass needs a column in m, m/s or m/s^2, and %s is in '%s'", of->name, of->unit);
+    const double *x = signal->values + column * signal->n;
+    for (size_t i = 0; i < signal->n; i++)
+        if (!isfinite(x[i]))
+            return ss_fail(err, SS_EDATA, "column %s has a value that is not finite", of->name);
+    decay d = { .opts = &own, .start = "the largest amplitude", .stop = "end of the record" };
+    ss_backbone *b = calloc(1, sizeof *b);
+    st = b != NULL ? source.has_phase ? find(&d, x, signal->n, &source) : find_levels(&d, x, signal->n, source.rate)
+        : SS_ENOMEM;
+    if (st == SS_OK) {
+        b->why = no_decay(&d);
+        b->start = d.start;
+        b->stop = d.stop;
+        b->chi2_dof = NAN;
+        b->noise = d.n_blocks > 0 ? sqrt(d.block[d.n_blocks - 1].noise * (double)d.group) : NAN;
+    }
+    if (st == SS_OK && b->why == NULL)
+        st = make_rows(b, &d, &source);
+    if (st == SS_OK && b->why == NULL)
+        st = ss_mechanism_find(b, d.block, d.n_blocks, &source);
+    free(d.x);
+    free(d.block);
+    if (st == SS_OK)
+        *out = b;
+    else
+        ss_backbone_free(b);
+    return st == SS_OK ? SS_OK : ss_fail_memory(err, NULL);
+}
+
+void
+ss_backbone_free(ss_backbone *backbone)
+{
+    if (backbone != NULL)
+        free(backbone->row);
+    free(backbone);
+}

@@ -1,0 +1,117 @@
+/* backbone_write.c -- free decays as text and as scenes. */
+#include "fit/backbone.h"
+
+#include <math.h>
+#include <string.h>
+#include "base/error.h"
+#include "io/record.h"
+
+int
+ss_motion_order(const char *unit)
+{
+    static const char *const units[] = { "m", "m/s", "m/s^2" };
+    for (int i = 0; i < 3; i++)
+        if (strcmp(unit, units[i]) == 0)
+            return i;
+    return -1;
+}
+
+static void
+write_row(struct rows *rows, const ss_backbone_row *r, const char *unit, double start)
+{
+    ss_rows_number(rows, "amplitude", unit, r->amplitude);
+    ss_rows_value(rows, "frequency", "Hz", r->frequency);
+    ss_rows_value(rows, "damping_ratio", "", r->damping_ratio);
+    ss_rows_number(rows, "t", "s", start + r->t);
+    ss_rows_number(rows, "periods", "", r->periods);
+    ss_rows_end(rows);
+}
+
+static void
+write_mechanism(struct rows *rows, const ss_backbone *b)
+{
+    char text[256] = "other";
+    for (size_t i = 0; i < b->n_mechanisms; i++)
+        snprintf(i == 0 ? text : text + strlen(text), sizeof text - (i == 0 ? 0 : strlen(text)), "%s%s", i > 0 ? ", " : "",
+                 ss_mechanism_names[b->mechanism[i]]);
+    ss_rows_note(rows, "mechanism: %s%s", b->n_mechanisms > 1 ? "cannot tell: " : "", text);
+    for (size_t i = 0; i < b->n_numbers; i++) {
+        const ss_backbone_number *k = &b->number[i];
+        char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX];
+        ss_rows_note(rows, "%s: %s %s%s%s", k->name, ss_number_text(value, k->value.value),
+                     ss_number_text(error, k->value.error), k->unit[0] != '\0' ? " " : "", k->unit);
+    }
+}
+
+ss_status
+ss_backbone_write(const ss_backbone *b, const ss_signal *signal, size_t column, FILE *out, ss_format format,
+                  ss_error *err)
+{
+    static const char *const own[] = {
+        "decay", "mechanism", "frequency", "damping_ratio", "friction*", "drag_over_mass", "contact_stiffness*",
+        "slip_amplitude", "exponent", "microslip_damping", "softening", "chi2_dof", "amplitude_*", "noise", "rate",
+        "start", "columns", NULL };
+    struct rows rows;
+    char number[SS_NUMBER_MAX];
+    if (b == NULL || signal == NULL || out == NULL)
+        return SS_FAIL_NULL(err);
+    if (column >= signal->head->n_columns)
+        return ss_fail_column(err, column, signal->head->n_columns);
+    ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_BACKBONE, err);
+    if (st != SS_OK)
+        return st;
+    const char *unit = signal->head->column[column].unit;
+    const ss_backbone_row none = { NAN, NAN, { NAN, NAN }, { NAN, NAN }, NAN };
+    ss_rows_notes(&rows, signal->head, own);
+    if (b->why != NULL)
+        ss_rows_note(&rows, "decay: none: %s", b->why);
+    else {
+        write_mechanism(&rows, b);
+        ss_rows_note(&rows, "chi2_dof: %s", ss_number_rounded(number, b->chi2_dof, 4));
+        ss_rows_note(&rows, "amplitude_start: %s %s", ss_number_text(number, b->row[0].amplitude), b->start);
+        ss_rows_note(&rows, "amplitude_stop: %s %s", ss_number_text(number, b->row[b->n - 1].amplitude), b->stop);
+        ss_rows_note(&rows, "noise: %s", ss_number_text(number, b->noise));
+    }
+    write_row(&rows, &none, unit, 0);
+    for (size_t i = 0; i < b->n; i++)
+        write_row(&rows, &b->row[i], unit, signal->head->start);
+    return ss_rows_finish(&rows, err);
+}
+
+static double
+number_of(const ss_backbone *b, const char *name)
+{
+    for (size_t i = 0; i < b->n_numbers; i++)
+        if (strcmp(b->number[i].name, name) == 0)
+            return b->number[i].value.value;
+    return 0;
+}
+
+ss_status
+ss_backbone_scene(ss_scene *scene, const ss_backbone *b, const ss_signal *signal, size_t column, double mass,
+                  ss_error *err)
+{
+    if (scene == NULL || b == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
+    if (column >= signal->head->n_columns)
+        return ss_fail_column(err, column, signal->head->n_columns);
+    int order = ss_motion_order(signal->head->column[column].unit);
+    if (b->n_mechanisms != 1)
+        return ss_fail(err, SS_EDATA, "no scene: %s", b->why != NULL ? b->why : b->n_mechanisms == 0
+                       ? "the mechanism is another" : "the mechanism cannot be told");
+    if (b->mechanism[0] == SS_MICROSLIP || b->mechanism[0] == SS_QUADRATIC)
+        return ss_fail(err, SS_EDATA, "no scene: no model has %s friction", ss_mechanism_names[b->mechanism[0]]);
+    if (order < 0 || !(mass > 0) || number_of(b, "frequency") == 0)
+        return ss_fail(err, SS_EDATA, "no scene: it needs a column in m, m/s or m/s^2, and a mass > 0");
+    double w = 2 * M_PI * number_of(b, "frequency"), metres = pow(w, -order), amplitude = b->row[0].amplitude * metres;
+    double slip = number_of(b, "slip_amplitude") * metres, contact = mass * w * w * number_of(b, "contact_stiffness_ratio");
+    *scene = (ss_scene){ .model = ss_model_named(contact > 0 ? "compliant" : "coulomb"), .mass = mass, .stiffness = mass * w * w,
+        .damping = 2 * mass * w * number_of(b, "damping_ratio"), .v0 = amplitude * 2 * M_PI * b->row[0].frequency.value,
+        .friction = contact > 0 ? contact * slip : mass * w * w * number_of(b, "friction_over_stiffness") * metres,
+        .duration = b->row[b->n - 1].t - b->row[0].t, .rate = signal->head->rate };
+    if (contact > 0) {
+        ss_status st = ss_scene_set(scene, "contact_stiffness", contact, err);
+        return st != SS_OK ? st : ss_scene_set(scene, "contact_damping", 0, err);
+    }
+    return SS_OK;
+}

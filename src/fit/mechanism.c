@@ -1,0 +1,319 @@
+/* mechanism.c -- which friction makes a decay, and its parameters.
+ *
+ * A mechanism says how the losses s and the frequency w depend on the amplitude A.  The fundamental z of the motion
+ * then has z'' + 2 s(A) z' + w(A)^2 z = 0, so that its amplitude falls by s / (1 + A w_A / (2 w)), which is the
+ * damping that rows show, and its phase grows by sqrt(w^2 - s^2 - s').  These are integrated through the blocks, and the
+ * parameters are fitted to the blocks' amplitudes, phases and rates.
+ *
+ * All this is good to some percent of s, as the motion is no sine: that is a random walk of ln A and of the phase beside
+ * the errors of the blocks, and the filter that knows both makes residuals of variance 1.  The mechanism with the
+ * lowest BIC is named if chi^2 allows it; it cannot be told from a rival that is nearly as good, unless the rival contains
+ * it. */
+#include "fit/backbone.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/least.h"
+
+enum { LN_A, TURN, W, S, C, SHAPE, BEND, UNKNOWNS };    /* at the start; w; viscous s; the rest: of the mechanism */
+#define TRUST .05               /* of s: the error of what is said of it */
+#define HARMONIC .15            /* times a contact's stiffness re the spring's: what a sine is wrong by, for its numbers */
+#define NEARLY 6.0              /* of BIC: the better one cannot be told */
+#define REJECT 1e-3             /* probability of so large a chi^2 */
+
+const char *const ss_mechanism_names[SS_MECHANISMS + 1] = {
+    "viscous", "coulomb", "viscous+coulomb", "jenkins", "microslip", "quadratic", NULL };
+
+static const struct law {
+    int free[UNKNOWNS];
+    unsigned contains;          /* the mechanisms that are cases of it, as bits */
+    double shape[5];            /* to start from, up to 0 */
+    ss_range shapes;
+} laws[SS_MECHANISMS] = {
+    [SS_VISCOUS] = { { 1, 1, 1, 1 }, 0, { 1 }, { 1, 1 } },
+    [SS_COULOMB] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
+    [SS_VISCOUS_COULOMB] = { { 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_COULOMB, { 1 }, { 1, 1 } },
+    [SS_JENKINS] = { { 1, 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS, { .05, .1, .2, .4, .7 }, { .01, 1 } },
+    [SS_MICROSLIP] = { { 1, 1, 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_QUADRATIC, { .25, .5, .8 }, { .1, 1 } },
+    [SS_QUADRATIC] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
+};
+
+/* A block for the fit: in units of the start's amplitude and of the mean damping. */
+typedef struct point {
+    double t, y[TRACKS], rate[TRACKS];
+    double tie[TRACKS], rate_sigma[TRACKS];     /* of the rate's error to that of y, and the rest of it */
+    double gain[TRACKS], whole[TRACKS];     /* of the filter; the error of what it does not expect */
+} point;
+
+typedef struct trial {
+    ss_mechanism kind;
+    const point *p;
+    size_t n, tracks;
+    double w;                   /* about which w is counted, in units of the mean damping */
+} trial;
+
+/* s = u[S] + u[C] g(A), with a factor near 1 for Jenkins, whose spring of stiffness u[C] of->w re the mass makes both. */
+static double
+shape_of(ss_mechanism kind, double shape, double a)
+{
+    switch (kind) {
+    case SS_COULOMB: case SS_VISCOUS_COULOMB: return 1 / a;
+    case SS_JENKINS: return a > shape ? 2 / M_PI * shape / a * (1 - shape / a) : 0;
+    case SS_MICROSLIP: return pow(a, shape);
+    case SS_QUADRATIC: return a;
+    default: return 0;
+    }
+}
+
+static double
+frequency(const trial *of, const double u[UNKNOWNS], double a)
+{
+    double w = of->w + u[W];
+    if (of->kind == SS_MICROSLIP)
+        return w - u[BEND] * pow(a, u[SHAPE]);
+    if (of->kind != SS_JENKINS)
+        return w;
+    double turn = a > u[SHAPE] ? acos(1 - 2 * u[SHAPE] / a) : M_PI;
+    return sqrt(w * w + u[C] * of->w / M_PI * (turn - sin(2 * turn) / 2));
+}
+
+static double
+losses(const trial *of, const double u[UNKNOWNS], double a)
+{
+    double of_jenkins = of->kind == SS_JENKINS ? of->w / frequency(of, u, a) : 1;
+    return u[S] + u[C] * of_jenkins * shape_of(of->kind, u[SHAPE], a);
+}
+
+/* The rates of ln A and of the phase, less of->w, at ln A. */
+static void
+rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS])
+{
+    const double h = .01;
+    double a = exp(fmax(fmin(ln_a, 20), -40)), s[3], w[3];
+    for (int i = 0; i < 3; i++) {
+        double at = a * exp((i - 1) * h);
+        w[i] = frequency(of, u, at);
+        s[i] = losses(of, u, at);
+    }
+    double fall = s[1] / (1 + (w[2] - w[0]) / (4 * h) / w[1]), s_dot = -fall * (s[2] - s[0]) / (2 * h);
+    rate[LEVEL] = -fmin(fall, 1e4);
+    rate[PHASE] = sqrt(fmax(w[1] * w[1] - s[1] * s[1] - s_dot, 0)) - of->w;
+}
+
+/* Residuals of variance 1 if the mechanism is right: of y by the filter's gains, of rates by what y does not tell. */
+static ss_status
+leave(const double *u, double *residual, double *slopes, void *user)
+{
+    const trial *of = user;
+    double y[TRACKS] = { u[LN_A], u[TURN] }, off[TRACKS] = { 0 };
+    (void)slopes;
+    for (size_t i = 0; i < of->n; i++) {
+        const point *p = &of->p[i];
+        double dt = i > 0 ? p->t - p[-1].t : 0, k[4][TRACKS], rate[TRACKS];
+        int parts = 1 + (int)fmin(dt * fmax(-p->rate[LEVEL], 1) / .2, 8);
+        for (int part = 0; part < parts; part++) {
+            double h = dt / parts;
+            for (int j = 0; j < 4; j++)
+                rates(of, u, y[LEVEL] + (j == 0 ? 0 : (j < 3 ? h / 2 : h) * k[j - 1][LEVEL]), k[j]);
+            for (size_t c = 0; c < TRACKS; c++)
+                y[c] += h / 6 * (k[0][c] + 2 * k[1][c] + 2 * k[2][c] + k[3][c]);
+        }
+        rates(of, u, y[LEVEL], rate);
+        for (size_t c = 0; c < of->tracks; c++) {
+            double news = p->y[c] - y[c] - off[c];
+            *residual++ = news / p->whole[c];
+            *residual++ = (p->rate[c] - rate[c] - p->tie[c] * (p->y[c] - y[c])) / p->rate_sigma[c];
+            off[c] += p->gain[c] * news;
+        }
+    }
+    return isfinite(y[LEVEL]) && isfinite(y[PHASE]) ? SS_OK : SS_EDATA;
+}
+
+/* Blocks in units of the start's amplitude and of the mean damping; the errors of what a mechanism says of them. */
+static void
+make_points(point *p, const block *b, size_t n, double unit, double ln_a, double w)
+{
+    double walked[TRACKS] = { 0 };
+    for (size_t i = 0; i < n; i++) {
+        double s = b[i].at.s / unit, step = i > 0 ? (b[i].t - b[i - 1].t) * unit : 0;
+        double uneven = fabs(b[i].at.ds) / b[i].at.w / 2 / unit;
+        p[i].t = b[i].t * unit;
+        p[i].y[LEVEL] = b[i].y[LEVEL] - ln_a;
+        p[i].y[PHASE] = b[i].y[PHASE] - w * (b[i].t - b->t);
+        p[i].y[PHASE] -= 2 * M_PI * round((p[i].y[PHASE] - (b[i].phase - w * (b[i].t - b->t))) / (2 * M_PI));
+        p[i].rate[LEVEL] = b[i].rate[LEVEL] / unit;
+        p[i].rate[PHASE] = (b[i].rate[PHASE] - w) / unit;
+        for (int c = 0; c < TRACKS; c++) {
+            const double *cov = b[i].cov[c];
+            double trust = hypot(TRUST * s, c == PHASE ? uneven : uneven * M_PI * M_PI * b[i].at.s / b[i].at.w);
+            double sigma = b[i].noise * cov[0], before = walked[c] + trust * trust * step * step, whole = before + sigma;
+            p[i].whole[c] = sqrt(whole);
+            p[i].gain[c] = before / whole;
+            walked[c] = before * (1 - p[i].gain[c]);
+            p[i].tie[c] = cov[1] / cov[0] / unit;
+            p[i].rate_sigma[c] = hypot(sqrt(b[i].noise * fmax(cov[2] - cov[1] * cov[1] / cov[0], 0)) / unit, trust);
+        }
+    }
+}
+
+/* Set u[S] and u[C] >= 0 so that s fits the smooth one, and W and BEND by w; returns what the first leaves. */
+static double
+begin(const trial *of, const block *b, double unit, double ln_a, double u[UNKNOWNS])
+{
+    const struct law *law = &laws[of->kind];
+    double left = 0, sum[6] = { 0 };
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t i = 0; i < of->n; i++) {
+            double a = exp(b[i].level - ln_a), s = b[i].at.s / unit, g = shape_of(of->kind, u[SHAPE], a);
+            double weight = 1 / (pow(b[i].error[LEVEL] / unit, 2) + pow(TRUST * s, 2)), off = s - u[S] - u[C] * g;
+            left += pass * weight * off * off;
+            sum[0] += weight, sum[1] += weight * g, sum[2] += weight * g * g, sum[3] += weight * s, sum[4] += weight * s * g;
+        }
+        if (pass > 0)
+            break;
+        double det = sum[0] * sum[2] - sum[1] * sum[1], c = (sum[0] * sum[4] - sum[1] * sum[3]) / det;
+        int both = law->free[S] && law->free[C] && det > 1e-12 * sum[0] * sum[2];
+        u[C] = !law->free[C] ? 0 : both ? fmax(c, 1e-3) : sum[4] / sum[2];
+        u[S] = !law->free[S] ? 0 : both ? fmax((sum[3] - u[C] * sum[1]) / sum[0], 1e-3) : sum[3] / sum[0];
+    }
+    const bend *first = &b->at, *last = &b[of->n - 1].at;
+    double a = exp(b[of->n - 1].level - ln_a);
+    u[LN_A] = b->level - ln_a;
+    u[TURN] = b->phase;
+    u[W] = u[BEND] = 0;
+    if (of->kind == SS_MICROSLIP)
+        u[BEND] = fmax((last->w - first->w) / unit / (1 - pow(a, u[SHAPE])), 0);
+    u[W] = last->w / unit - frequency(of, u, a);
+    return left;
+}
+
+typedef struct fitted {
+    ss_mechanism kind;
+    double u[UNKNOWNS], covariance[UNKNOWNS * UNKNOWNS], squares, free, p, bic;
+} fitted;
+
+static ss_status
+fit(fitted *f, trial *of, const block *b, double unit, double ln_a)
+{
+    const struct law *law = &laws[of->kind];
+    static const double difference[UNKNOWNS] = { 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6 };
+    ss_range range[UNKNOWNS];
+    double least_left = INFINITY, unknowns = 0;
+    least_end end;
+    f->kind = of->kind;
+    for (size_t i = 0; i < 5 && law->shape[i] > 0; i++) {
+        double u[UNKNOWNS] = { [SHAPE] = law->shape[i] }, left = begin(of, b, unit, ln_a, u);
+        if (left < least_left) {
+            least_left = left;
+            memcpy(f->u, u, sizeof u);
+        }
+    }
+    for (int k = 0; k < UNKNOWNS; k++) {
+        int is_free = law->free[k] && (of->tracks == TRACKS || (k != TURN && k != W && k != BEND));
+        range[k] = k == SHAPE ? law->shapes : k == LN_A || k == TURN || k == W ? (ss_range){ -1e9, 1e9 } : (ss_range){ 0, 1e3 };
+        range[k] = is_free ? range[k] : (ss_range){ f->u[k], f->u[k] };
+        unknowns += is_free;
+    }
+    least of_fit = { .rows = 2 * of->tracks * of->n, .unknowns = UNKNOWNS, .model = leave, .user = of, .range = range,
+                     .difference = difference, .steps = 60, .tol = 1e-7, .noise = 1 };
+    ss_status st = ss_least_fit(&end, &of_fit, f->u, NULL, f->covariance);
+    f->squares = end.squares;
+    f->free = (double)of_fit.rows - unknowns;
+    f->p = gsl_cdf_chisq_Q(end.squares, f->free);
+    f->bic = end.squares + unknowns * log((double)of_fit.rows);
+    return st;
+}
+
+static int
+by_bic(const void *a, const void *b)
+{
+    const fitted *x = a, *y = b;
+    return (x->bic > y->bic) - (x->bic < y->bic);
+}
+
+/* Add a number that is a constant times unknown k. */
+static void
+add(ss_backbone *out, const fitted *f, const char *name, const char *unit, int k, double constant)
+{
+    ss_backbone_number *to = &out->number[out->n_numbers++];
+    to->name = name;
+    snprintf(to->unit, sizeof to->unit, "%s", unit);
+    to->value = (ss_value){ constant * f->u[k], constant * sqrt(f->covariance[k * UNKNOWNS + k]) };
+}
+
+/* The numbers of a mechanism.  It was fitted with frequencies about w, in units of 1/s, and amplitudes in units of a. */
+static void
+add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double about, double unit, double a)
+{
+    const struct law *law = &laws[f->kind];
+    double w = (about + f->u[W]) * unit, contact = about * unit * unit, metres = pow(w, -of->order);
+    char per[64];
+    snprintf(per, sizeof per, of->column[0] != '\0' ? "1/(%.50s)" : "%s", of->column);
+    if (of->has_phase) {
+        add(out, f, "frequency", "Hz", W, unit / (2 * M_PI));
+        out->number[0].value.value = w / (2 * M_PI);
+    }
+    if (law->free[S])
+        add(out, f, "damping_ratio", "", S, unit / w);
+    if (f->kind == SS_COULOMB || f->kind == SS_VISCOUS_COULOMB) {
+        double by_stiffness = M_PI / 2 * unit * a / w;
+        add(out, f, "friction_over_stiffness", of->column, C, by_stiffness);
+        if (of->mass > 0)
+            add(out, f, "friction", "N", C, of->mass * w * w * by_stiffness * metres);
+    } else if (f->kind == SS_QUADRATIC)
+        add(out, f, "drag_over_mass", per, C, 3 * M_PI / 4 * unit / w / a);
+    else if (f->kind == SS_JENKINS) {
+        double more = HARMONIC * f->u[C] * contact / w / w;
+        add(out, f, "contact_stiffness_ratio", "", C, contact / w / w);
+        add(out, f, "slip_amplitude", of->column, SHAPE, a);
+        if (of->mass > 0) {
+            const double *cov = f->covariance;
+            double c = f->u[C], d = f->u[SHAPE], slip = of->mass * contact * a * metres;
+            add(out, f, "contact_stiffness", "N/m", C, of->mass * contact);
+            add(out, f, "friction", "N", C, slip * d);
+            out->number[out->n_numbers - 1].value.error = slip * sqrt(fmax(
+                d * d * cov[C * UNKNOWNS + C] + 2 * c * d * cov[C * UNKNOWNS + SHAPE] + c * c * cov[SHAPE * UNKNOWNS + SHAPE], 0));
+        }
+        for (size_t i = out->n_numbers; i-- > 2;)
+            out->number[i].value.error = hypot(out->number[i].value.error, more * out->number[i].value.value);
+    } else if (f->kind == SS_MICROSLIP) {
+        add(out, f, "exponent", "", SHAPE, 1);
+        add(out, f, "microslip_damping", "", C, unit / w);
+        if (of->has_phase)
+            add(out, f, "softening", "Hz", BEND, unit / (2 * M_PI));
+    }
+}
+
+ss_status
+ss_mechanism_find(ss_backbone *out, const block *b, size_t n, const decay_source *source)
+{
+    double unit = (b->level - b[n - 1].level) / (b[n - 1].t - b->t), w = b[n / 2].at.w;
+    point *p = calloc(n, sizeof *p);
+    fitted f[SS_MECHANISMS];
+    if (p == NULL)
+        return SS_ENOMEM;
+    make_points(p, b, n, unit, b->level, w);
+    ss_status st = SS_OK;
+    for (int k = 0; st == SS_OK && k < SS_MECHANISMS; k++) {
+        trial of = { (ss_mechanism)k, p, n, source->has_phase ? 2 : 1, w / unit };
+        st = fit(&f[k], &of, b, unit, b->level);
+    }
+    free(p);
+    if (st != SS_OK)
+        return st;
+    qsort(f, SS_MECHANISMS, sizeof *f, by_bic);
+    const fitted *best = f;
+    while (best < f + SS_MECHANISMS - 1 && best->p < REJECT)
+        best++;
+    best = best->p < REJECT ? f : best;
+    out->chi2_dof = best->squares / best->free;
+    for (const fitted *x = best; best->p >= REJECT && x < f + SS_MECHANISMS; x++)
+        if (x == best || (x->p >= REJECT && x->bic < best->bic + NEARLY && !(laws[x->kind].contains & 1u << best->kind)))
+            out->mechanism[out->n_mechanisms++] = x->kind;
+    if (out->n_mechanisms > 0)
+        add_numbers(out, best, source, w / unit, unit * source->rate, exp(b->level));
+    return SS_OK;
+}

@@ -1,0 +1,213 @@
+/* test_backbone.c -- free decays of tests/decay.c, whose truth is in closed form: bands, mechanisms, ends. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip.h>
+#include "decay.h"
+#include "new_signal.h"
+#include "uniform.h"
+
+#define PI 3.14159265358979323846
+
+static uint64_t seed;
+
+static double
+gauss(void)
+{
+    double u = uniform(&seed) + 1e-18;
+    return sqrt(-2 * log(u)) * cos(2 * PI * uniform(&seed));
+}
+
+/* Of 10 Hz, at 400 Hz for 20 s, unit amplitude and this noise. */
+static ss_signal *
+record(const decay *of, double noise, const char *unit, decay_turn **turn, size_t *turns)
+{
+    enum { N = 8000 };
+    ss_signal *signal = new_signal(N, 400, 100, "x", unit);
+    *turn = decay_run(of, 1 / 400.L, N, signal->values, NULL, NULL, turns);
+    for (size_t i = 0; i < N; i++)
+        signal->values[i] += noise * gauss();
+    return signal;
+}
+
+static ss_backbone *
+find(const ss_signal *signal, const ss_backbone_opts *opts)
+{
+    ss_backbone *b = NULL;
+    ss_error err = { 0 };
+    if (ss_backbone_find(&b, signal, 0, opts, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    return b;
+}
+
+static const decay rigs[] = {
+    { .w = 20 * PI, .amplitude = 1, .zeta = .01L },
+    { .w = 20 * PI, .amplitude = 1, .drag = .01L },
+    { .w = 20 * PI, .amplitude = 1, .zeta = .005L, .drag = .004L },
+    { .w = 20 * PI, .amplitude = 1, .zeta = .002L, .sliders = 1, .kappa = { .1L }, .d = { .2L } },
+    { .w = 20 * PI, .amplitude = 1, .quadratic = .03L },
+};
+static const ss_mechanism mechanisms[] = { SS_VISCOUS, SS_COULOMB, SS_VISCOUS_COULOMB, SS_JENKINS, SS_QUADRATIC };
+enum { RIGS = sizeof rigs / sizeof *rigs };
+
+static double
+number(const ss_backbone *b, const char *name, double *error)
+{
+    for (size_t i = 0; i < b->n_numbers; i++)
+        if (strcmp(b->number[i].name, name) == 0) {
+            *error = b->number[i].value.error;
+            return b->number[i].value.value;
+        }
+    fail_msg("no %s", name);
+    return NAN;
+}
+
+/* Over eight records of each rig at 40 dB: of the damping ratios of the turns, which rows of a sine have in closed form,
+ * at least the share of a normal error within 2 errors less two binomial deviations (rows of a record count as
+ * three, as neighbours share what they know): .95 - 2 sqrt(.95 .05 / (5 8 3)) = .91.  Every mechanism is right. */
+static void
+bands_hold_and_mechanisms_are_named(void **state)
+{
+    size_t rows = 0, within = 0;
+    (void)state;
+    seed = 3;
+    for (size_t k = 0; k < RIGS; k++)
+        for (int i = 0; i < 8; i++) {
+            decay_turn *turn;
+            size_t turns;
+            ss_signal *signal = record(&rigs[k], .01, "m", &turn, &turns);
+            ss_backbone *b = find(signal, NULL);
+            for (size_t r = 0; r < b->n; r++) {
+                double f, zeta, a;
+                if (!decay_truth(turn, turns, (long double)b->row[r].t, &f, &zeta, &a))
+                    continue;
+                rows++;
+                within += fabs(b->row[r].damping_ratio.value - zeta) <= 2 * b->row[r].damping_ratio.error;
+                assert_true(fabs(b->row[r].amplitude - a) < .02 * a + .005);
+            }
+            if (b->n_mechanisms != 1 || b->mechanism[0] != mechanisms[k])
+                fail_msg("rig %zu, record %d: %zu mechanisms, the first %s, chi^2 %g", k, i, b->n_mechanisms,
+                         ss_mechanism_names[b->mechanism[0]], b->chi2_dof);
+            ss_backbone_free(b);
+            ss_signal_free(signal);
+            free(turn);
+        }
+    print_message("%zu of %zu rows within 2 errors\n", within, rows);
+    assert_true((double)within >= .91 * (double)rows);
+}
+
+/* Parameters of the exact rigs, within 4 of their errors; forces with a mass of 2 kg. */
+static void
+parameters_and_scenes_are_those_of_the_rig(void **state)
+{
+    static const struct { size_t rig; const char *name; double truth; } row[] = {
+        { 0, "frequency", 10 }, { 0, "damping_ratio", .01 }, { 1, "friction_over_stiffness", .01 }, { 1, "frequency", 10 },
+        { 1, "friction", 2 * 400 * PI * PI * .01 }, { 2, "damping_ratio", .005 }, { 2, "friction_over_stiffness", .004 },
+        { 3, "contact_stiffness_ratio", .1 }, { 3, "slip_amplitude", .2 }, { 3, "damping_ratio", .002 },
+        { 3, "contact_stiffness", 2 * 400 * PI * PI * .1 }, { 3, "friction", 2 * 400 * PI * PI * .02 },
+        { 4, "drag_over_mass", .03 } };
+    ss_backbone_opts opts;
+    (void)state;
+    ss_backbone_opts_init(&opts, sizeof opts);
+    opts.mass = 2;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        decay_turn *turn;
+        size_t turns;
+        ss_error err = { 0 };
+        ss_scene scene = { 0 };
+        double error = 0;
+        seed = 11 + i;
+        ss_signal *signal = record(&rigs[row[i].rig], .003, "m", &turn, &turns);
+        ss_backbone *b = find(signal, &opts);
+        double value = number(b, row[i].name, &error);
+        print_message("%s %g +- %g, truth %g\n", row[i].name, value, error, row[i].truth);
+        assert_true(fabs(value - row[i].truth) <= 4 * error && error < .1 * row[i].truth);
+        ss_status st = ss_backbone_scene(&scene, b, signal, 0, 2, &err);
+        assert_int_equal(st, row[i].rig < 4 ? SS_OK : SS_EDATA);
+        if (st == SS_OK) {
+            assert_int_equal(ss_scene_check(&scene, &err), SS_OK);
+            assert_true(fabs(sqrt(scene.stiffness / scene.mass) / (20 * PI) - 1) < .01);
+        } else
+            assert_string_equal(err.text, "no scene: no model has quadratic friction");
+        ss_backbone_free(b);
+        ss_signal_free(signal);
+        free(turn);
+    }
+}
+
+static void
+what_is_no_decay_has_no_rows(void **state)
+{
+    static const char *const why[] = {
+        "nothing oscillates", "the oscillation does not decay", "nothing stands above the noise for three blocks of periods" };
+    (void)state;
+    seed = 5;
+    for (int kind = 0; kind < 3; kind++) {
+        ss_signal *signal = new_signal(4000, 400, 0, "x", "m");
+        for (size_t i = 0; i < signal->n; i++)
+            signal->values[i] = kind == 0 ? 7 : (kind == 1 ? cos(.3 * (double)i) : 0) + .01 * gauss();
+        ss_backbone *b = find(signal, NULL);
+        assert_int_equal(b->n, 0);
+        assert_non_null(b->why);
+        assert_string_equal(b->why, why[kind]);
+        ss_backbone_free(b);
+        ss_signal_free(signal);
+    }
+}
+
+/* Two modes 2 % apart, and a decay whose amplitude is modulated. */
+static void
+what_is_no_mechanism_is_another(void **state)
+{
+    (void)state;
+    seed = 7;
+    for (int kind = 0; kind < 2; kind++) {
+        ss_signal *signal = new_signal(8000, 400, 0, "x", "m");
+        for (size_t i = 0; i < signal->n; i++) {
+            double t = (double)i / 400, a = exp(-.6 * t);
+            signal->values[i] = (kind == 0 ? a * cos(20 * PI * t) + .4 * a * cos(20.4 * PI * t)
+                                 : a * (1 + .1 * cos(PI * t)) * cos(20 * PI * t)) + .003 * gauss();
+        }
+        ss_backbone *b = find(signal, NULL);
+        assert_true(b->n > 0);
+        assert_int_equal(b->n_mechanisms, 0);
+        ss_backbone_free(b);
+        ss_signal_free(signal);
+    }
+}
+
+/* The same damping from the level of a decay; noise of the level .3 dB, down to a floor. */
+static void
+levels_give_the_damping(void **state)
+{
+    ss_backbone_opts opts;
+    ss_signal *signal = new_signal(4000, 400, 0, "level", "dB");
+    (void)state;
+    seed = 9;
+    ss_backbone_opts_init(&opts, sizeof opts);
+    opts.level_frequency = 100;
+    for (size_t i = 0; i < signal->n; i++)
+        signal->values[i] = 10 * log10(exp(-2 * 2. * (double)i / 400) + 1e-6) + .3 * gauss();
+    ss_backbone *b = find(signal, &opts);
+    assert_true(b->n > 10);
+    assert_string_equal(b->stop, "noise");
+    for (size_t i = 0; i + 3 < b->n; i++) {
+        double zeta = 2 / hypot(2, 200 * PI);
+        assert_true(fabs(b->row[i].damping_ratio.value - zeta) < 4 * b->row[i].damping_ratio.error);
+        assert_true(isnan(b->row[i].frequency.error) && b->row[i].frequency.value == 100);
+    }
+    assert_int_equal(b->mechanism[0], SS_VISCOUS);
+    ss_backbone_free(b);
+    ss_signal_free(signal);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bands_hold_and_mechanisms_are_named), cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
+        cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),
+        cmocka_unit_test(levels_give_the_damping),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
