@@ -391,6 +391,10 @@ conclusions_refuse_null(void **state)
     assert_int_equal(ss_motion_ranking_new(&law, signal, 0, 0, &motion, &e), SS_EINVAL);
     motion.size = 0;
     assert_int_equal(ss_motion_ranking_new(&law, signal, 0, 0, &motion, &e), SS_EINVAL);
+    assert_refused(ss_plot_motion(NULL, signal, 0, 0, &(ss_motion_ranking){ .n = 0 }, NULL, &e), &e);
+    assert_refused(ss_plot_motion(stdout, NULL, 0, 0, &(ss_motion_ranking){ .n = 0 }, NULL, &e), &e);
+    assert_refused(ss_plot_motion(stdout, signal, 0, 0, NULL, NULL, &e), &e);
+    assert_int_equal(ss_plot_motion(stdout, signal, 0, 0, &(ss_motion_ranking){ .n = 0 }, NULL, &e), SS_EINVAL);
     assert_refused(ss_motion_ranking_write(NULL, stdout, SS_TSV, &e), &e);
     assert_refused(ss_motion_ranking_write(&(ss_motion_ranking){ .n = 0 }, NULL, SS_TSV, &e), &e);
     assert_refused(ss_scene_fit(NULL, signal, 0, &scene, NULL, &e), &e);

@@ -438,6 +438,31 @@ write_law(const job *j, const ss_motion_ranking *r)
     tool_check(ss_scene_write(&scene, out, &err), &err);
 }
 
+/* For tool_draw. */
+typedef struct drawn {
+    const ss_signal *signal;
+    size_t motion, force;
+    const ss_motion_ranking *ranking;
+} drawn;
+
+static ss_status
+write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
+{
+    const drawn *d = user;
+    return ss_plot_motion(out, d->signal, d->motion, d->force, d->ranking, opts, err);
+}
+
+static void
+draw_motion(const job *j, const drawn *d)
+{
+    ss_plot_opts opts;
+    char title[512];
+    ss_plot_opts_init(&opts, sizeof opts);
+    snprintf(title, sizeof title, "%s: %s", j->signal_name, d->ranking->answer);
+    opts.title = title;
+    tool_draw(j->output, &opts, write_script, (void *)d);
+}
+
 static void
 rank_motion(job *j)
 {
@@ -455,6 +480,8 @@ rank_motion(job *j)
     tool_check(ss_motion_ranking_new(&r, signal, motion, force, &j->motion_opts, &err), &err);
     if (j->fits)
         write_law(j, r);
+    else if (j->kind < TOOL_STREAM)
+        draw_motion(j, &(drawn){ signal, motion, force, r });
     else
         tool_check(ss_motion_ranking_write(r, tool_output(j->output), tool_stream(j->kind), &err), &err);
     if (j->residual != NULL && r->predicted == NULL)
@@ -529,7 +556,7 @@ parse(job *j, int argc, char *argv[])
     if (j->fits)
         tool_writes(j->output);
     else
-        j->kind = tool_output_kind(j->output, TOOL_WORDS, j->kind);
+        j->kind = tool_output_kind(j->output, TOOL_WORDS | (j->motion != NULL ? TOOL_PICTURES : 0), j->kind);
     set_files(j, argc - first, argv + first);
 }
 

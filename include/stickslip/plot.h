@@ -11,6 +11,7 @@
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
 #include <stickslip/overlay.h>
+#include <stickslip/rank.h>
 #include <stickslip/spectrum.h>
 #include <stickslip/table.h>
 #include <stickslip/trade.h>
@@ -121,6 +122,13 @@ ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *op
 /* Draw the errors of x, v, a and f, and the rms error of the map as a ratio less 1, over CPU time as a
  * multiple of the scene's own, with a colour for each simpler scene. */
 ss_status ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_error *err);
+
+/* Draw a ranking of friction laws by two columns of the signal: the loop of force over motion as measured and as
+ * the first law predicts it, what that leaves over time, and for each law a bar of what it explains of the force
+ * where it was not fitted, with its error; a white point marks those that are tied.  SS_EINVAL: nothing was
+ * compared. */
+ss_status ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force,
+                         const ss_motion_ranking *ranking, const ss_plot_opts *opts, ss_error *err);
 
 /* Draw a map of a sweep over two parameters: columns 0 and 1 of these make a grid, and the other one or two
  * are drawn over it.  A column with at most ten different values is drawn as regions, any other as lines of

@@ -230,8 +230,8 @@ typedef struct ss_motion_ranking {
                                    units are not known; of a bouc-wen with two sides the first */
     size_t n_numbers;
     ss_motion_number number[SS_MOTION_NUMBERS];
-    size_t rows;
-    double *predicted;          /* of each row, by the first law */
+    size_t rows;                /* 0: nothing was compared */
+    double *time, *predicted;   /* of each row: [s], and the force by the first law */
 } ss_motion_ranking;
 
 /* Rank friction laws by how well each, driven by the measured motion, predicts the force; the columns' values must

@@ -263,18 +263,20 @@ keep(driven_fit best[KEPT], driven_fit now)
 }
 
 /* Find starts for the fits without either fold and of all rows. */
-static void
+static ss_status
 search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[], size_t n)
 {
     static const size_t points[] = { 1, 24, 40, 60 };
     const size_t dim = p->n_free - (p->d->most_delay > 0);
     gsl_qrng *all_over = dim > 0 ? gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)dim) : NULL;
+    if (dim > 0 && all_over == NULL)
+        return SS_ENOMEM;
     for (size_t i = 0; i < (dim < 4 ? points[dim] : points[3]); i++) {
         double u[UNKNOWNS], at[UNKNOWNS];
         memcpy(u, p->law->held, sizeof u);
-        if (all_over != NULL)
+        if (dim > 0)
             gsl_qrng_get(all_over, at);
-        for (size_t k = 0; k < dim && all_over != NULL; k++)
+        for (size_t k = 0; k < dim; k++)
             u[p->free[k]] = starts[p->free[k]].from + at[k] * (starts[p->free[k]].to - starts[p->free[k]].from);
         fill_columns(p, u);
         for (p->without = 0; p->without <= ALL; p->without++) {
@@ -294,8 +296,9 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[
             evaluate(p, u, NULL);
             keep(best[p->without], p->now);
         }
-    if (all_over != NULL)
+    if (dim > 0)
         gsl_qrng_free(all_over);
+    return SS_OK;
 }
 
 /* --- errors -------------------------------------------------------------------------------- */
@@ -421,7 +424,7 @@ ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const 
         for (size_t k = 0; k < (FOLDS + 1) * KEPT; k++)
             start[k / KEPT][k % KEPT].loss = INFINITY;
         copy_folds(rough_fold, coarse, fold, d);
-        search(&rough, start, others, n);
+        st = search(&rough, start, others, n);
     }
     for (int k = 0; k <= ALL && st == SS_OK; k++) {
         p.without = rough.without = k;

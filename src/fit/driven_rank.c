@@ -596,8 +596,11 @@ ss_motion_ranking_new(ss_motion_ranking **out, const ss_signal *signal, size_t m
         ss_driven_free(&rows);
         ss_driven_free(&coarse);
     }
-    free(t);
     free(fold);
+    if (r != NULL)
+        r->time = t;
+    else
+        free(t);
     if (st == SS_OK)
         *out = r;
     else
@@ -610,6 +613,7 @@ ss_motion_ranking_free(ss_motion_ranking *ranking)
 {
     if (ranking == NULL)
         return;
+    free(ranking->time);
     free(ranking->predicted);
     free(ranking);
 }

@@ -130,17 +130,18 @@ memory(const state *m, double *unit)
     return m->q[2];
 }
 
-/* g is that at the end of the piece, at which z has the exponential of Dahl's law. */
+/* z follows Dahl's exponential, with g at the mean speed; then z' is that of the speed at the end. */
 static void
 drive(const ss_scene *s, double *memory, const piece *p, double part[])
 {
-    double w = p->v / s->own[SPEED], g = s->friction + (static_friction(s) - s->friction) * exp(-w * w);
-    double end = g / s->own[STIFFNESS] * sign(p->dx), z = end + (*memory - end) * exp(-fabs(p->dx / end));
-    if (p->dx == 0)
-        z = *memory;
-    part[0] = s->own[STIFFNESS] * z;
-    part[1] = p->h > 0 ? s->own[DAMPING] * (z - *memory) / p->h : 0;
-    *memory = z;
+    const double mean = p->h > 0 ? p->dx / p->h : 0;
+    double slope;
+    if (mean != 0) {
+        const double end = mean / slip_rate(s, sign(mean), mean, &slope);
+        *memory = end + (*memory - end) * exp(-fabs(p->dx / end));
+    }
+    part[0] = s->own[STIFFNESS] * *memory;
+    part[1] = s->own[DAMPING] * bristle_rate(s, sign(p->v), p->v, *memory);
 }
 
 MODEL(lugre) = {

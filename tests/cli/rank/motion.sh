@@ -18,6 +18,7 @@ awk -F, 'NR == 1 { print } NR > 200 { s += $6 * $6; f += $4 * $4 } END { print s
 ss-rank --motion x --column f --fit -s mass=2.42 -s stiffness=2310 -s x0=1e-3 all.tsv > law.scene
 sed -n '1s/ explains.*//p; /^model/p; /^mass/p' law.scene
 ss-sim law.scene | tail -n 1 | awk '{ print NF }'
+ss-rank --motion x --column f -o loop.gp all.tsv && grep -c -e 'set tmargin' -e 'compliant' loop.gp
 # an arm
 ss-signal sine --rate 500 --frequency 1 --duration 12 | awk '/^# col/ { print "# columns: t/s q/rad f/(N m)" } /^# / { if (!/col/) print }
     !/^#/ { f = ($2 > p ? 1 : -1) * 2 + 3 * sin($2); p = $2; print $1 "\t" $2 "\t" f }' | ss-noise --snr 60 > arm.tsv

@@ -1,0 +1,91 @@
+/* motion.c -- draw a ranking of friction laws by a motion: the loop of force and motion, as measured and as the
+ * first law predicts it; what that leaves over time; and a bar for each law. */
+#include "plot/script.h"
+#include "plot/style.h"
+
+#include <math.h>
+#include <stickslip/rank.h>
+#include "base/error.h"
+
+#define LOOP 5.0                /* heights of the panels [cm] */
+#define LEFT 2.0
+#define BAR 0.36
+#define AXIS 1.1                /* and below each */
+#define ROOM 9.0                /* for the label of a panel [ems] */
+enum { POINTS = 8000 };         /* of a line */
+
+/* Write a panel whose axes are these columns, scaled by nothing. */
+static void
+write_labels(script_stack *stack, double height, const ss_column *x, const ss_column *y)
+{
+    const script_scale plain = ss_script_power(0);
+    script_label of_x, of_y;
+    ss_script_make_label(&of_x, x, plain, INFINITY);
+    ss_script_make_label(&of_y, y, plain, ROOM);
+    ss_script_write_panel(stack, height, AXIS, &of_y);
+    ss_script_write_x_label(stack->out, &of_x, "0,0.4");
+}
+
+ss_status
+ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, const ss_motion_ranking *r,
+               const ss_plot_opts *opts, ss_error *err)
+{
+    ss_plot_opts own;
+    script_stack stack;
+    script_extent of_left = SCRIPT_NO_EXTENT;
+    if (out == NULL || signal == NULL || r == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_script_take(&own, opts, err);
+    if (st == SS_OK && (motion >= signal->head->n_columns || force >= signal->head->n_columns))
+        return ss_fail_column(err, motion >= signal->head->n_columns ? motion : force, signal->head->n_columns);
+    if (st == SS_OK && (r->n == 0 || r->rows != signal->n))
+        return ss_fail(err, SS_EINVAL, "nothing to draw: %s", r->answer);
+    const double *x = signal->values + motion * signal->n, *f = signal->values + force * signal->n;
+    const ss_column *of_x = &signal->head->column[motion], *of_f = &signal->head->column[force];
+    const ss_column time = { .name = (char *)"t", .unit = (char *)"s" };
+    const ss_column left = { .name = (char *)"left", .unit = of_f->unit };
+    const ss_column explained = { .name = (char *)"explained of the force that was held out", .unit = (char *)"" };
+    const ss_column law = { .name = (char *)"", .unit = (char *)"" };
+    if (st == SS_OK)
+        st = ss_script_check(of_x->name, ss_script_extent(x, signal->n), err);
+    if (st == SS_OK)
+        st = ss_script_check(of_f->name, ss_script_extent(f, signal->n), err);
+    if (st == SS_OK)
+        st = ss_script_begin_stack(&stack, out, &own, signal->head,
+                                   LOOP + LEFT + BAR * (double)r->n + 3 * AXIS, err);
+    if (st != SS_OK)
+        return st;
+    fputs("$loop << EOD\n", out);
+    for (size_t i = 0, stride = 1 + signal->n / POINTS; i < signal->n; i += stride)
+        ss_print(out, "%.8g %.6g %.6g %.6g %.6g\n", r->time[i], x[i], f[i], r->predicted[i],
+                 f[i] - r->predicted[i]);
+    fputs("EOD\n$laws << EOD\n", out);
+    for (size_t i = 0; i < r->n; i++)
+        ss_print(out, "%.6g %.6g %zu %d\n", fmax(r->row[i].explained, 0), r->row[i].explained_error, r->n - i,
+                 r->row[i].tied);
+    fputs("EOD\n", out);
+    ss_script_write_frame(out, 0.22, 0.965);
+    fputs("set autoscale xfix; set offsets graph 0.03,graph 0.03,graph 0.05,graph 0.05\n", out);
+    write_labels(&stack, LOOP, of_x, of_f);
+    ss_print(out, "set title offset 0,0.7\n"
+             "set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\nplot $loop using 2:3 with lines lw 1 lc rgb '" SKY_BLUE
+             "' title 'measured', $loop using 2:4 with lines lw 0.8 lc rgb '" VERMILION "' title ");
+    ss_script_quote(out, r->row[0].law);
+    fputs("\nunset key\n", out);
+    for (size_t i = 0; i < signal->n; i++)
+        ss_script_include(&of_left, f[i] - r->predicted[i]);
+    ss_script_write_tics(out, "ytics", of_left, 4);
+    write_labels(&stack, LEFT, &time, &left);
+    fputs("plot 0 lc rgb '" ZERO_COLOUR "' lw 0.7, $loop using 1:5 with lines lw 0.7 lc rgb '" BLACK "'\n", out);
+    write_labels(&stack, BAR * (double)r->n, &explained, &law);
+    ss_script_write_frame(out, 0.3, 0.965);
+    ss_print(out, "set offsets 0,0,0,0; set xrange [0:1]; set yrange [0.4:%zu.6]; set ytics (", r->n);
+    for (size_t i = 0; i < r->n; i++) {
+        ss_script_quote(out, r->row[i].law);
+        ss_print(out, " %zu%s", r->n - i, i + 1 < r->n ? ", " : ")\n");
+    }
+    fputs("plot $laws using ($1/2):3:($1/2):(0.3) with boxxyerror fs solid 0.6 noborder lc rgb '" BLUE "', "
+          "$laws using 1:3:2 with xerrorbars pt 7 ps 0.1*mark lc rgb '" BLACK "', "
+          "$laws using ($4 == 1 ? 0.02 : NaN):3 with points pt 7 ps 0.4*mark lc rgb 'white'\n", out);
+    return ss_script_end(out);
+}
