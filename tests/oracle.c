@@ -24,9 +24,44 @@ load(const ss_scene *s, long double t, long double x)
 }
 
 static long double
-most_in_stick(const ss_scene *s)
+number(const ss_scene *s, const char *key)
 {
-    return s->static_friction > s->friction ? s->static_friction : s->friction;
+    double x = ss_scene_get(s, key);
+    return isnan(x) ? 0 : (long double)x;
+}
+
+/* What friction does against a slip in direction `way`, and against its beginning; a contact's stiffness there. */
+static long double
+kinetic(const ss_scene *s, int way)
+{
+    return way < 0 && s->friction_negative != 0 ? s->friction_negative : s->friction;
+}
+
+static long double
+most_in_stick(const ss_scene *s, int way)
+{
+    long double most = way < 0 && s->static_friction_negative != 0 ? s->static_friction_negative : s->static_friction;
+    return fmaxl(most, kinetic(s, way));
+}
+
+static long double
+stiffness(const ss_scene *s, int way)
+{
+    long double other = number(s, "contact_stiffness_negative");
+    return way < 0 && other != 0 ? other : number(s, "contact_stiffness");
+}
+
+static int
+is_alike(const ss_scene *s)
+{
+    return number(s, "gap") == 0 && number(s, "contact_stiffness_negative") == 0;
+}
+
+static int
+is_total(const ss_scene *s)
+{
+    const char *word = ss_scene_word(s, "release");
+    return word != NULL && strcmp(word, "total") == 0;
 }
 
 /* The answers of q'' + 2 a q' + k/m q = 0 to a displacement of 1 and to a velocity of 1, without the
@@ -83,6 +118,14 @@ oracle_at(const oracle *o, size_t i, long double t, long double out[3])
     out[1] += p->belt;
 }
 
+/* What the spring, or spring and damper, lack of the release. */
+static long double
+left_to_release(const ss_scene *s, const oracle_piece *p, const long double q[])
+{
+    long double force = stiffness(s, p->side) * q[0] + (is_total(s) ? number(s, "contact_damping") * q[1] : 0);
+    return fminl(most_in_stick(s, 1) - force, most_in_stick(s, -1) + force);
+}
+
 /* Not negative while the piece lasts. */
 static long double
 guard(const ss_scene *s, const oracle_piece *p, long double t)
@@ -91,12 +134,14 @@ guard(const ss_scene *s, const oracle_piece *p, long double t)
     motion_at(s, p, t, q);
     if (p->mode != 0)
         return p->mode * (q[1] - s->surface_velocity);
-    if (p->at_rest != 0)
-        return most_in_stick(s) - fabsl(load(s, t, q[0] + p->belt * (t - p->t0)));
-    long double force = ss_scene_get(s, "contact_stiffness") * q[0];
-    if (strcmp(ss_scene_word(s, "release"), "total") == 0)
-        force += ss_scene_get(s, "contact_damping") * q[1];
-    return most_in_stick(s) - fabsl(force);
+    if (p->at_rest != 0) {
+        long double force = load(s, t, q[0] + p->belt * (t - p->t0));
+        return fminl(most_in_stick(s, 1) - force, most_in_stick(s, -1) + force);
+    }
+    if (p->side == 0)
+        return stiffness(s, 1) * (number(s, "gap") - fabsl(q[0]));
+    long double left = left_to_release(s, p, q);
+    return p->side == ALIKE ? left : fminl(left, stiffness(s, p->side) * p->side * q[0]);
 }
 
 /* Of the fastest motion or decay. */
@@ -156,31 +201,23 @@ static oracle_piece
 slip_from(const ss_scene *s, long double t, long double x, long double v, int direction)
 {
     long double pull = (long double)s->stiffness * s->base_velocity;
-    return (oracle_piece){ .t0 = t, .mode = direction, .kind = SS_SLIP, .direction = direction,
+    return (oracle_piece){ .t0 = t, .mode = direction, .is_event = 1, .kind = SS_SLIP, .direction = direction,
                            .k = s->stiffness, .c = s->damping, .ramp = pull,
-                           .f0 = (long double)direction * s->friction - pull * t, .q0 = x,
+                           .f0 = (long double)direction * kinetic(s, direction) - pull * t, .q0 = x,
                            .v0 = v };
 }
 
+/* A microstick with y beyond the edge of a side (of the gap: beyond its middle). */
 static oracle_piece
-stop_from(const ss_scene *s, long double t, long double x, long double y, int direction)
+on_side(const ss_scene *s, oracle_piece p, long double x, long double y, int side, long double v)
 {
-    oracle_piece p = { .t0 = t, .kind = SS_STICK, .direction = direction, .k = s->stiffness,
-                       .belt = s->surface_velocity };
-    if (s->model == ss_model_named("coulomb")) {
-        long double force = load(s, t, x);
-        if (fabsl(force) > most_in_stick(s)) {
-            p = slip_from(s, t, x, s->surface_velocity, force > 0 ? 1 : -1);
-            p.kind = SS_REVERSE;
-            return p;
-        }
-        p.q0 = x;
-        p.at_rest = 1;
-        return p;
-    }
-    p.k += ss_scene_get(s, "contact_stiffness");
-    p.c = (long double)ss_scene_get(s, "contact_damping") + s->damping;
+    long double t = p.t0;
+    p.side = side;
+    p.belt = s->surface_velocity;
+    p.k = s->stiffness + (side != 0 ? stiffness(s, side) : 0);
+    p.c = s->damping + (side != 0 ? number(s, "contact_damping") : 0);
     p.x_ref = x - y;
+    p.v0 = v;
     p.ramp = (long double)s->stiffness * ((long double)s->base_velocity - s->surface_velocity);
     p.f0 = s->stiffness * (p.x_ref - s->base_velocity * t)
         + (long double)s->damping * s->surface_velocity;
@@ -189,17 +226,45 @@ stop_from(const ss_scene *s, long double t, long double x, long double y, int di
 }
 
 static oracle_piece
+stop_from(const ss_scene *s, long double t, long double x, long double y, int direction)
+{
+    oracle_piece p = { .t0 = t, .is_event = 1, .kind = SS_STICK, .direction = direction, .k = s->stiffness,
+                       .belt = s->surface_velocity };
+    if (s->model == ss_model_named("coulomb")) {
+        long double force = load(s, t, x);
+        if (fabsl(force) > most_in_stick(s, force > 0 ? 1 : -1)) {
+            p = slip_from(s, t, x, s->surface_velocity, force > 0 ? 1 : -1);
+            p.kind = SS_REVERSE;
+            return p;
+        }
+        p.q0 = x;
+        p.at_rest = 1;
+        return p;
+    }
+    return on_side(s, p, x, y, is_alike(s) ? ALIKE : direction, 0);
+}
+
+static oracle_piece
 after(const ss_scene *s, const oracle_piece *p, long double t)
 {
     long double q[3];
     motion_at(s, p, t, q);
     long double x = p->x_ref + p->belt * (t - p->t0) + q[0];
+    long double gap = number(s, "gap");
+    if (p->mode == 0 && p->at_rest == 0 && p->side != ALIKE
+        && (p->side == 0 || p->side * q[0] * stiffness(s, p->side) < left_to_release(s, p, q))) {
+        int to = p->side == 0 ? (q[0] > 0 ? 1 : -1) : gap > 0 ? 0 : -p->side;
+        oracle_piece next = on_side(s, (oracle_piece){ .t0 = t }, x, to == 0 ? p->side * gap : 0, to, q[1]);
+        const long double there[3] = { 0, q[1] };
+        if (to == 0 || left_to_release(s, &next, there) >= 0)
+            return next;
+    }
     if (p->mode == 0) {
         long double way = p->at_rest != 0 ? load(s, t, x) : q[1];
         return slip_from(s, t, x, q[1] + p->belt, way > 0 ? 1 : -1);
     }
     int compliant = s->model == ss_model_named("compliant");
-    long double limit = compliant ? s->friction / ss_scene_get(s, "contact_stiffness") : 0;
+    long double limit = compliant ? kinetic(s, p->mode) / stiffness(s, p->mode) : 0;
     return stop_from(s, t, x, p->mode * limit, p->mode);
 }
 
@@ -208,8 +273,10 @@ oracle_new(const ss_scene *s, double t_end)
 {
     oracle *o = calloc(1, sizeof *o);
     long double v = (long double)s->v0 - s->surface_velocity;
+    int pushed = number(s, "gap") > 0 || s->model == ss_model_named("coulomb") ? 0
+        : load(s, 0, s->x0) > 0 ? 1 : -1;           /* the side on which a contact without a gap begins */
     oracle_piece p = v != 0 ? slip_from(s, 0, s->x0, s->v0, v > 0 ? 1 : -1)
-        : stop_from(s, 0, s->x0, 0, 0);
+        : stop_from(s, 0, s->x0, 0, pushed);
     o->scene = s;
     o->starts_with_event = p.mode != 0;
     if (p.kind == SS_REVERSE)

@@ -2,7 +2,8 @@
  * state-variable scenes.
  *
  * Independent of the library: in the frame of the laboratory, between events, the motion is the sum of
- * a steady sinusoid, a line and what dies out; events are found by scanning that sum in steps of 1/500
+ * a steady sinusoid, a line and what dies out, and so within a contact's gap and on either side of it;
+ * events are found by scanning that sum in steps of 1/500
  * of its fastest period, with a look at every minimum between, and bisection to the last bit. */
 #ifndef ORACLE_H
 #define ORACLE_H
@@ -10,9 +11,12 @@
 #include <stddef.h>
 #include <stickslip.h>
 
+enum { ALIKE = 2 };
 typedef struct oracle_piece {       /* what holds from one event to the next */
     long double t0;                 /* [s] from the start of settling */
     int mode;                       /* 0 stick or microstick, else the sign of the slip */
+    int side;                       /* of a contact's play: +1, -1, 0 in the gap; ALIKE: it has no sides */
+    int is_event;                   /* 0: it begins where the contact goes from side to side */
     ss_event_kind kind;             /* of the event that it begins with */
     int direction;
     long double x_ref, belt;        /* x = x_ref + belt (t - t0) + q */

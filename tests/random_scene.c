@@ -37,7 +37,8 @@ draw_own(rng *r, ss_scene *s)
     if (ss_scene_get(s, "static_friction") == 0 && !s->model->linear)
         s->static_friction = draw(r, "f_s/f_k") * s->friction;
     for (size_t i = 0; (range = ss_model_range(s->model, i)) != NULL; i++)
-        if (ss_key_is_own(range->offset))
+        if (ss_key_is_own(range->offset) && (s->model->dim > 2 || (strcmp(range->name, "b/X") != 0
+                                                                   && strcmp(range->name, "K_y-/K_y") != 0)))
             ss_range_set(range, s, draw_within(r, range));
 }
 
@@ -130,5 +131,21 @@ random_rig(uint64_t number)
     }
     s.duration = RIG_PERIODS / fastest * 2 * M_PI / omega;
     s.rate = RIG_SAMPLES / s.duration;
+    return s;
+}
+
+ss_scene
+random_contact(uint64_t number)
+{
+    rng r = { number * UINT64_C(0xd1342543de82ef95) + 11 };
+    ss_scene s = random_rig(number ^ UINT64_C(0x5bd1e995));
+    double X = fmax(s.base_amplitude, s.friction / s.stiffness);
+    s.friction_negative = perhaps(&r, .3, 3, 0) * s.friction;
+    s.static_friction_negative = perhaps(&r, 1, 3, 0) * fmax(s.friction_negative, s.friction);
+    if (s.model == ss_model_named("compliant")) {
+        ss_scene_set(&s, "gap", perhaps(&r, 1e-3, 1, 0) * X, NULL);
+        ss_scene_set(&s, "contact_stiffness_negative",
+                     perhaps(&r, .3, 1, 0) * ss_scene_get(&s, "contact_stiffness"), NULL);
+    }
     return s;
 }

@@ -44,5 +44,7 @@ enum { RANDOM_NEWER = 1000000, RANDOM_OLDER = 4 };
 ss_scene random_scene(uint64_t number);
 /* A Coulomb or compliant scene with all keys, each of which one time in two does nothing. */
 ss_scene random_rig(uint64_t number);
+/* The same with a gap and another friction and stiffness of the other side. */
+ss_scene random_contact(uint64_t number);
 
 #endif

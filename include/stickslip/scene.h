@@ -38,6 +38,7 @@ typedef struct ss_scene {
     double base_velocity;       /* U      [m/s]: the spring's end moves at this speed */
     double surface_velocity;    /* S      [m/s]: the surface under the mass moves, as a belt does */
     double static_friction;     /* f_s    [N]     >= f_k; 0: equal to f_k, or the model has none */
+    double friction_negative, static_friction_negative; /* those of motion to smaller x; 0: as the others */
 
     double own[SS_SCENE_OWN];   /* the model's own parameters, which ss_scene_get and ss_scene_set find
                                    by their keys; for a word, its number */

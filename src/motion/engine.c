@@ -15,7 +15,7 @@ guard_at(double s, void *user)
     double q[MAX_DIM], dqdt[MAX_DIM];
     guard_value at;
     e->type->at(e, ANYWHERE, s, base_turn(m, m->u + s), q, dqdt);
-    at.g = m->model->guard(m, q, dqdt, &at.slope);
+    at.g = bound_value(&m->bound[e->ended], q, dqdt, &at.slope);
     e->lost |= isnan(at.g);
     return at;
 }
@@ -31,7 +31,7 @@ fail_lost(const engine *e, ss_error *err)
 void
 ss_engine_begin(engine *e)
 {
-    e->has_start = e->has_guard = 0;
+    e->has_start = 0;
     e->type->begin(e);
 }
 
@@ -63,91 +63,89 @@ ss_engine_derive(engine *e)
     e->has_start = e->has_end = 1;
 }
 
-/* A guard is its value at the origin plus of_q q + of_v v; its rate of change for q' = 1 and for v' = 1
- * is each factor. */
-static void
-find_guard(engine *e)
-{
-    static const double origin[MAX_DIM] = { 0 }, q[MAX_DIM] = { 1, 0 }, v[MAX_DIM] = { 0, 1 };
-    const state *m = &e->m->now;
-    e->level = m->model->guard(m, origin, origin, &e->of_q);
-    m->model->guard(m, q, q, &e->of_q);
-    m->model->guard(m, q, v, &e->of_v);
-    e->has_guard = 1;
-}
-
-/* Fill in the guard of a step, but not its polynomial p.  In stick the force has a limit on either side. */
-static void
-guard_of_step(engine *e, step_guard *g)
+/* The guard of a step, but not its polynomial p. */
+static step_guard
+guard_of_step(const engine *e, const bound *b)
 {
     const state *m = &e->m->now;
-    if (!e->has_guard)
-        find_guard(e);
-    g->level = e->level;
-    g->either_side = m->mode == 0;
-    g->h = e->h;
     double base = m->scene->base != NULL ? m->scene->stiffness * m->scene->base->size : m->drive;
     double a = (base + fabs(m->ramp * (m->u + e->h)) + fabs(m->drag) + fabs(m->f0)
                 + fabs(m->k * m->q[0]) + fabs(m->c * m->q[1])) / m->scene->mass;
-    g->rounding = a * e->h * (fabs(e->of_v) + fabs(e->of_q) * e->h / 8);    /* of v' */
+    double by_place = fabs(b->of[0]) + fabs(b->of[2]);
+    return (step_guard){ .level = b->level, .either_side = b->either_side, .h = e->h,
+                         .rounding = a * e->h * (fabs(b->of[1]) + by_place * e->h / 8) };     /* of v' */
 }
 
-/* Find the end of the mode from the guard and its slope at the ends of the step, and by repeating the
+/* Find the end of the mode from a bound and its slope at the ends of the step, and by repeating the
  * step with other lengths. */
 static int
-ends_by_steps(engine *e, double *s_event)
+ends_by_steps(engine *e, const bound *b, double *s_event)
 {
-    const state *m = &e->m->now;
     guard_value at_0, at_h;
-    at_0.g = m->model->guard(m, m->q, e->dq0, &at_0.slope);
-    at_h.g = m->model->guard(m, e->q1, e->dq1, &at_h.slope);
+    at_0.g = bound_value(b, e->m->now.q, e->dq0, &at_0.slope);
+    at_h.g = bound_value(b, e->q1, e->dq1, &at_h.slope);
     int ends = ss_event_find(guard_at, e, e->h, at_0, at_h, s_event);
     return e->lost ? -1 : ends;
 }
 
+static double
+linear_part(const bound *b, const double q[])
+{
+    return b->of[0] * q[0] + b->of[1] * q[1] + (b->of[2] != 0 ? b->of[2] * q[2] : 0);
+}
+
 static int
-ends_by_derivatives(engine *e, double *s_event, int *unresolved)
+ends_by_derivatives(engine *e, const bound *b, double *s_event, int *unresolved)
 {
     double at_0[ORDERS + 1], at_h[ORDERS + 1];
-    step_guard g;
     ss_engine_derive(e);
-    guard_of_step(e, &g);
+    step_guard g = guard_of_step(e, b);
     for (int i = 0; i <= ORDERS; i++) {
-        at_0[i] = e->of_q * e->start[i][0] + e->of_v * e->start[i][1];
-        at_h[i] = e->of_q * e->end[i][0] + e->of_v * e->end[i][1];
+        at_0[i] = linear_part(b, e->start[i]);
+        at_h[i] = linear_part(b, e->end[i]);
     }
     ss_guard_by_ends(&g, at_0, at_h);
     return ss_first_zero(&g, s_event, unresolved);
 }
 
 static int
-ends_by_curve(engine *e, double *s_event, int *unresolved)
+ends_by_curve(engine *e, const bound *b, double *s_event, int *unresolved)
 {
     double c[MOST_DEGREE + 1][MAX_DIM], p[MOST_DEGREE + 1];
-    step_guard g;
-    guard_of_step(e, &g);
+    step_guard g = guard_of_step(e, b);
     int degree = e->type->curve(e, c);
     for (int i = 0; i <= degree; i++)
-        p[i] = e->of_q * c[i][0] + e->of_v * c[i][1];
+        p[i] = linear_part(b, c[i]);
     if (ss_guard_is_clear(&g, degree, p))
         return 0;
     ss_guard_by_series(&g, degree, p);
     return ss_first_zero(&g, s_event, unresolved);
 }
 
+/* The bound that is reached first ends the mode. */
 ss_status
 ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
 {
-    const ss_model *model = e->m->now.model;
-    int unresolved = 0;
+    const state *m = &e->m->now;
+    int unresolved = 0, first = 0;
     *ends = 0;
-    if (model->guard == NULL || e->clear)
-        return SS_OK;
-    *ends = e->type->curve != NULL ? ends_by_curve(e, s_event, &unresolved)
-        : model->derivatives != NULL ? ends_by_derivatives(e, s_event, &unresolved)
-        : ends_by_steps(e, s_event);
+    for (e->ended = 0; e->ended < m->n_bounds && !e->clear; e->ended++) {
+        const bound *b = &m->bound[e->ended];
+        double s;
+        int found = e->type->curve != NULL ? ends_by_curve(e, b, &s, &unresolved)
+            : m->model->derivatives != NULL ? ends_by_derivatives(e, b, &s, &unresolved)
+            : ends_by_steps(e, b, &s);
+        if (found < 0)
+            return fail_lost(e, err);
+        if (!found || (*ends && s >= *s_event))
+            continue;
+        *ends = 1;
+        *s_event = s;
+        first = e->ended;
+    }
+    e->ended = first;
     e->m->unresolved += (unsigned long)unresolved;
-    return *ends < 0 ? fail_lost(e, err) : SS_OK;
+    return SS_OK;
 }
 
 /* Returns 1 if a pull ends a stick after so short a time s that without the stick the force, growing at
@@ -173,6 +171,7 @@ ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
     }
     m->unresolved += (unsigned long)(still && barely_sticks(m, s));
     now->u += s;
+    now->ended = e->ended;
     ss_motion_rebase(m);
     if (!now->model->kinks && now->mode != 0 && fabs(now->x_ref + now->q[0] - m->x_begin) <= m->doubt)
         m->unresolved++;

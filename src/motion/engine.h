@@ -48,9 +48,7 @@ struct engine {
     double dq0[MAX_DIM];                    /* rate of change of the state at its start */
     double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
     int clear;                              /* 1: step() has proven that it contains no event */
-    /* The guard in this mode is level + of_q q + of_v v, or level - |of_q q + of_v v|. */
-    int has_guard;
-    double level, of_q, of_v;
+    int ended;                              /* the number of the bound that ends the mode in this step */
     /* The state and its first ORDERS derivatives at both ends, if they have been computed. */
     int has_start, has_end;
     double start[ORDERS + 1][MAX_DIM], end[ORDERS + 1][MAX_DIM];

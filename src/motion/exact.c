@@ -127,24 +127,22 @@ evaluate_at(const exact *x, double u, double q[], double dqdt[])
 }
 
 /* The n-th derivative of q is at most Omega^n |P| + omega0^n |K|, where the free motion is the real part
- * of K exp((-s + i w) u).  The guard is linear in q and v, up to signs that do not raise a minimum.  So
- * its slope, computed with the bounds of the (n+1)-th derivatives in place of q' and v', bounds the
- * (n+1)-th derivative of the guard. */
+ * of K exp((-s + i w) u).  A guard is linear in q and v, with factors of one sign, up to signs that do not
+ * raise a minimum. */
 static void
 bound_guard(exact *x, double omega0)
 {
     const state *m = &x->base.m->now;
     double offset = x->q + (m->f0 + m->drag) / m->k, P = hypot(x->p_cos, x->p_sin);
     double K = hypot(offset, (x->v + x->s * offset) / x->w), omega = m->omega;
-    const double positive[MAX_DIM] = { 1, 1 };
     double *const bounded[] = { &x->curvature, &x->third };
     P *= omega * omega;
     K *= omega0 * omega0;
     for (int i = 0; i < 2; i++, P *= omega, K *= omega0) {
-        const double bound[MAX_DIM] = { P + K, omega * P + omega0 * K };
-        double slope;
-        m->model->guard(m, positive, bound, &slope);
-        *bounded[i] = fabs(slope);
+        *bounded[i] = 0;
+        for (int j = 0; j < m->n_bounds; j++)
+            *bounded[i] = fmax(*bounded[i], fabs(m->bound[j].of[0] * (P + K)
+                                                 + m->bound[j].of[1] * (omega * P + omega0 * K)));
     }
 }
 
@@ -189,12 +187,22 @@ exact_begin(engine *e)
     evaluate_at(x, 0, q, e->dq0);
 }
 
+/* The least of the guards. */
+static double
+least_guard(const state *m, const double q[], const double dqdt[])
+{
+    double least = INFINITY, slope;
+    for (int i = 0; i < m->n_bounds; i++)
+        least = fmin(least, bound_value(&m->bound[i], q, dqdt, &slope));
+    return least;
+}
+
 static ss_status
 exact_step(engine *e, double h_max, ss_error *err)
 {
     const exact *x = (exact *)e;
     const state *m = &e->m->now;
-    double slope, g = m->model->guard(m, m->q, e->dq0, &slope);
+    double g = least_guard(m, m->q, e->dq0);
     double h = fmin(sqrt(4 * g / x->curvature), LONGEST * h_max);
     (void)err;
     e->steps++;
@@ -202,7 +210,7 @@ exact_step(engine *e, double h_max, ss_error *err)
         e->h = h;
         e->rhs++;
         evaluate_at(x, m->u + h, e->q1, e->dq1);
-        e->clear = m->model->guard(m, e->q1, e->dq1, &slope) > x->curvature * h * h / 8;
+        e->clear = least_guard(m, e->q1, e->dq1) > x->curvature * h * h / 8;
         if (e->clear)
             return SS_OK;
     }
@@ -224,17 +232,39 @@ safe_distance(const exact *x, double g, double slope, double bend)
     return fmax((slope + root) / B, (bend / 2 + sqrt(bend * bend / 4 + 2 * C * slope)) / C);
 }
 
+/* The same to the zeros of all guards; the bound of the nearest becomes that which ends the mode. */
+static double
+safe_step(exact *x, double s, double jerk)
+{
+    engine *e = &x->base;
+    const state *m = &e->m->now;
+    const double bends[MAX_DIM] = { e->dq1[1], jerk };
+    double step = INFINITY;
+    for (int i = 0; i < m->n_bounds; i++) {
+        const bound *b = &m->bound[i];
+        double slope, bend, g = bound_value(b, e->q1, e->dq1, &slope), nearest = step;
+        bound_value(b, e->q1, bends, &bend);
+        if (s == 0 && g == 0)
+            slope = fmax(slope, 0);         /* the mode has just begun: rounding made it negative */
+        step = fmin(step, safe_distance(x, fmax(g, 0), slope, bend));
+        if (b->either_side)
+            step = fmin(step, safe_distance(x, 2 * b->level - g, -slope, -bend));
+        if (step < nearest)
+            e->ended = i;
+    }
+    return step;
+}
+
 /* Find the next event by going safe distances until they vanish.  Near a crossing they shrink
  * quadratically, as Newton's steps do: a mode takes about ten evaluations, where steps and a search in
- * the last of them take fifty.  Microstick has a limit on either side; the guard is that of the nearer. */
+ * the last of them take fifty. */
 static int
 exact_ahead(engine *e, double s_max, double *s_event)
 {
     enum { PASSES = 60 };
     exact *x = (exact *)e;
     const state *m = &e->m->now;
-    const double origin[MAX_DIM] = { 0 };
-    double s = 0, unused, limit = m->model->guard(m, origin, origin, &unused);
+    double s = 0;
     if (!isfinite(x->third))
         return -1;
     memcpy(e->q1, m->q, sizeof e->q1);
@@ -244,14 +274,7 @@ exact_ahead(engine *e, double s_max, double *s_event)
     for (int i = 0; i < PASSES; i++) {
         double jerk = (-m->drive * m->omega * base.si + m->ramp - m->k * e->q1[1] - m->c * e->dq1[1])
             / m->scene->mass;
-        const double bends[MAX_DIM] = { e->dq1[1], jerk };
-        double slope, bend, g = m->model->guard(m, e->q1, e->dq1, &slope);
-        m->model->guard(m, e->q1, bends, &bend);
-        if (s == 0 && g == 0)
-            slope = fmax(slope, 0);         /* the mode has just begun: rounding made it negative */
-        double step = safe_distance(x, fmax(g, 0), slope, bend);
-        if (m->mode == 0)
-            step = fmin(step, safe_distance(x, 2 * limit - g, -slope, -bend));
+        double step = safe_step(x, s, jerk);
         double width = fmax(x->width, 2 * DBL_EPSILON * (m->u + s));
         if (step <= width && s > 0) {
             *s_event = e->h = s + step + width;

@@ -104,7 +104,7 @@ ss_method_named(const struct method **how, const char *name, const ss_scene *sce
         return ss_fail(err, SS_EINVAL, "method %s: the %s model has no %s", name, model->name, lacks);
     if (kind == CLOSED_FORM && scene->base != NULL)
         return ss_fail(err, SS_EINVAL, "method %s: a measured base has no closed form", name);
-    if (kind == MULTISTEP && model->guard != NULL && model->derivatives == NULL)
+    if (kind == MULTISTEP && model->next != NULL && model->derivatives == NULL)
         return ss_fail(err, SS_EINVAL, "method %s does not repeat a step, by which alone %s of "
                        "the %s model are found", name, model->kinks ? "kinks" : "events", model->name);
     *how = &list[i];

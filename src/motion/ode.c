@@ -340,7 +340,7 @@ ss_ode_new(engine **out, motion *of, const char *name, int multistep, double tol
     if (o == NULL)
         return ss_fail_memory(err, NULL);
     o->base = (engine){ .type = &ode_type, .m = of,
-                        .lands_on_samples = multistep && m->model->guard == NULL };
+                        .lands_on_samples = multistep && m->model->next == NULL };
     o->system = (gsl_odeiv2_system){ m->moves ? rhs_with_pull : rhs, jacobian, m->model->dim, o };
     o->multistep = multistep;
     o->tol = tol;

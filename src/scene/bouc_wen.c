@@ -86,40 +86,39 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
     dfdt[1] = base_force_rate(m, u) / s->mass;
 }
 
-/* The distances, in units of v, to the ends of the mode. */
-static double
-guard(const state *m, const double q[], const double dqdt[], double *slope)
+static void
+enter(state *m, int side)
 {
-    double unit = own_frequency(m->scene), b = m->scene->own[GAP];
-    int toward = m->side != 0 ? m->side : -sign(q[2]);
-    double g = unit * toward * (q[2] - (m->side != 0 ? m->side : sign(q[2])) * b), g_v = m->mode * q[1];
-    if (g < g_v) {
-        *slope = unit * toward * dqdt[2];
-        return g;
-    }
-    *slope = m->mode * dqdt[1];
-    return g_v;
+    double b = m->scene->own[GAP];
+    ss_kink_turn(m);
+    m->side = side;
+    m->n_bounds = 2;
+    m->bound[1] = side != 0 ? (bound){ -b, { 0, 0, side }, 0 } : (bound){ b, { 0, 0, 1 }, 1 };
 }
 
 static int
 start(state *m)
 {
     ss_kink_start(m);
-    m->side = m->scene->own[GAP] > 0 ? 0 : m->mode;
+    enter(m, m->scene->own[GAP] > 0 ? 0 : m->mode);
     return 0;
 }
 
 static int
 next(state *m, ss_event *e)
 {
-    double b = m->scene->own[GAP], off = fabs(fabs(m->q[2]) - b) * own_frequency(m->scene);
-    if (fabs(m->q[1]) <= off)
-        return ss_kink_next(m, e);
-    if (m->side == 0)
-        m->side = m->mode;
-    else
-        m->side = b > 0 ? 0 : m->mode;
-    m->q[2] = (m->side != 0 ? m->side : -m->mode) * b;
+    double b = m->scene->own[GAP];
+    (void)e;
+    if (m->ended == 0) {
+        m->q[1] = 0;
+        enter(m, m->side);
+    } else if (m->side == 0) {
+        m->q[2] = m->mode * b;
+        enter(m, m->mode);
+    } else {
+        m->q[2] = m->side * b;
+        enter(m, b > 0 ? 0 : -m->side);
+    }
     return 0;
 }
 
@@ -192,7 +191,7 @@ MODEL(bouc_wen) = {
     .n_parameters = 1,
     .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,
     .limit = ss_to_coulomb, .dim = 3, .kinks = 1, .force_varies = IN_STICK | IN_SLIP,
-    .start = start, .fastest = fastest, .rates = rates, .jacobian = jacobian, .guard = guard, .next = next,
+    .start = start, .fastest = fastest, .rates = rates, .jacobian = jacobian, .next = next,
     .sample = sample, .memory = memory, .variation = &ss_kink_variation,
     .drive = drive
 };

@@ -2,11 +2,17 @@
  *
  * In slip the contact is deflected by Y_m = f_k / K_y.  When v reaches 0 at x = X_s, a microstick
  * begins with y = Y_m sgn(v before) + x - X_s and f = K_y y + c y'.  It lasts until f exceeds f_s.
- * The state in a microstick is y, not x: in a stiff contact Y_m is far smaller than x, and x - X_s
+ *
+ * The contact is piecewise linear.  It may have a play, or gap, of b on either side of y = 0, in which it
+ * carries no force, and on the side y < 0 another stiffness, and friction of another size.  So it has three
+ * sides at most: y > b, the gap, and y < -b.  On each the spring is deflected by q = y -+ b, and
+ * to go from one to the next is no event.  A contact that is alike everywhere has one, side 0.
+ *
+ * The state in a microstick is q, not x: in a stiff contact Y_m is far smaller than x, and x - X_s
  * would lose most of its digits. */
 #include "scene/models.h"
 
-enum { STIFFNESS, DAMPING, RELEASE };           /* K_y, c, and the force that ends a microstick */
+enum { STIFFNESS, DAMPING, RELEASE, GAP, NEGATIVE };    /* K_y, c, the force that ends a microstick, b, K_y of y < 0 */
 enum { SPRING, TOTAL };                         /* K_y |y|, as the paper writes; or |K_y y + c v| */
 
 static const char *
@@ -20,10 +26,14 @@ static const scene_key keys[] = {
     OWN_NUMBER("contact_stiffness", STIFFNESS, REQUIRED, POSITIVE, "N/m"),
     OWN_NUMBER("contact_damping", DAMPING, REQUIRED, NOT_NEGATIVE, "N s/m"),
     OWN_WORD("release", RELEASE, release_word),
-    KEY_STATIC_FRICTION,
+    KEY_STATIC_FRICTION, KEYS_FRICTION_NEGATIVE,
+    OWN_NUMBER("contact_stiffness_negative", NEGATIVE, TERM, POSITIVE, "N/m"),
+    OWN_NUMBER("gap", GAP, TERM, NOT_NEGATIVE, "m"),
 };
 
 static const vanishing vanishing_terms[] = {
+    { "contact_stiffness_negative=0", OWN_AT(NEGATIVE) },
+    { "gap=0", OWN_AT(GAP) },
     { "contact_damping=0", OWN_AT(DAMPING) },
 };
 
@@ -33,46 +43,111 @@ critical(const ss_scene *s)
     return 2 * sqrt(s->stiffness + s->own[STIFFNESS]) * sqrt(s->mass);
 }
 
+static double
+first_stiffness(const ss_scene *s)
+{
+    return s->own[STIFFNESS];
+}
+
 static const ss_scene_range ranges[] = {
     { "K_y/k", "1", 1e-2, 1e8, 0, OWN_AT(STIFFNESS), ss_unit_stiffness },
     { "c/(2 sqrt((k + K_y) m))", "1", 1e-4, 100, 1, OWN_AT(DAMPING), critical },
+    { "K_y-/K_y", "1", 0.1, 10, 1, OWN_AT(NEGATIVE), first_stiffness },
+    { "b/X", "1", 1e-3, 1, 1, OWN_AT(GAP), ss_unit_length },
 };
 
+/* K_y of motion in direction `way`. */
 static double
-deflection_in_slip(const state *m)
+stiffness_of(const ss_scene *s, int way)
 {
-    return m->scene->friction / m->scene->own[STIFFNESS];
+    return way < 0 && s->own[NEGATIVE] > 0 ? s->own[NEGATIVE] : s->own[STIFFNESS];
+}
+
+static int
+is_alike(const ss_scene *s)
+{
+    return s->own[GAP] == 0 && (s->own[NEGATIVE] == 0 || s->own[NEGATIVE] == s->own[STIFFNESS]);
+}
+
+static int
+is_gap(const ss_scene *s, int side)
+{
+    return side == 0 && s->own[GAP] > 0;
+}
+
+/* The deflection of the spring in slip in direction `way`, and that at which a microstick ends. */
+static double
+deflection_in_slip(const ss_scene *s, int way)
+{
+    return kinetic_friction(s, way) / stiffness_of(s, way);
 }
 
 static double
-deflection_limit(const state *m)
+deflection_limit(const ss_scene *s, int way)
 {
-    return static_friction(m->scene) / m->scene->own[STIFFNESS];
+    return holding_friction(s, way) / stiffness_of(s, way);
+}
+
+/* The ratio of damper to spring in the force that ends a microstick [s]. */
+static double
+damper_ratio(const ss_scene *s, int way)
+{
+    return s->own[RELEASE] == SPRING ? 0 : s->own[DAMPING] / stiffness_of(s, way);
+}
+
+/* Microstick lasts while the spring's force, or that of spring and damper, is within f_s.  On a side it lasts
+ * there while the spring touches; its bounds are the release, the edge of the side, and the release by a damper
+ * that pulls. */
+static void
+set_bounds(state *m)
+{
+    const ss_scene *s = m->scene;
+    double up = deflection_limit(s, 1), down = deflection_limit(s, -1), ratio = damper_ratio(s, m->side);
+    int side = m->side;
+    m->n_bounds = 2;
+    if (is_gap(s, side)) {
+        m->n_bounds = 1;
+        m->bound[0] = (bound){ s->own[GAP], { -1, 0 }, 1 };
+    } else if (side != 0) {
+        double pull = holding_friction(s, -side) / stiffness_of(s, side);
+        m->n_bounds = ratio > 0 ? 3 : 2;
+        m->bound[0] = (bound){ (side > 0 ? up : down) + m->slack, { -side, -side * ratio }, 0 };
+        m->bound[1] = (bound){ 0, { side, 0 }, 0 };
+        m->bound[2] = (bound){ pull, { side, side * ratio }, 0 };
+    } else if (up == down) {
+        m->n_bounds = 1;
+        m->bound[0] = (bound){ up + m->slack, { -1, -ratio }, 1 };
+    } else {
+        m->bound[0] = (bound){ up + m->slack, { -1, -ratio }, 0 };
+        m->bound[1] = (bound){ down + m->slack, { 1, ratio }, 0 };
+    }
 }
 
 static void
-microstick(state *m, double x, double y)
+microstick(state *m, double x, int side, double q, double v)
 {
     const ss_scene *s = m->scene;
+    int gap = is_gap(s, side);
     m->mode = 0;
-    m->k = s->stiffness + s->own[STIFFNESS];
-    m->c = s->own[DAMPING] + s->damping;
-    m->x_ref = x - y;
+    m->side = side;
+    m->k = s->stiffness + (gap ? 0 : stiffness_of(s, side));
+    m->c = (gap ? 0 : s->own[DAMPING]) + s->damping;
+    m->x_ref = x - q;
     m->f0 = s->stiffness * m->x_ref;
     m->slack = 0;
-    m->q[0] = y;
-    m->q[1] = 0;
+    m->q[0] = q;
+    m->q[1] = v;
+    set_bounds(m);
 }
 
-/* Without friction the mass never sticks: it slips in the direction of the force, or of the force's
- * rate where that is 0. */
+/* The direction in which a mass that no contact holds is pushed: that of the force, or of the force's rate where
+ * that is 0. */
 static int
-start_free(state *m)
+push(const state *m, double x)
 {
-    double x = m->scene->x0, force = ss_stick_force(m, base_force(m, m->u), x);
+    double force = ss_stick_force(m, base_force(m, m->u), x);
     int way = force != 0 ? sign(force) : sign(base_force_rate(m, m->u));
-    ss_linear_slip(m, x, 0, way != 0 ? way : 1);
-    return 1;
+    return way != 0 ? way : 1;
 }
 
 /* A contact that goes no further than this beyond its limit only touches it.  The distance is ten times
@@ -87,36 +162,15 @@ static int
 start(state *m)
 {
     const ss_scene *s = m->scene;
-    double limit = deflection_limit(m), v = s->v0 - s->surface_velocity;
+    double up = deflection_limit(s, 1), down = deflection_limit(s, -1), v = s->v0 - s->surface_velocity;
+    double limit = up < down ? up : down;
     m->graze = fmin(fmax(GRAZE_TOL * m->tol * m->x_scale, GRAZE_LEAST * limit), GRAZE_MOST * limit);
-    if (v == 0 && limit == 0)
-        return start_free(m);
-    if (v == 0) {
-        microstick(m, s->x0, 0);
+    if (v == 0 && static_friction(s) > 0) {
+        microstick(m, s->x0, is_alike(s) || s->own[GAP] > 0 ? 0 : push(m, s->x0), 0, 0);
         return 0;
     }
-    ss_linear_slip(m, s->x0, v, sign(v));
+    ss_linear_slip(m, s->x0, v, v != 0 ? sign(v) : push(m, s->x0));      /* without friction it never sticks */
     return 1;
-}
-
-/* The ratio of damper to spring in the force that ends a microstick [s]. */
-static double
-damper_ratio(const state *m)
-{
-    const ss_scene *s = m->scene;
-    return s->own[RELEASE] == SPRING ? 0 : s->own[DAMPING] / s->own[STIFFNESS];
-}
-
-/* Microstick lasts while the spring's force, or that of spring and damper, is within f_s. */
-static double
-guard(const state *m, const double q[], const double dqdt[], double *slope)
-{
-    if (m->mode != 0)
-        return ss_linear_slip_guard(m, q, dqdt, slope);
-    double limit = deflection_limit(m), ratio = damper_ratio(m);
-    double force = q[0] + ratio * q[1];         /* in units of K_y */
-    *slope = -sign(force) * (dqdt[0] + ratio * dqdt[1]);
-    return limit + m->slack - fabs(force);
 }
 
 /* The distance beyond its limit at which a contact will turn back if v' stays as it is. */
@@ -128,7 +182,7 @@ excess(const state *m)
     if (!(rate[1] * sign(m->q[0]) < 0))
         return INFINITY;
     double rest = v / (2 * fabs(rate[1])) * v;      /* v^2 may underflow */
-    return fabs(m->q[0]) - deflection_limit(m) + rest;
+    return fabs(m->q[0]) - deflection_limit(m->scene, sign(m->q[0])) + rest;
 }
 
 /* Returns 1 if a contact at its limit only touches it: if it goes at most m->slack + m->graze beyond.
@@ -146,26 +200,43 @@ only_touches(state *m)
         return 0;
     m->q[0] -= sign(m->q[0]) * beyond;
     m->slack = m->graze;                /* so that its peak needs no second test */
+    set_bounds(m);
     m->touches++;
     return 1;
+}
+
+/* 1 if the force of spring and damper, and that is what counts, exceeds f_s where the spring begins to touch. */
+static int
+strikes(const state *m, int side)
+{
+    double force = damper_ratio(m->scene, side) * side * m->q[1];
+    return !is_gap(m->scene, side) && force > deflection_limit(m->scene, side);
 }
 
 static int
 next(state *m, ss_event *e)
 {
-    double x = m->x_ref + m->q[0], v = m->q[1];
-    int before = m->mode;
-    if (before == 0 && only_touches(m))
+    const ss_scene *s = m->scene;
+    double x = m->x_ref + m->q[0], v = m->q[1], b = s->own[GAP];
+    int before = m->mode, side = m->side, released = before == 0 && !is_gap(s, side) && (side == 0 || m->ended != 1);
+    if (before == 0 && !released) {             /* from side to side */
+        int to = side == 0 ? sign(m->q[0]) : b > 0 ? 0 : -side;
+        if (!strikes(m, to)) {
+            microstick(m, x, to, to == 0 ? side * b : 0, v);
+            return 0;
+        }
+    }
+    if (released && only_touches(m))
         return 0;
     if (before == 0) {
         ss_linear_slip(m, x, v, v != 0 ? sign(v) : sign(m->q[0]));
         e->kind = SS_SLIP;
-    } else if (deflection_limit(m) == 0) {      /* no stick without friction: v passes through 0 */
+    } else if (static_friction(s) == 0) {       /* no stick without friction: v passes through 0 */
         ss_linear_slip(m, x, 0, -m->mode);
         e->kind = SS_REVERSE;
     } else {
         e->kind = SS_STICK;
-        microstick(m, x, before * deflection_in_slip(m));
+        microstick(m, x, is_alike(s) ? 0 : before, before * deflection_in_slip(s, before), 0);
     }
     e->direction = m->mode != 0 ? m->mode : before;
     return 1;
@@ -174,7 +245,8 @@ next(state *m, ss_event *e)
 static double
 deflection(const state *m, const double q[])
 {
-    return m->mode == 0 ? q[0] : m->mode * deflection_in_slip(m);
+    const ss_scene *s = m->scene;
+    return m->mode == 0 ? q[0] + m->side * s->own[GAP] : m->mode * (s->own[GAP] + deflection_in_slip(s, m->mode));
 }
 
 static void
@@ -186,14 +258,14 @@ sample(const state *m, double drive, const double q[], const double dqdt[], ss_s
     s->a = dqdt[1];
     s->mode = m->mode;
     s->y = deflection(m, q);
-    s->f = m->mode == 0 ? m->scene->own[STIFFNESS] * q[0] + m->scene->own[DAMPING] * q[1]
-        : m->f0;
+    s->f = m->mode != 0 ? m->f0 : is_gap(m->scene, m->side) ? 0
+        : stiffness_of(m->scene, m->side) * q[0] + m->scene->own[DAMPING] * q[1];
 }
 
 static double
 memory(const state *m, double *unit)
 {
-    *unit = deflection_limit(m);
+    *unit = m->scene->own[GAP] + fmax(deflection_limit(m->scene, 1), deflection_limit(m->scene, -1));
     return deflection(m, m->q);
 }
 
@@ -211,26 +283,29 @@ free_differences(const state *m, int is_free[D_MOST])
     is_free[D_Q] = is_free[D_V] = 1;
 }
 
-/* The derivatives across the end of a microstick, where |y + ratio v| reaches its limit. */
+/* The derivatives across the end of a microstick, or of one side in it, where |q + ratio v| reaches its bound. */
 static void
-cross_release(const state *m, const double q[], const double before[], const double after[],
-              double d[D_MOST][D_MOST])
+cross_bound(const state *m, const bound *by, const double q[], const double before[], const double after[],
+            double d[D_MOST][D_MOST])
 {
-    double ratio = damper_ratio(m), jump = before[1] - after[1];
+    double jump = before[1] - after[1], ratio = by->of[1] / by->of[0];
     for (int i = 0; i < D_MOST; i++) {
         double later = -(d[D_Q][i] + ratio * d[D_V][i]) / (q[1] + ratio * before[1]);
+        if (jump != 0)
+            d[D_V][i] += jump * later;
+        if (m->mode == 0)
+            continue;
         d[D_Q][i] += d[D_REF][i];
-        d[D_V][i] += jump * later;
         d[D_REF][i] = 0;
     }
 }
 
 static void
-cross(const state *m, int mode, const double q[], const double before[], const double after[],
+cross(const state *m, int mode, const bound *by, const double q[], const double before[], const double after[],
       double d[D_MOST][D_MOST])
 {
     if (mode == 0) {
-        cross_release(m, q, before, after, d);
+        cross_bound(m, by, q, before, after, d);
         return;
     }
     for (int i = 0; i < D_MOST; i++) {
@@ -245,14 +320,14 @@ cross(const state *m, int mode, const double q[], const double before[], const d
 static int
 move(state *m, const double d[D_MOST])
 {
-    double rates[MAX_DIM], slope;
+    double rates[MAX_DIM];
     m->x_ref += d[D_REF];
     m->q[0] += d[D_Q];
     m->q[1] += d[D_V];
     if (m->mode == 0)
         m->f0 = m->scene->stiffness * m->x_ref;
     ss_linear_rates(m, base_force(m, m->u), m->q, rates);
-    return guard(m, m->q, rates, &slope) > 0;
+    return within_bounds(m, rates);
 }
 
 static const struct variation variation = { free_differences, cross, move };
@@ -261,10 +336,10 @@ static const struct variation variation = { free_differences, cross, move };
 static void
 drive(const ss_scene *s, double *memory, const piece *p, double part[])
 {
-    const double limit = s->friction / s->own[STIFFNESS];
-    *memory = fmax(-limit, fmin(*memory + p->dx, limit));
-    part[0] = s->own[STIFFNESS] * fmax(*memory, 0);
-    part[1] = s->own[STIFFNESS] * fmin(*memory, 0);
+    const double b = s->own[GAP], up = b + deflection_in_slip(s, 1), down = b + deflection_in_slip(s, -1);
+    *memory = fmax(-down, fmin(*memory + p->dx, up));
+    part[0] = stiffness_of(s, 1) * fmax(*memory - b, 0);
+    part[1] = stiffness_of(s, -1) * fmin(*memory + b, 0);
 }
 
 MODEL(compliant) = {
@@ -279,7 +354,6 @@ MODEL(compliant) = {
     .dim = 2, .linear = 1, .has_contact = 1, .force_varies = IN_STICK,
     .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
     .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives, .series = ss_linear_series,
-    .guard = guard,
     .next = next, .sample = sample,
     .memory = memory, .in_transition = in_microstick, .variation = &variation,
     .drive = drive

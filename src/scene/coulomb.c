@@ -2,12 +2,13 @@
 #include <string.h>
 #include "scene/models.h"
 
-static const scene_key keys[] = { KEY_STATIC_FRICTION };
+static const scene_key keys[] = { KEY_STATIC_FRICTION, KEYS_FRICTION_NEGATIVE };
 
 static void
 drive(const ss_scene *s, double *memory, const piece *p, double part[])
 {
-    part[0] = s->friction * direction_of(memory, p);
+    double way = direction_of(memory, p);
+    part[0] = way * kinetic_friction(s, (int)way);
     part[1] = 0;
 }
 
@@ -18,7 +19,7 @@ MODEL(coulomb) = {
     .start = ss_stick_start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
     .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives,
     .series = ss_linear_series,
-    .guard = ss_linear_slip_guard, .still = ss_stick_still, .next = ss_stick_next,
+    .still = ss_stick_still, .next = ss_stick_next,
     .sample = ss_stick_sample,
     .variation = &ss_stick_variation, .drive = drive
 };

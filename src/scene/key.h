@@ -47,6 +47,8 @@ ss_key_is_own(size_t offset)
 #define KEY_NUMBER(field, required, range, unit) \
     { #field, required, range, offsetof(ss_scene, field), unit, 0, NULL }
 #define KEY_STATIC_FRICTION KEY_NUMBER(static_friction, TERM, NOT_NEGATIVE, "N")
+#define KEYS_FRICTION_NEGATIVE \
+    KEY_NUMBER(friction_negative, TERM, POSITIVE, "N"), KEY_NUMBER(static_friction_negative, TERM, POSITIVE, "N")
 /* Those of a model, at a place in ss_scene.own. */
 #define OWN_AT(place) offsetof(ss_scene, own[place])
 #define OWN_NUMBER(name, place, required, range, unit) { name, required, range, OWN_AT(place), unit, 0, NULL }

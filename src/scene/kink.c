@@ -22,8 +22,16 @@ ss_kink_start(state *m)
     m->q[1] = m->scene->v0 - m->scene->surface_velocity;
     m->q[2] = 0;
     m->mode = 1;                        /* rates need one; at v = 0 either will do */
-    m->mode = way_of(m);
+    ss_kink_turn(m);
     return 0;
+}
+
+void
+ss_kink_turn(state *m)
+{
+    m->mode = way_of(m);
+    m->n_bounds = 1;
+    m->bound[0] = (bound){ .of = { 0, m->mode } };
 }
 
 int
@@ -31,7 +39,7 @@ ss_kink_next(state *m, ss_event *e)
 {
     (void)e;
     m->q[1] = 0;
-    m->mode = way_of(m);
+    ss_kink_turn(m);
     return 0;
 }
 
@@ -48,9 +56,7 @@ move(state *m, const double d[D_MOST])
     m->q[0] += d[D_Q];
     m->q[1] += d[D_V];
     m->q[2] += d[D_REF];
-    if (m->model->kinks)
-        m->mode = way_of(m);
-    return 1;
+    return m->n_bounds == 0 || within_bounds(m, m->q);
 }
 
 const struct variation ss_kink_variation = { .free = all_free, .move = move };

@@ -78,22 +78,17 @@ ss_linear_fastest(const state *m, const char **what)
     return fmax(root, m->omega);
 }
 
+/* Slip lasts while the mass moves in its direction. */
 void
 ss_linear_slip(state *m, double x, double v, int direction)
 {
     m->mode = direction;
+    m->n_bounds = direction != 0;
+    m->bound[0] = (bound){ .of = { 0, direction } };
     m->k = m->scene->stiffness;
     m->c = m->scene->damping;
-    m->f0 = direction * m->scene->friction;
+    m->f0 = direction * kinetic_friction(m->scene, direction);
     m->x_ref = 0;
     m->q[0] = x;
     m->q[1] = v;
-}
-
-/* Slip lasts while the mass moves in its direction. */
-double
-ss_linear_slip_guard(const state *m, const double q[], const double dqdt[], double *slope)
-{
-    *slope = m->mode * dqdt[1];
-    return m->mode * q[1];
 }

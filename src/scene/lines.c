@@ -172,10 +172,11 @@ check_keys(ss_scene *scene, given *g, struct key_origin last, ss_error *err)
     if (column != 0 && file == 0)
         return fail_at((struct key_origin){ last.name, column }, err,
                        "base_column is one of base_file, which is missing");
-    long s = line_of(g, "static_friction"), f = line_of(g, "friction");
-    if (s != 0 && scene->static_friction < scene->friction)
-        return fail_at((struct key_origin){ last.name, s < 0 || f < 0 ? -1 : s }, err,
-                       STATIC_IS_LESS);
+    const char *less = ss_scene_static_is_less(scene), *than = less != NULL ? less + strlen("static_") : NULL;
+    if (less != NULL) {
+        long s = line_of(g, less), f = line_of(g, than);
+        return fail_at((struct key_origin){ last.name, s < 0 || f < 0 ? -1 : s }, err, STATIC_IS_LESS, less, than);
+    }
     if (ss_scene_samples(scene) == SIZE_MAX) {
         long where = line_of(g, "rate");
         struct key_origin at = { last.name, where != 0 ? where : line_of(g, "duration") };

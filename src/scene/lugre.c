@@ -154,7 +154,7 @@ MODEL(lugre) = {
     .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,
     .limit = ss_to_coulomb, .dim = 3, .kinks = 1, .force_varies = IN_STICK | IN_SLIP,
     .start = ss_kink_start, .fastest = fastest, .sight = sight,
-    .rates = rates, .jacobian = jacobian, .guard = ss_linear_slip_guard, .next = ss_kink_next,
+    .rates = rates, .jacobian = jacobian, .next = ss_kink_next,
     .sample = sample, .memory = memory, .variation = &ss_kink_variation,
     .drive = drive
 };

@@ -31,6 +31,15 @@ struct ss_base {
     char cksum[48];                 /* of its file, as POSIX's cksum prints it; "": it has no file */
 };
 
+/* What ends a mode when it becomes negative: level + p, or with either_side level - |p|, where p is linear in the
+ * state. */
+typedef struct bound {
+    double level, of[MAX_DIM];
+    int either_side;
+} bound;
+
+enum { BOUNDS = 3 };                 /* the most that a mode has */
+
 /* The mass, its contact and the base at one instant of a mode. */
 typedef struct state {
     const ss_scene *scene;
@@ -48,6 +57,8 @@ typedef struct state {
 
     int mode;
     int side;                       /* of its play on which a contact is: 1, -1, or 0 in the gap */
+    int n_bounds, ended;            /* ended: the number of the bound that has ended the mode */
+    bound bound[BOUNDS];
     double k, c, f0;                /* coefficients of the mode's equation, see above */
     double x_ref;                   /* the position is x_ref + q[0]; in microstick q[0] is y */
     double graze;                   /* a contact no farther beyond its limit only touches it [m] */
@@ -78,10 +89,10 @@ enum { D_REF, D_Q, D_V, D_MOST };
 struct variation {
     /* Set is_free to 1 for each of the three numbers that can differ within the mode. */
     void (*free)(const state *m, int is_free[D_MOST]);
-    /* Carry d across the event at q that ended `mode`; before and after are the rates of change on
-     * its two sides.  A neighbouring state reaches the event at another time.  Each column of d is
-     * the difference that one initial difference has caused.  NULL if the model has no events. */
-    void (*cross)(const state *m, int mode, const double q[], const double before[],
+    /* Carry d across the end of `mode` at q, which this bound was; before and after are the rates of
+     * change on its two sides.  A neighbouring state reaches it at another time.  Each column of d is
+     * the difference that one initial difference has caused.  NULL if no rate jumps there. */
+    void (*cross)(const state *m, int mode, const bound *by, const double q[], const double before[],
                   const double after[], double d[D_MOST][D_MOST]);
     /* Move a state by d.  Returns 0 if its mode is not valid there. */
     int (*move)(state *m, const double d[D_MOST]);
@@ -155,14 +166,11 @@ struct ss_model {
     /* Shorten a step [unit] to the range in which these coefficients describe the motion: beyond a
      * pole that they do not show, the motion differs.  NULL if they always describe it. */
     double (*reach)(const state *m, double c[][SERIES_PARTS], double step);
-    /* A function that is not negative within the mode; *slope becomes its rate of change.  NULL if
-     * the model has no events.  If the model has derivatives or a series, the guard is level + p
-     * with p linear in q and v, or in a mode 0 in which the mass moves, level - |p|. */
-    double (*guard)(const state *m, const double q[], const double dqdt[], double *slope);
     /* Returns 1 if the mass stands still in this mode; *u_end becomes the end of this time
      * (INFINITY: it never ends).  NULL if it stands still in no mode. */
     int (*still)(const state *m, double *u_end);
-    /* The mode ends in this state: enter the next one.  Returns 1 if this is an event, and writes *e. */
+    /* The mode ends in this state: enter the next one.  Returns 1 if this is an event, and writes *e.
+     * NULL if the model has one mode. */
     int (*next)(state *m, ss_event *e);
     /* Fill in the sample, in the frame of the surface, from state, rate of change and force of the
      * base.  The caller fills in t, z and s. */
@@ -191,9 +199,25 @@ own_frequency(const ss_scene *scene)                /* omega_n [rad/s] */
 }
 
 static inline double
-static_friction(const ss_scene *scene)              /* f_s [N] */
+kinetic_friction(const ss_scene *scene, int way)    /* f_k of motion to larger x, or, if way < 0, to smaller [N] */
 {
-    return scene->static_friction > scene->friction ? scene->static_friction : scene->friction;
+    return way < 0 && scene->friction_negative > 0 ? scene->friction_negative : scene->friction;
+}
+
+static inline double
+holding_friction(const ss_scene *scene, int way)    /* f_s against it [N] */
+{
+    double f_k = kinetic_friction(scene, way), f_s = scene->static_friction;
+    if (way < 0 && scene->static_friction_negative > 0)
+        f_s = scene->static_friction_negative;
+    return f_s > f_k ? f_s : f_k;
+}
+
+static inline double
+static_friction(const ss_scene *scene)              /* the larger f_s [N] */
+{
+    double f_s = holding_friction(scene, 1), other = holding_friction(scene, -1);
+    return f_s > other ? f_s : other;
 }
 
 static inline double
@@ -234,6 +258,31 @@ direction_of(double *memory, const piece *p)
     if (fabs(p->v) > p->slow)
         *memory = sign(p->v);
     return *memory;
+}
+
+/* --- bounds of modes ------------------------------------------------------------------------- */
+
+static inline double
+bound_value(const bound *b, const double q[], const double dqdt[], double *slope)
+{
+    double p = b->of[0] * q[0] + b->of[1] * q[1], rate = b->of[0] * dqdt[0] + b->of[1] * dqdt[1];
+    if (b->of[2] != 0) {                /* else the state may have no such part */
+        p += b->of[2] * q[2];
+        rate += b->of[2] * dqdt[2];
+    }
+    *slope = b->either_side ? -sign(p) * rate : rate;
+    return b->either_side ? b->level - fabs(p) : b->level + p;
+}
+
+/* 1 if the state lies within the mode. */
+static inline int
+within_bounds(const state *m, const double rates[])
+{
+    double slope;
+    for (int i = 0; i < m->n_bounds; i++)
+        if (!(bound_value(&m->bound[i], m->q, rates, &slope) > 0))
+            return 0;
+    return 1;
 }
 
 /* --- the base: its force on the spring is k (Z_e cos(Omega t + phase) + (U - S) u) ----------
@@ -357,7 +406,6 @@ void ss_linear_derivatives(const state *m, double u, const double q[], const dou
 void ss_linear_series(const state *m, const double step[], int order, double c[][SERIES_PARTS]);
 double ss_linear_fastest(const state *m, const char **what);
 void ss_linear_slip(state *m, double x, double v, int direction);
-double ss_linear_slip_guard(const state *m, const double q[], const double dqdt[], double *slope);
 
 /* --- stick.c: true stick, in which v is exactly 0 ------------------------------------------- */
 
@@ -373,6 +421,7 @@ extern const struct variation ss_stick_variation;
 
 int ss_kink_start(state *m);
 int ss_kink_next(state *m, ss_event *e);
+void ss_kink_turn(state *m);                        /* the mode of v, or of v', begins */
 extern const struct variation ss_kink_variation;
 
 #endif

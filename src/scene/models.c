@@ -29,7 +29,7 @@ ss_model_name(const ss_model *model)
 int
 ss_model_has_events(const ss_model *model)
 {
-    return model != NULL && model->guard != NULL && !model->kinks;
+    return model != NULL && model->next != NULL && !model->kinks;
 }
 
 int

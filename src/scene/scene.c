@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 #include "base/error.h"
 #include "scene/model.h"
 #include "scene/value.h"
@@ -28,6 +29,15 @@ ss_scene_is_pulled(const ss_scene *scene)
         && scene->base_file[0] == '\0' && scene->base == NULL;
 }
 
+const char *
+ss_scene_static_is_less(const ss_scene *s)
+{
+    double given = s->static_friction, negative = s->static_friction_negative;
+    if (given != 0 && given < s->friction && ss_key_named(s->model, "static_friction") != NULL)
+        return "static_friction";
+    return negative != 0 && negative < kinetic_friction(s, -1) ? "static_friction_negative" : NULL;
+}
+
 ss_status
 ss_scene_check(const ss_scene *scene, ss_error *err)
 {
@@ -39,13 +49,13 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
     if (model == NULL)
         return ss_fail(err, SS_EINVAL, "the scene has no model");
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++)
-        if (!ss_value_check(scene, k, wrong))
+        if ((k->required != TERM || ss_key_is_named(scene, k)) && !ss_value_check(scene, k, wrong))
             return ss_fail(err, SS_EINVAL, "%s", wrong);
     if ((scene->base != NULL || *scene->base_file != '\0') && scene->base_amplitude != 0)
         return ss_fail(err, SS_EINVAL, TWO_BASES);
-    if (scene->static_friction != 0 && scene->static_friction < scene->friction
-        && ss_key_named(model, "static_friction") != NULL)
-        return ss_fail(err, SS_EINVAL, STATIC_IS_LESS);
+    const char *less = ss_scene_static_is_less(scene);
+    if (less != NULL)
+        return ss_fail(err, SS_EINVAL, STATIC_IS_LESS, less, less + strlen("static_"));
     return SS_OK;
 }
 

@@ -4,6 +4,8 @@
 
 static const vanishing of_every[] = {
     { "damping=0", offsetof(ss_scene, damping) },
+    { "friction_negative=0", offsetof(ss_scene, friction_negative) },
+    { "static_friction_negative=0", offsetof(ss_scene, static_friction_negative) },
     { "static_friction=0", offsetof(ss_scene, static_friction) },
 };
 enum { OF_EVERY = sizeof of_every / sizeof *of_every };
@@ -45,7 +47,7 @@ step(ss_scene *scene, size_t i)
     if (i > 1)
         return NULL;
     reaches_limit(scene);
-    scene->static_friction = 0;
+    scene->static_friction = scene->friction_negative = scene->static_friction_negative = 0;
     return vanishes(scene, offsetof(ss_scene, friction)) ? "friction=0" : "";
 }
 

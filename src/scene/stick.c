@@ -10,12 +10,19 @@ ss_stick_force(const state *m, double drive, double x)
     return drive - m->scene->stiffness * x;
 }
 
+static int
+is_held(const state *m, double drive, double x)
+{
+    double force = ss_stick_force(m, drive, x);
+    return fabs(force) <= holding_friction(m->scene, sign(force));
+}
+
 /* Enter stick if friction can hold the mass, else slip in the direction of the force. */
 static int
 stop_or_go(state *m, double x)
 {
-    double force = ss_stick_force(m, base_force(m, m->u), x);
-    ss_linear_slip(m, x, 0, fabs(force) > static_friction(m->scene) ? sign(force) : 0);
+    double drive = base_force(m, m->u);
+    ss_linear_slip(m, x, 0, is_held(m, drive, x) ? 0 : sign(ss_stick_force(m, drive, x)));
     return m->mode;
 }
 
@@ -39,15 +46,15 @@ next_turn(double angle, double from)
     return from + (ahead <= 0 ? ahead + round : ahead);
 }
 
-/* The time at which the force leaves [-f_s, f_s], without a pull: upwards while the cosine rises,
+/* The time at which the force leaves its limits, without a pull: upwards while the cosine rises,
  * downwards while it falls.  A force that only touches a limit does not leave. */
 static double
 end_of_swing(const state *m, double theta)
 {
     const ss_scene *s = m->scene;
-    double x = m->q[0], z = s->base_amplitude, limit = static_friction(s), end = INFINITY;
-    double upper = (x + (limit + m->drag) / s->stiffness) / z;
-    double lower = (x - (limit - m->drag) / s->stiffness) / z;
+    double x = m->q[0], z = s->base_amplitude, end = INFINITY;
+    double upper = (x + (holding_friction(s, 1) + m->drag) / s->stiffness) / z;
+    double lower = (x - (holding_friction(s, -1) - m->drag) / s->stiffness) / z;
     if (fabs(upper) < 1)
         end = m->u + (next_turn(-acos(upper), theta) - theta) / m->omega;
     if (fabs(lower) < 1)
@@ -100,7 +107,7 @@ time_to_rise(const state *m, double angle, double R, double level)
 /* The time at which a measured base and the pull raise the force above its limit, within the present
  * interval of the base; else INFINITY.  The force is a cubic there, monotonic between its extrema. */
 static double
-end_in_piece(const state *m, double x, double limit)
+end_in_piece(const state *m, double x)
 {
     double length = m->u_knot - m->u, u = m->u, a = 3 * m->z[3], b = m->z[2];
     double c = m->z[1] + m->ramp / m->scene->stiffness, root = sqrt(fmax(b * b - a * c, 0));
@@ -109,14 +116,14 @@ end_in_piece(const state *m, double x, double limit)
     for (int i = 0; i < 3; i++) {
         double lo = u, hi = at[i];
         if (!(hi > u && hi <= m->u + length)
-            || fabs(ss_stick_force(m, base_force(m, hi), x)) <= limit)
+            || is_held(m, base_force(m, hi), x))
             continue;
         while (lo + (hi - lo) / 2 > lo && lo + (hi - lo) / 2 < hi) {
             double mid = lo + (hi - lo) / 2;
-            if (fabs(ss_stick_force(m, base_force(m, mid), x)) > limit)
-                hi = mid;
-            else
+            if (is_held(m, base_force(m, mid), x))
                 lo = mid;
+            else
+                hi = mid;
         }
         return hi;
     }
@@ -130,7 +137,7 @@ int
 ss_stick_still(const state *m, double *u_end)
 {
     const ss_scene *s = m->scene;
-    double x = m->q[0], limit = static_friction(s);
+    double x = m->q[0], up = holding_friction(s, 1), down = holding_friction(s, -1);
 
     if (m->mode != 0)
         return 0;
@@ -138,18 +145,18 @@ ss_stick_still(const state *m, double *u_end)
     if ((m->omega == 0 || m->drive == 0) && m->ramp == 0 && s->base == NULL)
         return 1;
     double theta = m->theta + m->omega * m->u, force = ss_stick_force(m, base_force(m, m->u), x);
-    double size = m->drive + s->stiffness * fabs(x) + limit + fabs(m->drag) + fabs(m->ramp * m->u);
+    double size = m->drive + s->stiffness * fabs(x) + fmax(up, down) + fabs(m->drag) + fabs(m->ramp * m->u);
     size += s->base != NULL ? s->stiffness * s->base->size : 0;
-    if (force * base_force_rate(m, m->u) > 0 && limit - fabs(force) <= 8 * DBL_EPSILON * size) {
+    if (force * base_force_rate(m, m->u) > 0 && (force > 0 ? up : down) - fabs(force) <= 8 * DBL_EPSILON * size) {
         *u_end = m->u;
     } else if (s->base != NULL) {
-        *u_end = end_in_piece(m, x, limit);
+        *u_end = end_in_piece(m, x);
     } else if (m->ramp == 0) {
         *u_end = end_of_swing(m, theta);
     } else {
         double rest = force - m->drive * cos(theta);
-        *u_end = m->u + fmin(time_to_rise(m, theta, m->ramp, limit - rest),
-                             time_to_rise(m, theta + M_PI, -m->ramp, limit + rest));
+        *u_end = m->u + fmin(time_to_rise(m, theta, m->ramp, up - rest),
+                             time_to_rise(m, theta + M_PI, -m->ramp, down + rest));
     }
     return 1;
 }
@@ -184,29 +191,31 @@ free_differences(const state *m, int is_free[D_MOST])
 /* In a stick, neighbours lose their difference in v.  A neighbour whose x is further on slips later: it
  * has been accelerated, by the drop from static to kinetic friction, for a shorter time. */
 static void
-cross(const state *m, int mode, const double q[], const double before[], const double after[],
+cross(const state *m, int mode, const bound *by, const double q[], const double before[], const double after[],
       double d[D_MOST][D_MOST])
 {
     const ss_scene *s = m->scene;
-    (void)q;
+    (void)q, (void)by;
     for (int i = 0; i < D_MOST; i++)
-        if (mode != 0)
+        if (mode == m->mode)
+            continue;                   /* v has only touched 0 */
+        else if (mode != 0)
             d[D_V][i] *= m->mode == 0 ? 0 : after[1] / before[1];
-        else if (static_friction(s) > s->friction)
+        else if (holding_friction(s, m->mode) > kinetic_friction(s, m->mode))
             d[D_V][i] = -after[1] * s->stiffness * d[D_Q][i] / base_force_rate(m, m->u);
 }
 
 static int
 move(state *m, const double d[D_MOST])
 {
-    double rates[MAX_DIM], slope;
+    double rates[MAX_DIM];
     m->q[0] += d[D_Q];
     m->q[1] += d[D_V];
     double drive = base_force(m, m->u);
     if (m->mode == 0)
-        return fabs(ss_stick_force(m, drive, m->q[0])) <= static_friction(m->scene);
+        return is_held(m, drive, m->q[0]);
     m->model->rates(m, drive, m->q, rates);
-    return m->model->guard(m, m->q, rates, &slope) > 0;
+    return within_bounds(m, rates);
 }
 
 const struct variation ss_stick_variation = { free_differences, cross, move };

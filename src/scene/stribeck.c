@@ -5,7 +5,7 @@
 enum { SPEED };                 /* v_s */
 
 static const scene_key keys[] = {
-    KEY_STATIC_FRICTION,
+    KEY_STATIC_FRICTION, KEYS_FRICTION_NEGATIVE,
     OWN_NUMBER("stribeck_velocity", SPEED, REQUIRED, POSITIVE, "m/s"),
 };
 
@@ -134,7 +134,7 @@ MODEL(stribeck) = {
     .n_parameters = 1,
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight,
-    .rates = rates, .jacobian = jacobian, .series = series, .slope = slope, .guard = ss_linear_slip_guard,
+    .rates = rates, .jacobian = jacobian, .series = series, .slope = slope,
     .still = ss_stick_still, .next = ss_stick_next, .sample = sample, .variation = &ss_stick_variation,
     .drive = drive
 };

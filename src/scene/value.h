@@ -16,6 +16,8 @@ int ss_value_check(const ss_scene *scene, const scene_key *k, char wrong[WRONG_R
 
 /* Contradictions of two keys. */
 #define TWO_BASES "base_file and base_amplitude exclude each other: the base moves by one of them"
-#define STATIC_IS_LESS "static_friction is less than friction, it must be at least as large"
+#define STATIC_IS_LESS "%s is less than %s, it must be at least as large"
+/* scene.c: the key of a static friction that is less than the kinetic one of its side; NULL: none. */
+const char *ss_scene_static_is_less(const ss_scene *scene);
 
 #endif

@@ -145,14 +145,18 @@ go_leg(cycles *c, double longest, meter *r, tangent *t)
         ss_walk_at(w, w->h, q, rates);
     }
     int ends = w->ends;
+    const bound by = w->m.now.bound[w->e->ended];
+    const struct variation *variation = w->m.now.model->variation;
     c->status = ss_walk_on(w, &is_event, &event, c->err);
-    if (c->status != SS_OK || !is_event)
+    if (c->status != SS_OK)
         return 0;
-    if (t != NULL && ends) {
+    if (t != NULL && ends && variation->cross != NULL) {
         for (int i = 0; i < D_MOST; i++)
             t->later[i] = -t->d[D_V][i] / rates[1];
-        w->m.now.model->variation->cross(&w->m.now, mode, q, rates, w->e->dq0, t->d);
+        variation->cross(&w->m.now, mode, &by, q, rates, w->e->dq0, t->d);
     }
+    if (!is_event)
+        return 0;
     if (r != NULL)
         ss_meter_event(r, &event);
     return event.kind == SS_STICK;
