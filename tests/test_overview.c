@@ -32,30 +32,17 @@ grid(void)
     return opts;
 }
 
-typedef struct seen {
-    ss_overview *overview;
-    ss_overview_result shows;
-} seen;
-
-static seen *
-look_at(const ss_signal *signal, const ss_morlet_opts *opts, size_t piece)
+static ss_overview *
+look_at(const ss_signal *signal, const ss_morlet_opts *opts)
 {
-    seen *o = test_malloc(sizeof *o);
+    ss_overview *o;
+    ss_reader *reader;
     ss_error err = { 0 };
-    assert_int_equal(ss_overview_new(&o->overview, signal->head, 0, opts, &err), SS_OK);
-    for (size_t i = 0; i < signal->n; i += piece)
-        assert_int_equal(ss_overview_push(o->overview, signal->values + i,
-                                          piece < signal->n - i ? piece : signal->n - i, &err), SS_OK);
-    if (ss_overview_end(o->overview, &o->shows, &err) != SS_OK)
+    assert_int_equal(ss_reader_of_signal(&reader, signal, NULL), SS_OK);
+    if (ss_overview_read(&o, reader, 0, opts, &err) != SS_OK)
         fail_msg("%s", err.text);
+    ss_reader_free(reader);
     return o;
-}
-
-static void
-forget(seen *o)
-{
-    ss_overview_free(o->overview);
-    test_free(o);
 }
 
 /* Each block has the largest of its translations, as the transform of the whole record has them within twice
@@ -67,8 +54,8 @@ blocks_have_the_largest_of_their_translations(void **state)
     (void)state;
     for (double duration = 6; duration < 100; duration *= 12) {
         ss_signal *signal = record(duration);
-        seen *o = look_at(signal, &opts, 777);
-        const ss_coefficients *few = o->shows.coefficients;
+        ss_overview *o = look_at(signal, &opts);
+        const ss_coefficients *few = o->coefficients;
         ss_coefficients *all;
         assert_int_equal(ss_morlet_transform(&all, signal, 0, &opts, NULL), SS_OK);
         assert_int_equal(few->n_scales, all->n_scales);
@@ -89,9 +76,9 @@ blocks_have_the_largest_of_their_translations(void **state)
                     fail_msg("%g Hz, block %zu of %zu: %g is not %g", s->f, k, length, found, largest);
             }
         }
-        assert_true(fabs(o->shows.top / ss_coefficients_max(all) - 1) <= 2e-6);
+        assert_true(fabs(o->top / ss_coefficients_max(all) - 1) <= 2e-6);
         ss_coefficients_free(all);
-        forget(o);
+        ss_overview_free(o);
         ss_signal_free(signal);
     }
 }
@@ -105,8 +92,8 @@ the_signal_keeps_its_extremes_and_times(void **state)
     (void)state;
     signal->values[70001] = -500;
     signal->values[70002] = 900;
-    seen *o = look_at(signal, &opts, 8192);
-    const ss_signal *few = o->shows.signal;
+    ss_overview *o = look_at(signal, &opts);
+    const ss_signal *few = o->signal;
     assert_true(few->n <= 8192 && few->n > 4096);
     double step = 1 / few->head->rate, most = -DBL_MAX, least = DBL_MAX, t_most = 0, t_least = 0;
     for (size_t i = 0; i < few->n; i++) {
@@ -116,36 +103,40 @@ the_signal_keeps_its_extremes_and_times(void **state)
     }
     assert_true(most == 900 && least == -500 && t_least < t_most);
     assert_true(fabs(t_most - 70.002) <= 100.0 / 2000 && fabs(t_least - 70.001) <= 100.0 / 2000);
-    forget(o);
+    ss_overview_free(o);
     signal->n = 3000;
-    o = look_at(signal, &opts, 1);
-    few = o->shows.signal;
+    o = look_at(signal, &opts);
+    few = o->signal;
     assert_int_equal(few->n, 3000);
     assert_memory_equal(few->values, signal->values, 3000 * sizeof *few->values);
-    forget(o);
+    ss_overview_free(o);
     ss_signal_free(signal);
 }
 
-/* The same pieces or not, the same numbers; and noise as the whole map has it. */
+/* A signal with many columns is read in smaller pieces: the same numbers; and noise as the whole map has it. */
 static void
 pieces_do_not_matter_and_noise_is_measured(void **state)
 {
+    enum { MANY = 100 };
     const ss_morlet_opts opts = grid();
-    ss_signal *signal = record(60);
-    seen *o = look_at(signal, &opts, 100), *whole = look_at(signal, &opts, signal->n);
-    const ss_coefficients *a = o->shows.coefficients, *b = whole->shows.coefficients;
+    ss_signal *signal = record(60), *wide;
+    size_t first[MANY] = { 0 };
+    assert_int_equal(ss_signal_select(&wide, signal, first, MANY, 0, signal->n, NULL), SS_OK);
+    ss_overview *o = look_at(wide, &opts), *whole = look_at(signal, &opts);
+    ss_signal_free(wide);
+    const ss_coefficients *a = o->coefficients, *b = whole->coefficients;
     const ss_scale *last = &a->scale[a->n_scales - 1];
     double independent = 0, truth;              /* |W|, 2 sqrt(pi) a and half an octave apart */
     (void)state;
     assert_memory_equal(a->w, b->w, 2 * (last->offset + last->n) * sizeof *a->w);
-    assert_true(o->shows.noise == whole->shows.noise);
+    assert_true(o->noise == whole->noise);
     for (size_t i = 0; i < a->n_scales; i++)
         independent += 60 / (2 * sqrt(M_PI) * a->scale[i].a) / 8 * 2;
     truth = sqrt(log(independent) / 1000);      /* the largest of white noise of 1 */
-    if (!(fabs(20 * log10(o->shows.noise / truth)) <= 1))
-        fail_msg("noise at %g, not %g", o->shows.noise, truth);
-    forget(whole);
-    forget(o);
+    if (!(fabs(20 * log10(o->noise / truth)) <= 1))
+        fail_msg("noise at %g, not %g", o->noise, truth);
+    ss_overview_free(whole);
+    ss_overview_free(o);
     ss_signal_free(signal);
 }
 
@@ -181,11 +172,11 @@ harmonics_are_no_noise(void **state)
     for (int seed = 1; seed <= 4; seed++)
         for (int noisy = 0; noisy < 2; noisy++) {
             ss_signal *signal = tone(seed, noisy ? 12 : 60, noisy ? 0.02 : 0);
-            seen *o = look_at(signal, &opts, 4096);
-            double level = o->shows.noise, truth = 0.02 * sqrt(log(6e4) / 8000);
+            ss_overview *o = look_at(signal, &opts);
+            double level = o->noise, truth = 0.02 * sqrt(log(6e4) / 8000);
             if (noisy ? !(fabs(20 * log10(level / truth)) <= 3) : level != 0)
                 fail_msg("tone %d: noise at %g, not %g", seed, level, noisy ? truth : 0);
-            forget(o);
+            ss_overview_free(o);
             ss_signal_free(signal);
         }
 }
@@ -201,28 +192,28 @@ sizes_do_not_matter_and_gaps_are_left_out(void **state)
     for (size_t i = 20000; i < 20100; i++)
         signal->values[i] += 4000;
     assert_int_equal(ss_header_note(signal->head, "gaps", "5.001:5.002 20:20.1 50:51", NULL), SS_OK);
-    seen *one = look_at(signal, &opts, 4096);
-    const ss_coefficients *a = one->shows.coefficients;
+    ss_overview *one = look_at(signal, &opts);
+    const ss_coefficients *a = one->coefficients;
     ss_coefficients *all;
     assert_int_equal(ss_morlet_transform(&all, signal, 0, &opts, NULL), SS_OK);
-    assert_true(fabs(one->shows.top / ss_coefficients_max(all) - 1) <= 2e-6);
+    assert_true(fabs(one->top / ss_coefficients_max(all) - 1) <= 2e-6);
     for (int power = -600; power <= 600; power += 1200) {
         ss_signal *scaled = record(60);
         for (size_t i = 0; i < signal->n; i++)
             scaled->values[i] = ldexp(signal->values[i], power);
         assert_int_equal(ss_header_note(scaled->head, "gaps", "5.001:5.002 20:20.1 50:51", NULL), SS_OK);
-        seen *o = look_at(scaled, &opts, 4096);
-        const ss_coefficients *b = o->shows.coefficients;
+        ss_overview *o = look_at(scaled, &opts);
+        const ss_coefficients *b = o->coefficients;
         assert_int_equal(a->n_scales, b->n_scales);
-        assert_true(fabs(ldexp(o->shows.top, -power) / one->shows.top - 1) <= 2e-6);
+        assert_true(fabs(ldexp(o->top, -power) / one->top - 1) <= 2e-6);
         for (size_t i = 0; i < a->n_scales; i++)
             for (size_t k = a->scale[i].offset; k < a->scale[i].offset + a->scale[i].n; k++)
                 assert_true(fabs(ldexp(b->w[2 * k], -power) - a->w[2 * k]) <= 2e-6 * 4000);
-        forget(o);
+        ss_overview_free(o);
         ss_signal_free(scaled);
     }
     ss_coefficients_free(all);
-    forget(one);
+    ss_overview_free(one);
     ss_signal_free(signal);
 }
 
@@ -233,22 +224,20 @@ what_is_too_short_or_wrong_is_refused(void **state)
     ss_signal *signal = record(1);
     ss_morlet_opts none = ss_morlet_defaults;
     ss_overview *o = NULL;
-    ss_overview_result shows = { NULL, NULL, 0, 0 };
+    ss_reader *reader;
     ss_error err = { 0 };
     (void)state;
-    assert_int_equal(ss_overview_new(&o, signal->head, 1, &opts, &err), SS_EINVAL);
-    assert_int_equal(ss_overview_new(&o, signal->head, 0, &none, &err), SS_EINVAL);
-    assert_null(o);
-    assert_int_equal(ss_overview_new(&o, signal->head, 0, &opts, &err), SS_OK);
+    assert_int_equal(ss_reader_of_signal(&reader, signal, NULL), SS_OK);
+    assert_int_equal(ss_overview_read(&o, reader, 1, &opts, &err), SS_EINVAL);
+    assert_int_equal(ss_overview_read(&o, reader, 0, &none, &err), SS_EINVAL);
     signal->values[1] = NAN;
-    assert_int_equal(ss_overview_push(o, signal->values, 2, &err), SS_EINVAL);
-    ss_overview_free(o);
-    assert_int_equal(ss_overview_new(&o, signal->head, 0, &opts, &err), SS_OK);
-    assert_int_equal(ss_overview_push(o, signal->values, 1, &err), SS_OK);
-    assert_int_equal(ss_overview_end(o, &shows, &err), SS_EDATA);
-    assert_non_null(strstr(err.text, "too few samples, 1: "));
-    assert_null(shows.coefficients);
-    ss_overview_free(o);
+    assert_int_equal(ss_overview_read(&o, reader, 0, &opts, &err), SS_EINVAL);
+    assert_int_equal(ss_reader_rewind(reader, NULL), SS_OK);
+    signal->n = 1;
+    assert_int_equal(ss_overview_read(&o, reader, 0, &opts, &err), SS_EDATA);
+    assert_non_null(strstr(err.text, "signal: too few samples, 1: "));
+    assert_null(o);
+    ss_reader_free(reader);
     ss_signal_free(signal);
 }
 

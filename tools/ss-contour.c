@@ -56,96 +56,26 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 /* The lowest frequency of a recording whose length is not known: a useful one has some cycles of it. */
 #define LOWEST 5e-4             /* of the rate */
 
-/* Begin the overview of the column that was asked for, or of "a", or of the only one; return its index. */
-static size_t
-open_overview(drawing *d, const ss_header *head)
-{
-    ss_error err = { 0 };
-    ss_morlet_opts opts;
-    size_t column = tool_column(head, d->path, d->column);
-    ss_morlet_opts_init(&opts, sizeof opts);
-    opts.fmin = d->opts.fmin > 0 ? d->opts.fmin : LOWEST * head->rate;
-    opts.fmax = d->opts.fmax;
-    tool_check(ss_overview_new(&d->overview, head, column, &opts, &err), &err);
-    return column;
-}
-
-static void
-push(drawing *d, const double *x, size_t n)
-{
-    ss_error err = { 0 };
-    ss_status st = ss_overview_push(d->overview, x, n, &err);
-    if (st != SS_OK)
-        tool_die("%s: %s", d->path, err.text);
-}
-
-static void
-end_overview(drawing *d)
-{
-    ss_error err = { 0 };
-    ss_overview_result shows;
-    ss_status st = ss_overview_end(d->overview, &shows, &err);
-    if (st != SS_OK)
-        tool_die("%s: %s", d->path, err.text);
-    d->coefficients = shows.coefficients;
-    d->opts.signal = shows.signal;
-    d->opts.top = shows.top;
-    if (isnan(d->opts.noise))
-        d->opts.noise = shows.noise;
-    d->opts.fmin = d->opts.fmax = 0;
-    d->opts.progress = (ss_progress){ NULL, NULL };     /* the rest takes no time */
-}
-
-/* What is subtracted from a recording's sample i: first + mean + slope (i - middle). */
-typedef struct trend {
-    long double first, mean, slope, middle;
-} trend;
-
-/* Find the mean of a column, or its line of least squares, as ss-morlet does, and begin again. */
-static trend
-find_trend(ss_reader *reader, double *const wanted[], const double *value, ss_detrend detrend)
-{
-    ss_error err = { 0 };
-    size_t piece = ss_reader_piece(reader), n;
-    long double sum = 0, moment = 0, count = 0;
-    trend t = { 0 };
-    while ((n = tool_rows(reader, wanted, piece)) > 0)
-        for (size_t i = 0; i < n; i++, count++) {
-            double x = value[i];
-            if (count == 0)
-                t.first = x;
-            sum += x - t.first;
-            moment += count * (x - t.first);
-        }
-    t.mean = count > 0 ? sum / count : 0;
-    t.middle = (count - 1) / 2;
-    if (detrend == SS_DETREND_LINEAR && count > 1)
-        t.slope = (moment - t.middle * sum) / (count * (count * count - 1) / 12);
-    tool_check(ss_reader_rewind(reader, &err), &err);
-    return t;
-}
-
-/* Draw rows as they come. */
+/* Draw the column that was asked for, or "a", or the only one. */
 static void
 draw_rows(drawing *d, ss_reader *reader)
 {
+    ss_error err = { 0 };
+    ss_morlet_opts opts;
+    ss_morlet_opts_init(&opts, sizeof opts);
     const ss_header *head = ss_reader_header(reader);
-    size_t column = open_overview(d, head), piece = ss_reader_piece(reader), n;
-    double *x = tool_room(NULL, piece, sizeof *x), **wanted = tool_room(NULL, head->n_columns, sizeof *wanted);
-    memset(wanted, 0, head->n_columns * sizeof *wanted);
-    wanted[column] = x;
-    trend t = { 0 };
-    if (d->detrend != SS_DETREND_NONE)
-        t = find_trend(reader, wanted, x, d->detrend);
-    long double at = 0;
-    while ((n = tool_rows(reader, wanted, piece)) > 0) {
-        for (size_t i = 0; i < n; i++, at++)
-            x[i] = (double)(x[i] - t.first - t.mean - t.slope * (at - t.middle));
-        push(d, x, n);
-    }
-    free(wanted);
-    free(x);
-    end_overview(d);
+    size_t column = tool_column(head, d->path, d->column);
+    opts.fmin = d->opts.fmin > 0 ? d->opts.fmin : LOWEST * head->rate;
+    opts.fmax = d->opts.fmax;
+    opts.detrend = d->detrend;
+    tool_check(ss_overview_read(&d->overview, reader, column, &opts, &err), &err);
+    d->coefficients = d->overview->coefficients;
+    d->opts.signal = d->overview->signal;
+    d->opts.top = d->overview->top;
+    if (isnan(d->opts.noise))
+        d->opts.noise = d->overview->noise;
+    d->opts.fmin = d->opts.fmax = 0;
+    d->opts.progress = (ss_progress){ NULL, NULL };     /* the rest takes no time */
 }
 
 /* --- coefficients -------------------------------------------------------------------------- */

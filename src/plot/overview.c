@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/largest.h"
 #include "base/versions.h"
+#include "io/reader.h"
 #include "map/map.h"
 #include "map/wavelet.h"
 #include "plot/extremes.h"
@@ -15,9 +16,8 @@
 
 enum { BLOCKS = 4096 };
 
-struct ss_overview {
-    ss_header *head;            /* of the signal */
-    size_t column;
+typedef struct reduction {
+    const ss_header *head;      /* of the signal */
     ss_morlet_opts opts;
     ss_stream *stream;
     ss_span *gap;
@@ -25,11 +25,11 @@ struct ss_overview {
     extremes samples, *scale;   /* of |W|, of each scale */
     noise_level *noise;
     double top;
-    ss_coefficients result;
-    ss_signal *signal;
-};
+} reduction;
 
-/* --- levels -------------------------------------------------------------------------------- */
+/* --- as coefficients come ------------------------------------------------------------------ */
+
+enum { PIECE = 512 };           /* coefficients at a time, which stay in the cache */
 
 /* Add n levels to a row of levels.  Returns the largest. */
 VERSIONS static double
@@ -46,20 +46,16 @@ add_levels(extremes *r, const double *level, size_t n)
     return all;
 }
 
-/* --- as coefficients come ------------------------------------------------------------------ */
-
-enum { PIECE = 512 };           /* coefficients at a time, which stay in the cache */
-
 /* Is a translation in the cone of influence? */
 static int
-is_edge(const ss_overview *o, const ss_scale *scale, size_t k, size_t samples)
+is_edge(const reduction *o, const ss_scale *scale, size_t k, size_t samples)
 {
     return wavelet_edge(scale, k, samples, o->head->rate, o->head->start, o->gap, o->n_gaps);
 }
 
 /* Are all translations first ... last outside the cone of influence, of the ends and of gaps? */
 static int
-are_inside(const ss_overview *o, const ss_scale *scale, size_t first, size_t last, size_t samples)
+are_inside(const reduction *o, const ss_scale *scale, size_t first, size_t last, size_t samples)
 {
     double from = ss_scale_b(scale, first), to = ss_scale_b(scale, last);
     return !is_edge(o, scale, first, samples) && !is_edge(o, scale, last, samples)
@@ -70,7 +66,7 @@ are_inside(const ss_overview *o, const ss_scale *scale, size_t first, size_t las
 /* Add the levels of n translations from first on, which lie all in the cone of influence or all
  * outside. */
 static void
-add_stretch(ss_overview *o, const ss_scale *scale, size_t first, size_t n, const double *level, int edge)
+add_stretch(reduction *o, const ss_scale *scale, size_t first, size_t n, const double *level, int edge)
 {
     size_t i = (size_t)(scale - ss_stream_grid(o->stream)->scale);
     double most = add_levels(&o->scale[i], level, n);
@@ -84,7 +80,7 @@ add_stretch(ss_overview *o, const ss_scale *scale, size_t first, size_t n, const
 static int
 add_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
 {
-    ss_overview *o = user;
+    reduction *o = user;
     double level[PIECE];
     for (size_t at = 0, m; at < n; at += m) {
         m = n - at < PIECE ? n - at : PIECE;
@@ -98,80 +94,108 @@ add_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t 
     return 0;
 }
 
-ss_status
-ss_overview_new(ss_overview **out, const ss_header *head, size_t column, const ss_morlet_opts *opts,
-                ss_error *err)
+/* --- as samples come ----------------------------------------------------------------------- */
+
+/* What is subtracted from sample i: first + mean + slope (i - middle). */
+typedef struct trend {
+    long double first, mean, slope, middle;
+} trend;
+
+/* Find the mean of a column, or its line of least squares, as ss_morlet_execute does, and begin again. */
+static ss_status
+find_trend(trend *t, ss_reader *reader, double *const wanted[], const double *x, ss_detrend detrend,
+           ss_error *err)
 {
-    if (out == NULL || head == NULL)
-        return SS_FAIL_NULL(err);
-    if (column >= head->n_columns)
-        return ss_fail_column(err, column, head->n_columns);
-    ss_overview *o = *out = calloc(1, sizeof *o);
-    if (o == NULL)
-        return ss_fail_memory(err, NULL);
-    o->column = column;
-    ss_status st = ss_morlet_take(&o->opts, opts, err);
-    if (st == SS_OK)
-        st = ss_stream_new(&o->stream, head->rate, &o->opts, add_rows, o, err);
-    size_t scales = st == SS_OK ? ss_stream_grid(o->stream)->n_scales : 0;
-    if (st == SS_OK)
-        st = ss_header_gaps(&o->gap, &o->n_gaps, head, NULL);
-    int made = st == SS_OK && ss_header_copy(&o->head, head, NULL) == SS_OK
-        && (o->noise = ss_noise_level_new(scales)) != NULL
-        && (o->scale = calloc(scales, sizeof *o->scale)) != NULL && ss_extremes_make(&o->samples, BLOCKS, 1);
-    for (size_t i = 0; made && i < scales; i++)
-        made = ss_extremes_make(&o->scale[i], BLOCKS, 0);
-    if (made)
-        return SS_OK;
-    ss_overview_free(o);
-    *out = NULL;
-    return st == SS_OK || st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+    size_t n = 1, piece = ss_reader_piece(reader);
+    long double sum = 0, moment = 0, count = 0;
+    ss_status st = SS_OK;
+    while (st == SS_OK && n > 0) {
+        st = ss_reader_rows(reader, wanted, piece, &n, err);
+        for (size_t i = 0; st == SS_OK && i < n; i++, count++) {
+            t->first = count == 0 ? x[i] : t->first;
+            sum += x[i] - t->first;
+            moment += count * (x[i] - t->first);
+        }
+    }
+    t->mean = count > 0 ? sum / count : 0;
+    t->middle = (count - 1) / 2;
+    if (detrend == SS_DETREND_LINEAR && count > 1)
+        t->slope = (moment - t->middle * sum) / (count * (count * count - 1) / 12);
+    return st == SS_OK ? ss_reader_rewind(reader, err) : st;
 }
 
-ss_status
-ss_overview_push(ss_overview *o, const double *x, size_t n, ss_error *err)
+/* Let a reason begin with the name of the recording. */
+static ss_status
+name_it(ss_status st, const ss_reader *reader, ss_error *err)
 {
-    if (o == NULL || (x == NULL && n > 0))
-        return SS_FAIL_NULL(err);
-    ss_status st = ss_stream_push(o->stream, x, n, err);
+    if (st == SS_OK || err == NULL)
+        return st;
+    const ss_error why = *err;
+    return ss_fail(err, st, "%s: %s", reader->source->name, why.text);
+}
+
+static ss_status
+read_all(reduction *o, ss_reader *reader, size_t column, ss_detrend detrend, ss_error *err)
+{
+    size_t n = 1, piece = ss_reader_piece(reader);
+    double *x = malloc(piece * sizeof *x), **wanted = calloc(o->head->n_columns, sizeof *wanted);
+    long double at = 0;
+    trend t = { 0 };
+    ss_status st = x != NULL && wanted != NULL ? SS_OK : ss_fail_memory(err, NULL);
     if (st == SS_OK)
-        ss_extremes_add(&o->samples, x, n);
-    return st;
+        wanted[column] = x;
+    if (st == SS_OK && detrend != SS_DETREND_NONE)
+        st = find_trend(&t, reader, wanted, x, detrend, err);
+    while (st == SS_OK && n > 0) {
+        st = ss_reader_rows(reader, wanted, piece, &n, err);
+        for (size_t i = 0; st == SS_OK && i < n; i++, at++)
+            x[i] = (double)(x[i] - t.first - t.mean - t.slope * (at - t.middle));
+        if (st == SS_OK) {
+            ss_extremes_add(&o->samples, x, n);
+            st = name_it(ss_stream_push(o->stream, x, n, err), reader, err);
+        }
+    }
+    free(wanted);
+    free(x);
+    return st == SS_OK ? name_it(ss_stream_end(o->stream, err), reader, err) : st;
 }
 
 /* --- at the end ---------------------------------------------------------------------------- */
 
 static ss_status
-make_signal(ss_overview *o)
+make_signal(ss_signal **out, const reduction *o, size_t column)
 {
     const extremes *r = &o->samples;
     ss_header *head;
     size_t a_block = r->order > 0 ? 2 : 1, blocks = ss_extremes_count(r);
     double pair[2] = { 0, 0 };
-    ss_status st = ss_header_select(&head, o->head, &o->column, 1, 0, NULL);
+    ss_status st = ss_header_select(&head, o->head, &column, 1, 0, NULL);
     if (st != SS_OK)
         return st;
     head->rate = ldexp(o->head->rate * (double)a_block, -r->order);
-    st = ss_signal_new(&o->signal, head, a_block * blocks, NULL);
+    st = ss_signal_new(out, head, a_block * blocks, NULL);
     ss_header_free(head);
     for (size_t i = 0; st == SS_OK && i < blocks; i++) {
         ss_extremes_of(r, i, pair[1], pair);
-        memcpy(o->signal->values + i * a_block, pair, a_block * sizeof *pair);
+        memcpy((*out)->values + i * a_block, pair, a_block * sizeof *pair);
     }
     return st;
 }
 
-/* A scale that lies inside the cone of influence as a whole is left out. */
+/* The coefficients own the gaps from here on.  SS_EDATA: they are of less than two scales. */
 static ss_status
-make_coefficients(ss_overview *o)
+make_coefficients(ss_coefficients **out, reduction *o, size_t column)
 {
-    ss_coefficients *c = &o->result;
     size_t scales = ss_stream_grid(o->stream)->n_scales, first = 0, total = 0;
     const ss_scale *scale = ss_stream_grid(o->stream)->scale;
+    ss_coefficients *c = *out = calloc(1, sizeof *c);
+    if (c == NULL)
+        return SS_ENOMEM;
     c->n = ss_stream_samples(o->stream);
     c->center = o->opts.center;
     c->gap = o->gap;
     c->n_gaps = o->n_gaps;
+    o->gap = NULL;
     while (first < scales && 2 * wavelet_cone(scale[first].a) > (double)c->n / o->head->rate)
         first++;
     c->n_scales = scales - first;
@@ -193,45 +217,72 @@ make_coefficients(ss_overview *o)
         for (size_t k = 0; k < ss_extremes_count(r); k++, w += 2)
             w[0] = r->most[k];
     }
-    return ss_coefficients_header(&c->head, o->head, o->column, c->n, &o->opts, NULL);
+    return ss_coefficients_header(&c->head, o->head, column, c->n, &o->opts, NULL);
 }
 
-ss_status
-ss_overview_end(ss_overview *o, ss_overview_result *out, ss_error *err)
+static ss_status
+reduce(ss_overview *v, reduction *o, ss_reader *reader, size_t column, ss_error *err)
 {
-    if (o == NULL || out == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status st = ss_stream_end(o->stream, err);
+    ss_detrend detrend = o->opts.detrend;
+    o->opts.detrend = SS_DETREND_NONE;
+    ss_status st = ss_stream_new(&o->stream, o->head->rate, &o->opts, add_rows, o, err);
+    size_t scales = st == SS_OK ? ss_stream_grid(o->stream)->n_scales : 0;
+    if (st == SS_OK)
+        st = ss_header_gaps(&o->gap, &o->n_gaps, o->head, err);
+    int made = st == SS_OK && (o->noise = ss_noise_level_new(scales)) != NULL
+        && (o->scale = calloc(scales, sizeof *o->scale)) != NULL && ss_extremes_make(&o->samples, BLOCKS, 1);
+    for (size_t i = 0; made && i < scales; i++)
+        made = ss_extremes_make(&o->scale[i], BLOCKS, 0);
+    if (!made)
+        return st == SS_OK ? ss_fail_memory(err, NULL) : st;
+    st = read_all(o, reader, column, detrend, err);
     if (st != SS_OK)
         return st;
-    double noise = ss_noise_level(o->noise, ss_stream_grid(o->stream)->scale);
-    st = make_coefficients(o);
+    v->top = o->top;
+    v->noise = ss_noise_level(o->noise, ss_stream_grid(o->stream)->scale);
+    st = make_coefficients(&v->coefficients, o, column);
     if (st == SS_EDATA)
-        return ss_fail(err, SS_EDATA, "too few samples, %zu: less than two scales have translations outside "
-                       "the cone of influence", ss_stream_samples(o->stream));
+        return ss_fail(err, st, "%s: too few samples, %zu: less than two scales have translations outside "
+                       "the cone of influence", reader->source->name, ss_stream_samples(o->stream));
     if (st == SS_OK)
-        st = make_signal(o);
-    if (st == SS_OK)
-        *out = (ss_overview_result){ &o->result, o->signal, o->top, noise };
+        st = make_signal(&v->signal, o, column);
     return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }
 
-void
-ss_overview_free(ss_overview *o)
+ss_status
+ss_overview_read(ss_overview **out, ss_reader *reader, size_t column, const ss_morlet_opts *opts, ss_error *err)
 {
-    if (o == NULL)
+    if (out == NULL || reader == NULL)
+        return SS_FAIL_NULL(err);
+    *out = NULL;
+    reduction o = { .head = ss_reader_header(reader) };
+    if (column >= o.head->n_columns)
+        return ss_fail_column(err, column, o.head->n_columns);
+    ss_status st = ss_morlet_take(&o.opts, opts, err);
+    if (st != SS_OK)
+        return st;
+    ss_overview *v = calloc(1, sizeof *v);
+    st = v != NULL ? reduce(v, &o, reader, column, err) : ss_fail_memory(err, NULL);
+    for (size_t i = 0; o.scale != NULL && i < ss_stream_grid(o.stream)->n_scales; i++)
+        ss_extremes_free(&o.scale[i]);
+    free(o.scale);
+    ss_extremes_free(&o.samples);
+    ss_noise_level_free(o.noise);
+    ss_stream_free(o.stream);
+    free(o.gap);
+    if (st == SS_OK)
+        *out = v;
+    else
+        ss_overview_free(v);
+    return st;
+}
+
+void
+ss_overview_free(ss_overview *v)
+{
+    if (v == NULL)
         return;
-    for (size_t i = 0; o->scale != NULL && i < ss_stream_grid(o->stream)->n_scales; i++)
-        ss_extremes_free(&o->scale[i]);
-    free(o->scale);
-    ss_extremes_free(&o->samples);
-    ss_noise_level_free(o->noise);
-    ss_stream_free(o->stream);
-    free(o->gap);
-    ss_header_free(o->result.head);
-    free(o->result.scale);
-    free(o->result.w);
-    ss_signal_free(o->signal);
-    ss_header_free(o->head);
-    free(o);
+    ss_coefficients_free(v->coefficients);
+    ss_signal_free(v->signal);
+    free(v);
 }
