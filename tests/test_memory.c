@@ -566,6 +566,17 @@ rankings(int variant)
     return st;
 }
 
+/* A motion and a force of the two columns of a record. */
+static ss_status
+motions(int variant)
+{
+    ss_motion_ranking *made = NULL;
+    (void)variant;
+    ss_status st = ss_motion_ranking_new(&made, cycles, 0, 3, NULL, &err);
+    ss_motion_ranking_free(made);
+    return st;
+}
+
 static ss_status
 fits(int variant)
 {
@@ -775,7 +786,7 @@ static const struct row {
     { "reading coefficients", read_coefficients, 1, 30 },
     { "reading wisdom", read_wisdom, 1, 30 }, { "features", features, 2, 30 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
-    { "rankings", rankings, 1, 4 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
+    { "rankings", rankings, 1, 4 }, { "motions", motions, 1, 10 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
     { "reading tables", read_tables, 2, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 6, 30 },
     { "reductions", reductions, 3, 100 },
     { "overviews", overviews, 2, 30 },

@@ -176,6 +176,9 @@ names_an_elastic_slider(void **unused)
     (void)unused;
     fill_jenkins(&r);
     add_noise(r.f, 0.03, 1);
+    for (int i = 1000; i < 1030; i++)       /* a gap of the recording, in which both are 0 */
+        r.x[i] = r.f[i] = 0;
+    assert_int_equal(ss_header_note(r.signal->head, "gaps", "3.3333333:3.4333333", NULL), SS_OK);
     ss_motion_ranking *k = rank(&r, 0, NULL);
     assert_named(k, "compliant");
     assert_number(k, "friction", 3, "kN");

@@ -18,7 +18,7 @@
 #include "base/options.h"
 #include "base/progress.h"
 #include "io/record.h"
-#include "scene/key.h"
+#include "signal/gaps.h"
 
 enum { ROWS = 2000, COARSE = 800 };     /* rows that fits and searches look at */
 enum { FEWEST = 200 };                  /* rows to be judged */
@@ -485,7 +485,7 @@ order_rows(ss_motion_ranking *out, const driven_result *best)
 /* Rank by a record that can show a law. */
 static ss_status
 judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven *coarse, const char *fold,
-      const ss_signal *signal, size_t motion, size_t force, const ss_motion_opts *opts)
+      const ss_signal *signal, const size_t of[2], const ss_motion_opts *opts)
 {
     driven_result *r = calloc(LAWS_MOST, sizeof *r);
     size_t *partner = malloc(rows->n * sizeof *partner), n = 0, best = 0;
@@ -514,21 +514,21 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         for (size_t i = 0; i < n; i++)
             out->row[i].residual = r[i].fit[ALL].loss / noise;
         decide(out, r, n, noise, power, &best);
-        out->predicted = malloc(d->n * sizeof *out->predicted);
+        out->predicted = malloc(signal->n * sizeof *out->predicted);
         st = out->predicted != NULL
             ? ss_driven_predict(out->predicted, r[best].law, d, &r[best].fit[ALL]) : SS_ENOMEM;
     }
     if (st == SS_OK) {
-        out->rows = d->n;
+        out->rows = signal->n;
         for (size_t i = 0; i < d->n; i++)
             out->predicted[i] *= d->sign * d->force;
         order_rows(out, &r[best]);
         if (out->verdict == SS_NAMED) {
-            const char *unit = signal->head->column[motion].unit, *per_second = strstr(unit, "/s");
+            const char *unit = signal->head->column[of[0]].unit, *per_second = strstr(unit, "/s");
             char length[64];
             int letters = opts->is_velocity && per_second != NULL ? (int)(per_second - unit) : (int)strlen(unit);
             snprintf(length, sizeof length, "%.*s", letters, unit);
-            find_numbers(out, &r[best], d, signal->head->column[force].unit, length);
+            find_numbers(out, &r[best], d, signal->head->column[of[1]].unit, length);
         }
         find_confounded(out, &r[best], rows);
     }
@@ -536,6 +536,45 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         free(r[i].left);
     free(partner);
     free(r);
+    return st;
+}
+
+/* Rank, or say why the n rows of time, motion and force show no law.  row: where each stands in the signal. */
+static ss_status
+rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size_t n, const ss_signal *signal,
+          const size_t of[2], const ss_motion_opts *opts)
+{
+    driven d = { 0 }, rows = { 0 }, coarse = { 0 };
+    char why[128], *fold = malloc(n + 1);
+    ss_status st = fold != NULL ? SS_OK : SS_ENOMEM;
+    snprintf(why, sizeof why, "it has %zu rows, fewer than %d", n, FEWEST);
+    if (st == SS_OK && n >= FEWEST) {
+        st = ss_driven_new(&d, column[0], column[1], column[2], n, opts);
+        const size_t turns = st == SS_OK ? ss_driven_turns(&d, fmax(TURN, d.least), fold) : 0;
+        if (st == SS_OK)
+            find_doubt(why, sizeof why, &d, turns);
+        if (st == SS_OK && why[0] == '\0')
+            st = ss_driven_thin(&rows, &d, ROWS);
+        if (st == SS_OK && why[0] == '\0')
+            st = ss_driven_thin(&coarse, &d, COARSE);
+        if (st == SS_OK && why[0] == '\0' && choose_folds(&rows, opts->folds, turns, fold, &r->interleaved))
+            snprintf(why, sizeof why, "the two %s visit other ranges of the motion",
+                     r->interleaved ? "folds" : "halves");
+    }
+    r->sign = d.sign;
+    r->clipped = d.clipped;
+    if (st == SS_OK && why[0] != '\0') {
+        r->verdict = SS_NOT_JUDGED;
+        snprintf(r->answer, sizeof r->answer, "not judged: %s", why);
+    } else if (st == SS_OK)
+        st = judge(r, &d, &rows, &coarse, fold, signal, of, opts);
+    if (st == SS_OK && r->rows > 0)         /* to their places; what is missing leaves nothing */
+        for (size_t i = signal->n, k = n; i-- > 0;)
+            r->predicted[i] = k > 0 && row[k - 1] == i ? r->predicted[--k] : signal->values[of[1] * signal->n + i];
+    ss_driven_free(&d);
+    ss_driven_free(&rows);
+    ss_driven_free(&coarse);
+    free(fold);
     return st;
 }
 
@@ -548,59 +587,46 @@ ss_motion_ranking_new(ss_motion_ranking **out, const ss_signal *signal, size_t m
         return SS_FAIL_NULL(err);
     ss_status st = ss_options_take(&opts, sizeof opts, &defaults, given, err);
     if (st == SS_OK && (motion >= signal->head->n_columns || force >= signal->head->n_columns))
-        st = ss_fail_column(err, motion >= signal->head->n_columns ? motion : force, signal->head->n_columns);
+        return ss_fail_column(err, motion >= signal->head->n_columns ? motion : force, signal->head->n_columns);
     if (st == SS_OK && !(opts.delay >= 0 && opts.delay <= 100 && isfinite(opts.angle)))
-        st = ss_fail(err, SS_EINVAL, "delay %g is out of range 0 ... 100", opts.delay);
-    const size_t n = signal->n;
-    const double *x = signal->values + motion * n, *f = signal->values + force * n;
-    double *t = malloc((n + 1) * sizeof *t);
-    char *fold = malloc(n + 1);
+        return ss_fail(err, SS_EINVAL, "delay %g is out of range 0 ... 100", opts.delay);
+    if (st != SS_OK)
+        return st;
+    const size_t of[2] = { motion, force }, all = signal->n;
+    size_t *row = malloc((all + 1) * sizeof *row), n = 0;
+    double *room = malloc((3 * all + 1) * sizeof *room), *const column[3] = { room, room + all, room + 2 * all };
+    char *missing = NULL;
     ss_motion_ranking *r = calloc(1, sizeof *r);
-    if (st == SS_OK && (t == NULL || fold == NULL || r == NULL))
-        st = ss_fail_memory(err, NULL);
-    for (size_t i = 0; st == SS_OK && i < n; i++) {
-        t[i] = opts.time != NULL ? opts.time[i] : (double)i / signal->head->rate;
-        if (!(isfinite(x[i]) && isfinite(f[i]) && isfinite(t[i])))
+    if (r != NULL)
+        r->time = malloc((all + 1) * sizeof *r->time);
+    st = row != NULL && room != NULL && r != NULL && r->time != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK)
+        st = ss_gaps_missing(&missing, signal);
+    if (st != SS_OK)
+        ss_fail(err, st, "%s", ss_strerror(st));
+    for (size_t i = 0; st == SS_OK && i < all; i++) {
+        double t = opts.time != NULL ? opts.time[i] : (double)i / signal->head->rate;
+        double x = signal->values[motion * all + i], f = signal->values[force * all + i];
+        r->time[i] = t;
+        if (!(isfinite(x) && isfinite(f) && isfinite(t)))
             st = ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);
-        else if (i > 0 && !(t[i] > t[i - 1]))
+        else if (i > 0 && !(t > r->time[i - 1]))
             st = ss_fail(err, SS_EINVAL, "the time of row %zu is not after that of the row before", i + 1);
+        if (missing != NULL && missing[i])
+            continue;
+        column[0][n] = t;
+        column[1][n] = x;
+        column[2][n] = f;
+        row[n++] = i;
     }
-    driven d = { 0 }, rows = { 0 }, coarse = { 0 };
-    if (st == SS_OK && n < FEWEST) {
-        r->verdict = SS_NOT_JUDGED;
-        snprintf(r->answer, sizeof r->answer, "not judged: it has %zu rows, fewer than %d", n, FEWEST);
-    } else if (st == SS_OK) {
-        char why[128];
-        st = ss_driven_new(&d, t, x, f, n, &opts);
-        size_t turns = st == SS_OK ? ss_driven_turns(&d, fmax(TURN, d.least), fold) : 0;
-        if (st == SS_OK)
-            find_doubt(why, sizeof why, &d, turns);
-        if (st == SS_OK && why[0] == '\0')
-            st = ss_driven_thin(&rows, &d, ROWS);
-        if (st == SS_OK && why[0] == '\0')
-            st = ss_driven_thin(&coarse, &d, COARSE);
-        if (st == SS_OK && why[0] == '\0' && choose_folds(&rows, opts.folds, turns, fold, &r->interleaved))
-            snprintf(why, sizeof why, "the two %s visit other ranges of the motion",
-                     r->interleaved ? "folds" : "halves");
-        r->sign = d.sign;
-        r->clipped = d.clipped;
-        if (st == SS_OK && why[0] == '\0')
-            st = judge(r, &d, &rows, &coarse, fold, signal, motion, force, &opts);
-        else if (st == SS_OK) {
-            r->verdict = SS_NOT_JUDGED;
-            snprintf(r->answer, sizeof r->answer, "not judged: %s", why);
-        }
+    if (st == SS_OK) {
+        st = rank_rows(r, column, row, n, signal, of, &opts);
         if (st != SS_OK)
             ss_fail(err, st, "%s", ss_strerror(st));
-        ss_driven_free(&d);
-        ss_driven_free(&rows);
-        ss_driven_free(&coarse);
     }
-    free(fold);
-    if (r != NULL)
-        r->time = t;
-    else
-        free(t);
+    free(row);
+    free(room);
+    free(missing);
     if (st == SS_OK)
         *out = r;
     else
