@@ -32,6 +32,15 @@ compliant(double number[], const double u[], const double c[])
 }
 
 static void
+compliant_gap(double number[], const double u[], const double c[])
+{
+    compliant(number, u, c);
+    number[2] = exp(u[GAP]);
+    number[3] = c[1] * exp(u[LENGTH] + u[OTHER_LENGTH]);
+    number[4] = c[1];
+}
+
+static void
 bouc_wen(double number[], const double u[], const double c[])
 {
     number[0] = c[0];
@@ -60,7 +69,10 @@ lugre(double number[], const double u[], const double c[])
 }
 
 #define BIT(name) (1u << (name))
-enum { IS_LINEAR, IS_COULOMB, IS_STRIBECK, IS_COMPLIANT, IS_DAHL, IS_LUGRE, IS_BOUC_WEN, IS_BOUC_WEN_GAP };
+enum {
+    IS_LINEAR, IS_COULOMB, IS_STRIBECK, IS_COMPLIANT, IS_DAHL, IS_LUGRE, IS_COMPLIANT_GAP, IS_BOUC_WEN,
+    IS_BOUC_WEN_GAP
+};
 #define SIMPLE BIT(IS_LINEAR) | BIT(IS_COULOMB)
 #define SMALL (-4.6)                /* the logarithm of a length that a contact does not show */
 
@@ -81,12 +93,15 @@ static const driven_law list[] = {
         .number = { AMOUNT, { "static_friction", "N" }, { "stribeck_velocity", "m/s" },
                     { "bristle_stiffness", "N/m" }, { "bristle_damping", "N s/m" } },
         .contains = SIMPLE | BIT(IS_STRIBECK) | BIT(IS_DAHL), .free = BIT(LENGTH) | BIT(RISE) | BIT(SPEED) },
+    [IS_COMPLIANT_GAP] = { .name = "compliant-gap", .model = "compliant", .parts = 2, .numbers = compliant_gap,
+        .number = { AMOUNT, STIFFNESS, { "gap", "m" }, OTHER_SIDE }, .contains = SIMPLE | BIT(IS_COMPLIANT),
+        .free = BIT(LENGTH) | BIT(OTHER_LENGTH) | BIT(GAP), .held = { [EXPONENT] = 2.5, [BETA] = 0.5 } },
     [IS_BOUC_WEN] = { .name = "bouc-wen", .model = "bouc-wen", .parts = 1, .numbers = bouc_wen,
         .number = { AMOUNT, STIFFNESS, FORM }, .contains = SIMPLE | BIT(IS_COMPLIANT) | BIT(IS_DAHL),
         .free = BIT(LENGTH) | BIT(EXPONENT) | BIT(BETA), .held = { [GAP] = SMALL } },
     [IS_BOUC_WEN_GAP] = { .name = "bouc-wen-gap", .model = "bouc-wen", .parts = 2, .numbers = bouc_wen_gap,
         .number = { AMOUNT, STIFFNESS, FORM, { "gap", "m" }, OTHER_SIDE },
-        .contains = SIMPLE | BIT(IS_COMPLIANT) | BIT(IS_DAHL) | BIT(IS_BOUC_WEN),
+        .contains = SIMPLE | BIT(IS_COMPLIANT) | BIT(IS_DAHL) | BIT(IS_BOUC_WEN) | BIT(IS_COMPLIANT_GAP),
         .free = BIT(LENGTH) | BIT(EXPONENT) | BIT(BETA) | BIT(GAP) },
 };
 
