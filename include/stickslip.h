@@ -24,6 +24,7 @@
 #include <stickslip/features.h>
 #include <stickslip/spikes.h>
 #include <stickslip/rank.h>
+#include <stickslip/steps.h>
 #include <stickslip/store.h>
 #include <stickslip/overlay.h>
 #include <stickslip/table.h>

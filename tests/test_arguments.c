@@ -352,6 +352,7 @@ conclusions_refuse_null(void **state)
     ss_features *features;
     ss_ranking *ranking;
     ss_fit fit;
+    ss_steps *steps = NULL;
     ss_pull *pull;
     size_t n;
     (void)state;
@@ -400,6 +401,10 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_scene_fit(NULL, signal, 0, &scene, NULL, &e), &e);
     assert_refused(ss_scene_fit(&fit, NULL, 0, &scene, NULL, &e), &e);
     assert_refused(ss_scene_fit(&fit, signal, 0, NULL, NULL, &e), &e);
+    assert_refused(ss_steps_new(NULL, signal, 0, 0, -1, 0, &e), &e);
+    assert_refused(ss_steps_new(&steps, NULL, 0, 0, -1, 0, &e), &e);
+    assert_refused(ss_steps_write(NULL, stdout, SS_TSV, &e), &e);
+    ss_steps_free(NULL);
     assert_refused(ss_pull_fit(NULL, signal, 0, &scene, NULL, &e), &e);
     assert_refused(ss_pull_fit(&pull, NULL, 0, &scene, NULL, &e), &e);
     assert_refused(ss_pull_fit(&pull, signal, 0, NULL, NULL, &e), &e);

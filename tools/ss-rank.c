@@ -35,6 +35,10 @@ static const char usage[] =
 "      --residual=FILE   write what is left, row by row, as .tsv, .csv, .au or .h5\n"
 "      --fit             write the scene of the law that is named; needs --set of\n"
 "                        mass and stiffness\n"
+"Rate and state from steps in the speed of a load point:\n"
+"      --load=NAME|N     the column of its path; --column is friction, and\n"
+"                        --set=stiffness=VALUE [1/m] that of the machine\n"
+"      --normal-stress=NAME|N  divide the column, a shear stress, by this one\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE     .tsv .csv .json, --fit: any; --format=tsv|csv|json; with\n"
 "                        --motion also a picture: .gp, .png, .svg, .pdf, .eps\n"
@@ -42,7 +46,7 @@ TOOL_READING_USAGE
 "  -h, --help            show this text; --version: show the version\n";
 
 typedef struct job {
-    const char *signal_path, *column_name, *known_by, *output;
+    const char *signal_path, *column_name, *known_by, *output, *load, *normal;
     char *signal_name;
     int all, as, fits;          /* all: criteria; as: of ss_quantity_names; -1: not given */
     tool_texts settings;
@@ -492,6 +496,57 @@ rank_motion(job *j)
     ss_signal_free(signal);
 }
 
+/* --- a load point whose speed steps --------------------------------------------------------- */
+
+static double
+given_stiffness(const tool_texts *settings)
+{
+    static const char key[] = "stiffness=";
+    double stiffness = 0;
+    for (size_t i = 0; i < settings->n; i++) {
+        if (strncmp(settings->text[i], key, sizeof key - 1) != 0)
+            tool_usage("--set %s: with --load only stiffness can be given", settings->text[i]);
+        stiffness = tool_number("--set stiffness", settings->text[i] + sizeof key - 1, 1e-12, 1e12);
+    }
+    return stiffness;
+}
+
+static void
+fit_load(job *j)
+{
+    const double stiffness = given_stiffness(&j->settings);
+    ss_error err = { 0 };
+    ss_steps *steps = NULL;
+    ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
+    const size_t load = tool_column(signal->head, j->signal_path, j->load);
+    const size_t friction = tool_column(signal->head, j->signal_path, j->column_name);
+    const int normal = j->normal != NULL ? (int)tool_column(signal->head, j->signal_path, j->normal) : -1;
+    if (load == friction)
+        tool_usage("--load and --column name the same column, %s", signal->head->column[load].name);
+    if (strcmp(signal->head->column[friction].unit, normal >= 0 ? signal->head->column[normal].unit : "") != 0)
+        tool_die("column %s is in '%s': friction has no unit, and --normal-stress has that of its shear stress",
+                 signal->head->column[friction].name, signal->head->column[friction].unit);
+    tool_check(ss_steps_new(&steps, signal, load, friction, normal, stiffness, &err), &err);
+    for (size_t i = 0; i < steps->n; i++)
+        tool_note("step at %.9g s: %zu rows, noise of %.2g", steps->step[i].at, steps->step[i].n,
+                  steps->step[i].law[steps->step[i].best].noise);
+    tool_check(ss_steps_write(steps, tool_output(j->output), tool_stream(j->kind), &err), &err);
+    ss_steps_free(steps);
+    ss_signal_free(signal);
+}
+
+/* What goes with --load. */
+static void
+check_load(job *j, int files)
+{
+    static const char *const of_load[] = { "load", "normal-stress", "column", "set", "output", "format", "time", "time-unit",
+        "rate", "table", "gaps", "resample", "from", "to", "scale", "unit", "quiet", "verbose", NULL };
+    if (tool_given_others(of_load) || files > 1)
+        tool_usage("with --load, of the other options only --column, --normal-stress, --set stiffness and those of "
+                   "reading mean something, and no scene is read");
+    j->reading.opts.stamps = 1;
+}
+
 /* Set the signal and the scenes that are named.  Without any, the scenes are those of the paper, or, for a
  * fit, the one from which it starts. */
 static void
@@ -542,6 +597,7 @@ parse(job *j, int argc, char *argv[])
         TOOL_TEXT('c', "column", &j->column_name), TOOL_CHOICE('a', "as", &j->as, ss_quantity_names),
         TOOL_TEXTS('s', "set", &j->settings), TOOL_NUMBER('p', "spread", &percent, percents),
         TOOL_NUMBER('F', "forcing", &j->opts.forcing_frequency, frequencies),
+        TOOL_TEXT(0, "load", &j->load), TOOL_TEXT(0, "normal-stress", &j->normal),
         TOOL_FLAG(0, "fit", &j->fits), TOOL_FLAG('l', "long", &j->all), TOOL_OUTPUT(&j->output),
         TOOL_FORMAT_OF_WORDS(&j->kind) };
     int first = TOOL_PARSE(argc, argv, options, &j->reading);
@@ -551,6 +607,10 @@ parse(job *j, int argc, char *argv[])
         check_motion(j, argc - first);
     else if (j->extra != NULL || j->residual != NULL || tool_given("delay") || tool_given("folds"))
         tool_usage("--extra, --residual, --delay and --folds need --motion");
+    if (j->normal != NULL && j->load == NULL)
+        tool_usage("--normal-stress needs --load");
+    if (j->load != NULL)
+        check_load(j, argc - first);
     if (j->fits && argc - first > 2)
         tool_usage("--fit takes one scene");
     if (j->fits)
@@ -592,6 +652,8 @@ main(int argc, char *argv[])
     j.reading.opts.progress = (ss_progress){ tool_reading_progress, &j };
     if (j.motion != NULL)
         rank_motion(&j);
+    else if (j.load != NULL)
+        fit_load(&j);
     else
         rank_signal(&j);
     tool_reading_free(&j.reading);

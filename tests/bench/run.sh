@@ -82,6 +82,8 @@ if [ "$LONG_RECORD" = 1 ]; then
     "$out/cover_features" | expand -t 22 || echo "errors of ss-features do not cover as they should"
     compile cover_backbone tests/decay.c
     "$out/cover_backbone"
+    compile cover_steps
+    "$out/cover_steps" 100 | expand -t 15
     compile cover_identity tests/rig.c
     "$out/cover_identity" | expand -t 18 || echo "numbers of ss-features are not of what they say"
 fi

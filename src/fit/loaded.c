@@ -1,0 +1,367 @@
+/* loaded.c -- rate and state fitted to a step.
+ *
+ * mu = m0 + c x + a g: g is the quasi-static slider's, pulled along the recorded path, and depends on b/a, Dc and
+ * k/a only.  These are tried on a grid, at few times, which lie close where the speed changes; the best go on by
+ * least squares, and the best of them to all rows.  There, what the law leaves shows the noise, with its memory;
+ * rows are then whitened by it, fitted, and so once more.  Errors are those of the whitened rows. */
+#include "fit/loaded.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/least.h"
+#include "fit/slider.h"
+#include "fit/wander.h"
+
+/* The unknowns of a fit.  Friction rings about its new value with the frequency V w, where w^2 = k/(a Dc), and falls
+ * by k/a - (b/a - 1)/Dc: the difference of two numbers that may be close.  In b/a and Dc, such rings are a narrow
+ * curved valley; in w and the quotient of the two, critical stiffness over k, it is straight.  DIRECT, RING and
+ * STIFFNESS are logarithms, DRIFT is that over the whole way. */
+enum { LEVEL, DRIFT, DIRECT, CRITICAL, RING, STIFFNESS, UNKNOWNS };
+enum { STARTS = 4, NEAR = 12 };    /* NEAR: rows about a change that are not thinned */
+#define COARSE 1e-5             /* the slider's tolerance on the grid, and in fits */
+#define FINE 1e-10
+#define DIFFERENCE 1e-5         /* of an unknown, for slopes */
+
+typedef struct law {
+    const track *record;
+    int is_slip;
+    wander noise;
+    double *g, *moved;          /* of the unknowns, and of one that is a little larger [n] */
+    double *rows;               /* [n][UNKNOWNS + 1] */
+    ss_range range[UNKNOWNS];
+    double *t, *load;           /* the path: the rows, and corners between them */
+    size_t nodes, inserted[2];  /* inserted: a corner's index among the rows, the last corner first */
+} law;
+
+static double
+way_of(const track *r)
+{
+    return r->load[r->n - 1];
+}
+
+/* The slider of k_c/k, w^2 and k/a. */
+static slider
+slider_of(const law *l, double critical, double ring, double over)
+{
+    const double Dc = over / ring;
+    return (slider){ l->is_slip, 1 + critical * over * Dc, Dc, over, l->record->speed };
+}
+
+/* The friction over a of some unknowns, of which one may be moved. */
+static ss_status
+run(const law *l, double *g, const double *u, int moved, double by, double tol)
+{
+    const slider s = slider_of(l, u[CRITICAL] + (moved == CRITICAL) * by, exp(u[RING] + (moved == RING) * by),
+                               exp(u[STIFFNESS] - u[DIRECT] + (moved == STIFFNESS) * by));
+    ss_status st = ss_slider_run(g, &s, l->t, l->load, l->nodes, tol);
+    for (size_t i = l->nodes - l->record->n; i-- > 0;)      /* the first corner first: then the others' rows are right */
+        memmove(g + l->inserted[i], g + l->inserted[i] + 1, (l->nodes - 1 - l->inserted[i]) * sizeof *g);
+    return st;
+}
+
+/* What is left of the rows, and its slopes, before they are whitened. */
+static ss_status
+leave(law *l, const double *u, double *residual, double *slopes)
+{
+    const track *r = l->record;
+    const double a = exp(u[DIRECT]);
+    ss_status st = run(l, l->g, u, 0, 0, FINE);
+    for (size_t i = 0; residual != NULL && st == SS_OK && i < r->n; i++)
+        residual[i] = r->mu[i] - u[LEVEL] - u[DRIFT] * r->load[i] / way_of(r) - a * l->g[i];
+    for (int k = CRITICAL; slopes != NULL && st == SS_OK && k < UNKNOWNS; k++) {
+        st = run(l, l->moved, u, k, DIFFERENCE, FINE);
+        for (size_t i = 0; st == SS_OK && i < r->n; i++)
+            slopes[i * UNKNOWNS + (size_t)k] = a * (l->g[i] - l->moved[i]) / DIFFERENCE;
+    }
+    for (size_t i = 0; slopes != NULL && st == SS_OK && i < r->n; i++) {
+        double *row = &slopes[i * UNKNOWNS];
+        row[LEVEL] = -1;
+        row[DRIFT] = -r->load[i] / way_of(r);
+        row[DIRECT] = -a * l->g[i] - row[STIFFNESS];
+    }
+    return st;
+}
+
+static ss_status
+whitened(const double *u, double *residual, double *slopes, void *user)
+{
+    law *l = user;
+    const track *r = l->record;
+    ss_status st = leave(l, u, slopes == NULL ? residual : NULL, slopes);
+    if (st == SS_OK && slopes == NULL)
+        ss_wander_whiten(residual, &l->noise, r->t, residual, r->n, 1);
+    else if (st == SS_OK)
+        ss_wander_whiten(slopes, &l->noise, r->t, slopes, r->n, UNKNOWNS);
+    return st;
+}
+
+/* --- where a fit starts -------------------------------------------------------------------- */
+
+typedef struct start {
+    double u[UNKNOWNS], squares, ratio;
+} start;
+
+static double
+mean_of(const double *x, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] / (double)n;
+    return sum;
+}
+
+/* The level, the drift and a that are the best beside this friction over a; a > 0 may be given. */
+static void
+solve(start *s, const track *r, const double *g, double a)
+{
+    double mean[3] = { mean_of(r->load, r->n), mean_of(g, r->n), mean_of(r->mu, r->n) }, xx = 0, xg = 0, xm = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        double x = r->load[i] - mean[0];
+        xx += x * x;
+        xg += x * (g[i] - mean[1]);
+        xm += x * (r->mu[i] - mean[2]);
+    }
+    double gg = 0, gm = 0, mm = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        double x = r->load[i] - mean[0], of_g = g[i] - mean[1] - xg / xx * x, of_m = r->mu[i] - mean[2] - xm / xx * x;
+        gg += of_g * of_g;
+        gm += of_g * of_m;
+        mm += of_m * of_m;
+    }
+    a = a > 0 ? a : gm / gg;
+    s->squares = a > 0 ? mm + a * (a * gg - 2 * gm) : INFINITY;
+    s->u[DIRECT] = log(a);
+    s->u[DRIFT] = (xm - a * xg) / xx * way_of(r);
+    s->u[LEVEL] = mean[2] - (xm - a * xg) / xx * mean[0] - a * mean[1];
+    s->u[STIFFNESS] += s->u[DIRECT];
+}
+
+/* Keep the best starts of different b/a, the best first. */
+static void
+keep(start best[STARTS], const start *s)
+{
+    int at = 0;
+    while (at < STARTS - 1 && best[at].ratio != s->ratio)
+        at++;
+    for (; at > 0 && s->squares < best[at - 1].squares; at--)
+        best[at] = best[at - 1];
+    if (s->squares < best[at].squares)
+        best[at] = *s;
+}
+
+/* Try b/a, K = k Dc/a and the angular frequency V sqrt(k/(a Dc)) at which friction may ring; the ringing needs its
+ * steps. */
+static ss_status
+search(start best[STARTS], law *l, double stiffness)
+{
+    static const double ratio[] = { 0, 0.4, 0.7, 0.9, 1.05, 1.2, 1.5, 2 };
+    const double way = way_of(l->record);
+    for (int i = 0; i < STARTS; i++)
+        best[i] = (start){ .ratio = NAN, .squares = INFINITY };
+    for (size_t j = 0; j < sizeof ratio / sizeof *ratio; j++)
+        for (double K = 0.03; K < 100; K *= 3.5)
+            for (double w = 3 / way; w < 2000 / way; w *= 1.5) {
+                const double Dc = sqrt(K) / w, over = sqrt(K) * w;
+                start s = { .ratio = ratio[j], .u = { [CRITICAL] = (ratio[j] - 1) / K, [RING] = 2 * log(w),
+                            [STIFFNESS] = log(over) } };
+                if (!(Dc > way / 300 && Dc < way && K > ratio[j] - 1))
+                    continue;
+                ss_status st = run(l, l->g, s.u, 0, 0, COARSE);
+                if (st == SS_OK) {
+                    solve(&s, l->record, l->g, stiffness / over);
+                    keep(best, &s);
+                } else if (st != SS_EDATA)
+                    return st;
+            }
+    return SS_OK;
+}
+
+/* --- fits ---------------------------------------------------------------------------------- */
+
+static ss_status
+fit(least_end *end, law *l, double u[UNKNOWNS], size_t steps, double noise, double *covariance)
+{
+    const least how = { .rows = l->record->n, .unknowns = UNKNOWNS, .model = whitened, .user = l,
+                        .range = l->range, .steps = steps, .tol = 1e-7, .noise = noise, .farthest = 1.5 };
+    return ss_least_fit(end, &how, u, NULL, covariance);
+}
+
+/* A record at few times: means of more rows the farther these are from a change.  SS_ENOMEM. */
+static ss_status
+thin(track *few, const track *r)
+{
+    *few = *r;
+    few->n = 0;
+    few->t = malloc(3 * r->n * sizeof *few->t);
+    if (few->t == NULL)
+        return SS_ENOMEM;
+    few->load = few->t + r->n;
+    few->mu = few->load + r->n;
+    for (size_t i = 0, rows; i < r->n; i += rows, few->n++) {
+        size_t away = r->n;
+        for (size_t k = 0; k < r->changes; k++) {
+            size_t apart = i > r->change[k] ? i - r->change[k] : r->change[k] - i;
+            away = apart < away ? apart : away;
+        }
+        rows = away / NEAR + 1 < r->n - i ? away / NEAR + 1 : r->n - i;
+        rows = i > 0 ? rows : 1;
+        few->t[few->n] = mean_of(r->t + i, rows);
+        few->load[few->n] = mean_of(r->load + i, rows);
+        few->mu[few->n] = mean_of(r->mu + i, rows);
+    }
+    return SS_OK;
+}
+
+static ss_status
+make_room(law *l, const track *r, int is_slip)
+{
+    *l = (law){ .record = r, .is_slip = is_slip, .noise = { 0, 1 } };
+    const size_t n = r->n + 2;
+    l->g = malloc((4 + UNKNOWNS + 1) * n * sizeof *l->g);
+    if (l->g == NULL)
+        return SS_ENOMEM;
+    l->moved = l->g + n;
+    l->t = l->moved + n;
+    l->load = l->t + n;
+    l->rows = l->load + n;
+    memcpy(l->t, r->t, r->n * sizeof *l->t);
+    memcpy(l->load, r->load, r->n * sizeof *l->load);
+    l->nodes = r->n;
+    for (size_t k = r->changes; k-- > 0;) {
+        size_t at = 0;
+        while (at < r->n && r->t[at] < r->corner[k].t)
+            at++;
+        if (isnan(r->corner[k].t))
+            continue;
+        memmove(l->t + at + 1, l->t + at, (l->nodes - at) * sizeof *l->t);
+        memmove(l->load + at + 1, l->load + at, (l->nodes - at) * sizeof *l->load);
+        l->t[at] = r->corner[k].t;
+        l->load[at] = r->corner[k].load;
+        l->inserted[l->nodes++ - r->n] = at;
+    }
+    return SS_OK;
+}
+
+/* Find where the fit to all rows starts. */
+static ss_status
+begin(start *best, const track *record, int is_slip, double stiffness, const ss_range range[UNKNOWNS])
+{
+    track few;
+    law l = { 0 };
+    start s[STARTS];
+    least_end end;
+    ss_status st = thin(&few, record);
+    if (st == SS_OK)
+        st = make_room(&l, &few, is_slip);
+    if (st == SS_OK)
+        memcpy(l.range, range, sizeof l.range);
+    if (st == SS_OK)
+        st = search(s, &l, stiffness);
+    best->squares = INFINITY;
+    for (int i = 0; st == SS_OK && i < STARTS && isfinite(s[i].squares); i++) {
+        for (int k = 0; k < UNKNOWNS; k++)
+            s[i].u[k] = fmax(range[k].from, fmin(s[i].u[k], range[k].to));
+        st = fit(&end, &l, s[i].u, 50, s[i].squares / (double)few.n, NULL);
+        if (st == SS_OK && end.squares < best->squares) {
+            memcpy(best->u, s[i].u, sizeof best->u);
+            best->squares = end.squares;
+        }
+    }
+    free(few.t);
+    free(l.g);
+    return st;
+}
+
+/* Find the noise of what u leaves. */
+static ss_status
+find_noise(law *l, const double *u, double *residual, double *slopes)
+{
+    const size_t n = l->record->n, m = UNKNOWNS + 1;
+    ss_status st = leave(l, u, residual, slopes);
+    size_t columns = 0;
+    for (int k = 0; k < UNKNOWNS; k++) {
+        if (!(l->range[k].to > l->range[k].from))
+            continue;
+        for (size_t i = 0; i < n; i++)
+            l->rows[i * m + columns] = slopes[i * UNKNOWNS + (size_t)k];
+        columns++;
+    }
+    for (size_t i = 0; i < n; i++) {
+        l->rows[i * m + columns] = residual[i];
+        if (columns + 1 < m)                    /* k is held: the rows move together */
+            memmove(l->rows + i * (columns + 1), l->rows + i * m, (columns + 1) * sizeof *l->rows);
+    }
+    return st == SS_OK ? ss_wander_find(&l->noise, l->record->t, l->rows, n, columns + 1) : st;
+}
+
+/* A number whose slopes by the unknowns are these. */
+static ss_value
+value_of(double value, const double slope[UNKNOWNS], const double *covariance)
+{
+    double variance = 0;
+    for (int i = 0; i < UNKNOWNS; i++)
+        for (int k = 0; k < UNKNOWNS; k++)
+            if (slope[i] * slope[k] != 0)
+                variance += slope[i] * slope[k] * covariance[i * UNKNOWNS + k];
+    return (ss_value){ value, sqrt(variance) };
+}
+
+static void
+report(ss_step_law *out, const law *l, const double *u, const double *covariance)
+{
+    const double a = exp(u[DIRECT]), k = exp(u[STIFFNESS]);
+    const slider s = slider_of(l, u[CRITICAL], exp(u[RING]), k / a);
+    const double more = a * (s.ratio - 1), K = s.stiffness * s.distance;
+    out->direct_effect = value_of(a, (double[]){ [DIRECT] = a, [STIFFNESS] = 0 }, covariance);
+    out->evolution_effect = value_of(a + more, (double[]){ [DIRECT] = a - more, [CRITICAL] = a * K, [RING] = -more,
+                                     [STIFFNESS] = 2 * more }, covariance);
+    out->critical_slip_distance = value_of(s.distance, (double[]){ [DIRECT] = -s.distance, [RING] = -s.distance,
+                                           [STIFFNESS] = s.distance }, covariance);
+    out->stiffness = value_of(k, (double[]){ [STIFFNESS] = k }, covariance);
+    out->drift = value_of(u[DRIFT] / way_of(l->record), (double[]){ [DRIFT] = 1 / way_of(l->record), [STIFFNESS] = 0 },
+                          covariance);
+}
+
+ss_status
+ss_loaded_fit(ss_step_law *out, double *model, const track *record, int is_slip, double stiffness)
+{
+    const size_t n = record->n;
+    const double way = way_of(record), held = log(stiffness);
+    const ss_range range[UNKNOWNS] = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), 0 }, { -1000, 1.5 },
+        { log(0.01 / (way * way)), log(1e9 / (way * way)) }, { stiffness > 0 ? held : log(1e-5 / way), stiffness > 0 ? held : log(1e4 / way) } };
+    double covariance[UNKNOWNS * UNKNOWNS], *room = malloc(n * (1 + UNKNOWNS) * sizeof *room);
+    law l = { 0 };
+    start s;
+    least_end end = { 0 };
+    ss_status st = room != NULL ? make_room(&l, record, is_slip) : SS_ENOMEM;
+    if (st == SS_OK)
+        st = begin(&s, record, is_slip, stiffness, range);
+    if (st == SS_OK && !isfinite(s.squares))
+        st = SS_EDATA;
+    memcpy(l.range, range, sizeof range);
+    const double free_rows = (double)(n - UNKNOWNS + (stiffness > 0));
+    double noise = s.squares / (double)n;
+    for (int pass = 0; st == SS_OK && pass < 3; pass++) {
+        st = fit(&end, &l, s.u, 50, pass == 0 ? noise : end.squares / free_rows, covariance);
+        if (st == SS_OK && pass < 2)
+            st = find_noise(&l, s.u, room, room + n);
+    }
+    if (st == SS_OK)
+        st = leave(&l, s.u, room, NULL);
+    if (st == SS_OK) {
+        for (int i = 0; i < UNKNOWNS * UNKNOWNS; i++)
+            covariance[i] *= end.squares / free_rows;
+        report(out, &l, s.u, covariance);
+        for (size_t i = 0; i < n; i++)
+            model[i] = record->mu[i] - room[i];
+        double logarithms = ss_wander_whiten(room, &l.noise, record->t, room, n, 1), squares = 0;
+        for (size_t i = 0; i < n; i++)
+            squares += room[i] * room[i];
+        out->log_likelihood = -0.5 * (logarithms + (double)n * (log(2 * acos(-1) * squares / (double)n) + 1));
+        out->noise = sqrt(squares / (double)n);
+    }
+    free(room);
+    free(l.g);
+    return st;
+}

@@ -1,0 +1,478 @@
+/* steps.c -- find the steps in the speed of a load point, fit both laws to each, and write them.
+ *
+ * A sensor of the path has noise, of which a stiff spring would make noise of friction; and friction that answers to
+ * its own model's noise is fitted by too small a, b and k.  So the path is first cut into lines, again and again
+ * where two of them fit best, as long as they are significantly better than one; and the load point moves on these.
+ *
+ * Lines whose speeds differ by less than a fifth are one slide.  A line that is short beside its neighbours, in time and way, is the ramp of a
+ * servo; it belongs to the change between these.  A step begins in the second half of a slide, when that may be
+ * steady, and ends with the next slide. */
+#include <stickslip/steps.h>
+
+#include <float.h>
+#include <gsl/gsl_sort.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/error.h"
+#include "base/list.h"
+#include "base/number.h"
+#include "fit/loaded.h"
+#include "io/record.h"
+#include "signal/header.h"
+
+enum { FEWEST = 4, MOST = 16384 };      /* rows of a line, and of a step */
+#define CHANGE 0.2              /* the least relative change of speed */
+#define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
+#define SHORT 0.1               /* a ramp over the lines beside it */
+#define STILL 0.01              /* a hold's speed over that of the lines beside it */
+#define DECISIVE 5              /* difference of logarithms of likelihood that names a law */
+
+const char *const ss_step_law_names[SS_STEP_LAWS] = { "aging", "slip" };
+
+typedef struct line {
+    size_t first, end;          /* rows */
+    double speed, error;
+    double at, from, squares;   /* it passes the point (at, from); sum of squares about it */
+} line;
+
+typedef struct path {
+    const double *t;
+    double *x;
+    size_t n;
+    long double (*sum)[5];      /* of t, x, t t, t x, x x of the rows before */
+    double saved;               /* squares that a cut must save */
+    double start;               /* x of the first row, as recorded */
+    line *line;
+    size_t lines, room;
+} path;
+
+/* The line through the rows first ... end - 1; returns the sum of squares about it. */
+static double
+fit_line(const path *p, size_t first, size_t end, line *out)
+{
+    long double s[5], n = (long double)(end - first);
+    for (int i = 0; i < 5; i++)
+        s[i] = p->sum[end][i] - p->sum[first][i];
+    long double tt = s[2] - s[0] * s[0] / n, tx = s[3] - s[0] * s[1] / n, xx = s[4] - s[1] * s[1] / n;
+    double left = (double)fmaxl(xx - tx * tx / tt, 0);
+    *out = (line){ first, end, (double)(tx / tt), sqrt(left / (double)(n - 2) / (double)tt), (double)(s[0] / n),
+                   (double)(s[1] / n), left };
+    return left;
+}
+
+/* Cut these rows into lines, in order.  SS_ENOMEM. */
+static ss_status
+cut(path *p, size_t first, size_t end)
+{
+    line whole, a = { 0 }, left, right;
+    double least = fit_line(p, first, end, &whole);
+    for (size_t i = first + FEWEST; i + FEWEST <= end; i++) {
+        double squares = fit_line(p, first, i, &left) + fit_line(p, i, end, &right);
+        if (squares < least) {
+            least = squares;
+            a = left;
+        }
+    }
+    if (a.end > 0 && whole.squares - least > p->saved) {
+        ss_status st = cut(p, first, a.end);
+        return st == SS_OK ? cut(p, a.end, end) : st;
+    }
+    line *more = ss_list_room(p->line, &p->room, p->lines, sizeof *more);
+    if (more == NULL)
+        return SS_ENOMEM;
+    p->line = more;
+    more[p->lines++] = whole;
+    return SS_OK;
+}
+
+/* Is a line short beside this one, in time and way? */
+static int
+is_short(const path *p, const line *l, const line *beside)
+{
+    double time = p->t[l->end - 1] - p->t[l->first], other = p->t[beside->end - 1] - p->t[beside->first];
+    return time < SHORT * other && fabs(l->speed) * time < SHORT * fabs(beside->speed) * other;
+}
+
+/* Is the line behind this one a ramp to the next but one? */
+static int
+is_ramp(const path *p, const line *l)
+{
+    double low = fmin(l[0].speed, l[2].speed), high = fmax(l[0].speed, l[2].speed), margin = CHANGE * (high - low);
+    return l[1].speed > low - margin && l[1].speed < high + margin && is_short(p, l + 1, l) && is_short(p, l + 1, l + 2);
+}
+
+/* How much the speeds of a line and the next differ, in parts of what makes them two. */
+static double
+difference(const line *l)
+{
+    double by = fabs(l[1].speed - l[0].speed);
+    return by / fmax(CHANGE * fmax(fabs(l[0].speed), fabs(l[1].speed)), 5 * (l[0].error + l[1].error));
+}
+
+static void
+drop(path *p, size_t i)
+{
+    memmove(&p->line[i], &p->line[i + 1], (p->lines - i - 1) * sizeof *p->line);
+    p->lines--;
+}
+
+/* Join lines of like speed, the likest first, and leave out ramps: then the change between their neighbours ends where
+ * the next line begins. */
+static void
+join(path *p)
+{
+    for (int again = 1; again;) {
+        size_t likest = 0;
+        for (size_t i = 1; i + 1 < p->lines; i++)
+            if (difference(&p->line[i]) < difference(&p->line[likest]))
+                likest = i;
+        again = p->lines > 1 && difference(&p->line[likest]) < 1;
+        if (again) {
+            fit_line(p, p->line[likest].first, p->line[likest + 1].end, &p->line[likest]);
+            drop(p, likest + 1);
+        }
+        for (size_t i = 0; !again && i + 2 < p->lines; i++)
+            if ((again = is_ramp(p, &p->line[i])))
+                drop(p, i + 1);
+    }
+}
+
+/* The variance of the path's noise, from how far rows are off their neighbours, without the farthest tenth; room for
+ * n numbers. */
+static double
+noise_of(const path *p, double *off)
+{
+    const size_t n = p->n - 2, kept = n - n / 10;
+    double sum = 0;
+    for (size_t i = 1; i <= n; i++) {
+        double w = (p->t[i + 1] - p->t[i]) / (p->t[i + 1] - p->t[i - 1]);
+        double by = p->x[i] - w * p->x[i - 1] - (1 - w) * p->x[i + 1];
+        off[i - 1] = by * by / (1 + w * w + (1 - w) * (1 - w));
+    }
+    gsl_sort(off, 1, n);
+    for (size_t i = 0; i < kept; i++)
+        sum += off[i];
+    return sum / (double)kept / 0.623;          /* of Gaussian noise, the other tenth has the rest */
+}
+
+/* Find the lines of different speed, and move the path onto its lines, but for rows that noise does not explain. */
+static ss_status
+find_lines(path *p)
+{
+    double *off = malloc(p->n * sizeof *off);
+    p->sum = malloc((p->n + 1) * sizeof *p->sum);
+    ss_status st = off != NULL && p->sum != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK) {
+        const double from = p->start = p->x[0], way = p->x[p->n - 1] - from, noise = noise_of(p, off);
+        memset(p->sum[0], 0, sizeof p->sum[0]);
+        for (size_t i = 0; i < p->n; i++) {
+            long double t = p->t[i] - p->t[0], x = p->x[i] - from, of[5] = { t, x, t * t, t * x, x * x };
+            for (int k = 0; k < 5; k++)
+                p->sum[i + 1][k] = p->sum[i][k] + of[k];
+        }
+        p->saved = fmax(SIGNIFICANT * noise, 10 * DBL_EPSILON * way * way);     /* rounding of the sums */
+        st = cut(p, 0, p->n);
+        for (size_t k = 0; st == SS_OK && k < p->lines; k++)
+            for (size_t i = p->line[k].first; i < p->line[k].end; i++) {
+                double x = from + p->line[k].from + p->line[k].speed * (p->t[i] - p->t[0] - p->line[k].at);
+                if ((p->x[i] - x) * (p->x[i] - x) < SIGNIFICANT * noise)
+                    p->x[i] = x;
+            }
+    }
+    if (st == SS_OK)
+        join(p);
+    free(off);
+    return st;
+}
+
+/* --- a step -------------------------------------------------------------------------------- */
+
+/* Where a line meets the next, if that is between their rows. */
+static void
+find_corner(corner *c, const path *p, const line *l, size_t first, double sign)
+{
+    double off = 0, before, behind;
+    *c = (corner){ NAN, NAN };
+    if (l == NULL)
+        return;
+    const size_t at = l[1].first;
+    const double step = fabs(p->x[at] - p->x[at - 1]), t = p->t[0];
+    for (int k = 0; k < 2; k++)
+        off = fmax(off, fabs(p->x[at - 1 + k] - p->start - l[k].from - l[k].speed * (p->t[at - 1 + k] - t - l[k].at)));
+    before = l[0].from - l[0].speed * l[0].at;
+    behind = l[1].from - l[1].speed * l[1].at;
+    c->t = t + (before - behind) / (l[1].speed - l[0].speed);
+    c->load = sign * (p->start + before + l[0].speed * (c->t - t) - p->x[first]);
+    if (!(off < 1e-3 * step && c->t > p->t[at - 1] && c->t < p->t[at]))
+        c->t = NAN;
+}
+
+/* Take the rows of a step, whose slide begins with line `at`; the next `lines` belong to it. */
+static ss_status
+take(ss_step *s, track *r, const path *p, const double *mu, size_t at, size_t lines, double sign)
+{
+    const line *l = &p->line[at];
+    const size_t first = at > 0 ? (l->first + l->end) / 2 : l->first, all = l[lines - 1].end - first;
+    const size_t apart = all / MOST + 1;
+    double *room = malloc(5 * all * sizeof *room);
+    if (room == NULL)
+        return SS_ENOMEM;
+    s->t = room;
+    s->path = room + all;
+    s->friction = room + 2 * all;
+    s->law[0].model = room + 3 * all;
+    s->law[1].model = room + 4 * all;
+    for (size_t i = 0; i < all / apart; i++) {
+        double sum[3] = { 0 };
+        for (size_t k = first + i * apart; k < first + (i + 1) * apart; k++) {
+            sum[0] += p->t[k] / (double)apart;
+            sum[1] += sign * (p->x[k] - p->x[first]) / (double)apart;
+            sum[2] += mu[k] / (double)apart;
+        }
+        s->t[s->n] = sum[0];
+        s->path[s->n] = sum[1];
+        s->friction[s->n++] = sum[2];
+    }
+    line slide;
+    fit_line(p, first, l->end, &slide);
+    *r = (track){ .n = s->n, .t = s->t, .load = s->path, .mu = s->friction, .changes = lines - 1,
+                  .speed = sign * slide.speed };
+    for (size_t k = 1; k < lines; k++)
+        r->change[k - 1] = (l[k].first - first) / apart;
+    double middle = 0, mean = 0;                /* the slide begins on its line, not on its first row's noise */
+    for (size_t i = 0; i < r->change[0]; i++) {
+        middle += (s->t[i] - s->t[0]) / (double)r->change[0];
+        mean += s->path[i] / (double)r->change[0];
+    }
+    s->path[0] = mean - r->speed * middle;
+    for (size_t k = 1; k < lines && apart == 1; k++)
+        find_corner(&r->corner[k - 1], p, l[k - 1].end == l[k].first ? &l[k - 1] : NULL, first, sign);
+    s->at = p->t[l[1].first];
+    s->before = r->speed;
+    s->after = sign * l[lines - 1].speed;
+    return SS_OK;
+}
+
+/* Sum of squares about a line along the path. */
+static double
+straight(const ss_step *s)
+{
+    double n = (double)s->n, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        x += s->path[i] / n;
+        y += s->friction[i] / n;
+    }
+    for (size_t i = 0; i < s->n; i++) {
+        xx += (s->path[i] - x) * (s->path[i] - x);
+        xy += (s->path[i] - x) * (s->friction[i] - y);
+        yy += (s->friction[i] - y) * (s->friction[i] - y);
+    }
+    return yy - xy * xy / xx;
+}
+
+/* What a step does not show is no number. */
+static void
+forget(ss_value *v)
+{
+    if (!(v->error < fabs(v->value)))
+        *v = (ss_value){ NAN, NAN };
+}
+
+static ss_status
+judge(ss_step *s, const track *r, double stiffness)
+{
+    double left = INFINITY;
+    for (int i = 0; i < SS_STEP_LAWS; i++) {
+        ss_step_law *l = &s->law[i];
+        ss_status st = ss_loaded_fit(l, l->model, r, i == SS_STEP_SLIP, stiffness);
+        if (st == SS_EDATA)
+            *l = (ss_step_law){ NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN, l->model };
+        else if (st != SS_OK)
+            return st;
+        forget(&l->direct_effect);
+        forget(&l->critical_slip_distance);
+        forget(&l->stiffness);
+        if (stiffness > 0)
+            l->stiffness = (ss_value){ stiffness, 0 };
+        left = fmin(left, l->noise * l->noise * (double)s->n);
+    }
+    double ahead = s->law[SS_STEP_SLIP].log_likelihood - s->law[SS_STEP_AGING].log_likelihood;
+    s->best = ahead > 0 || isnan(s->law[SS_STEP_AGING].log_likelihood) ? SS_STEP_SLIP : SS_STEP_AGING;
+    double explained = 1 - left / straight(s);
+    s->answer = fabs(ahead) <= DECISIVE ? SS_STEP_UNDECIDED : (ss_step_answer)s->best;
+    if (s->answer == SS_STEP_UNDECIDED)
+        ss_print_to(s->why, sizeof s->why, "the likelihoods differ by a factor of e^%.2g only", fabs(ahead));
+    if (!(explained > 0.5) || isnan(s->law[s->best].direct_effect.value)) {
+        s->answer = SS_STEP_NONE;
+        ss_print_to(s->why, sizeof s->why, "they explain %.2g %% of what a straight line leaves",
+                    100 * fmax(explained, 0));
+    }
+    return SS_OK;
+}
+
+/* --- a record ------------------------------------------------------------------------------ */
+
+/* A unit of length in metres; NaN: it is none. */
+static double
+metres(const char *unit)
+{
+    static const struct { const char *name; double is; } known[] = {
+        { "m", 1 }, { "cm", 1e-2 }, { "mm", 1e-3 }, { "um", 1e-6 }, { "\xc2\xb5m", 1e-6 }, { "\xce\xbcm", 1e-6 },
+        { "micron", 1e-6 }, { "microns", 1e-6 }, { "nm", 1e-9 }, { "in", 0.0254 }, { "ft", 0.3048 } };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(known[i].name, unit) == 0)
+            return known[i].is;
+    return NAN;
+}
+
+static const char *
+unit_of(const ss_column *c)
+{
+    return *c->unit != '\0' ? c->unit : ss_unit_of_name(c->name, NULL);
+}
+
+/* Read path [m] and friction from their columns. */
+static ss_status
+read_columns(double *x, double *mu, const ss_signal *signal, size_t load, size_t friction, int normal, ss_error *err)
+{
+    const ss_column *column = signal->head->column;
+    const size_t n = signal->n;
+    const double unit = metres(unit_of(&column[load]));
+    if (isnan(unit))
+        return ss_fail(err, SS_EDATA, "column %s: '%.40s' is not a unit of length, as m, mm or um is",
+                       column[load].name, unit_of(&column[load]));
+    for (size_t i = 0; i < n; i++) {
+        x[i] = unit * signal->values[load * n + i];
+        mu[i] = signal->values[friction * n + i] / (normal >= 0 ? signal->values[(size_t)normal * n + i] : 1);
+        if (!isfinite(x[i] + mu[i]))
+            return ss_fail(err, SS_EDATA, "row %zu: path or friction is not a finite number", i + 1);
+    }
+    return SS_OK;
+}
+
+/* Fit each step of a path.  sign: the direction of the slide. */
+static ss_status
+fit_steps(ss_steps *out, const path *p, const double *mu, double sign, double stiffness)
+{
+    out->step = calloc(p->lines + 1, sizeof *out->step);
+    ss_status st = out->step != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t i = 0, lines; st == SS_OK && i + 1 < p->lines; i += lines - 1) {
+        const line *l = &p->line[i];
+        int holds = fabs(l[1].speed) < STILL * fabs(l[0].speed) && i + 2 < p->lines;
+        track record;
+        lines = holds ? 3 : 2;
+        if (!(sign * l->speed > 0) || (i > 0 && fabs(l->speed) < STILL * fabs(l[-1].speed)))
+            continue;
+        ss_step *s = &out->step[out->n++];
+        st = take(s, &record, p, mu, i, lines, sign);
+        if (st == SS_OK)
+            st = judge(s, &record, stiffness);
+    }
+    return st;
+}
+
+ss_status
+ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t friction, int normal, double stiffness,
+             ss_error *err)
+{
+    if (out == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
+    *out = NULL;
+    const size_t n = signal->n, columns = signal->head->n_columns;
+    if (load >= columns || friction >= columns || normal >= (int)columns)
+        return ss_fail_column(err, load >= columns ? load : friction >= columns ? friction : (size_t)normal, columns);
+    if (!(stiffness >= 0) || isinf(stiffness))
+        return ss_fail(err, SS_EINVAL, "a stiffness of %g 1/m is out of range", stiffness);
+    double *x = malloc((2 * n + 1) * sizeof *x), *mu = x + n;
+    path p = { .t = signal->values + (columns - 1) * n, .x = x, .n = n };
+    ss_steps *made = calloc(1, sizeof *made);
+    ss_status st = x != NULL && made != NULL ? read_columns(x, mu, signal, load, friction, normal, err) : SS_ENOMEM;
+    if (st == SS_OK && n >= 2 * FEWEST)
+        st = find_lines(&p);
+    if (st == SS_OK)
+        st = fit_steps(made, &p, mu, n > 0 && x[n - 1] < x[0] ? -1 : 1, stiffness);
+    if (st == SS_OK && made->n == 0)
+        st = ss_fail(err, SS_EDATA, "the speed of column %s has no step behind a steady slide",
+                     signal->head->column[load].name);
+    free(p.sum);
+    free(p.line);
+    free(x);
+    if (st == SS_OK)
+        *out = made;
+    else
+        ss_steps_free(made);
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+}
+
+void
+ss_steps_free(ss_steps *steps)
+{
+    for (size_t i = 0; steps != NULL && i < steps->n; i++)
+        free(steps->step[i].t);
+    if (steps != NULL)
+        free(steps->step);
+    free(steps);
+}
+
+/* --- writing ------------------------------------------------------------------------------- */
+
+static void
+write_row(struct rows *rows, size_t rank, const ss_step *s, size_t law)
+{
+    const ss_step_law *l = &s->law[law];
+    ss_rows_count(rows, "rank", rank);
+    ss_rows_word(rows, "law", ss_step_law_names[law]);
+    ss_rows_rounded(rows, "log_likelihood", "", l->log_likelihood, 10);
+    ss_rows_value(rows, "direct_effect", "", l->direct_effect);
+    ss_rows_value(rows, "evolution_effect", "", l->evolution_effect);
+    ss_rows_value(rows, "critical_slip_distance", "m", l->critical_slip_distance);
+    ss_rows_value(rows, "stiffness", "1/m", l->stiffness);
+    ss_rows_value(rows, "drift", "1/m", l->drift);
+    ss_rows_end(rows);
+}
+
+static void
+note_value(struct rows *rows, const char *key, ss_value v, const char *unit)
+{
+    char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX];
+    ss_rows_note(rows, "%s: %s %s%s%s", key, ss_number_rounded(value, v.value, 6), ss_number_rounded(error, v.error, 3),
+                 *unit != '\0' ? " " : "", unit);
+}
+
+static void
+note_step(struct rows *rows, const ss_step *s)
+{
+    const ss_step_law *best = &s->law[s->best];
+    char at[SS_NUMBER_MAX], before[SS_NUMBER_MAX], after[SS_NUMBER_MAX], ahead[SS_NUMBER_MAX];
+    ss_rows_note(rows, "step: at %s s, from %s to %s m/s", ss_number_rounded(at, s->at, 9),
+                 ss_number_rounded(before, s->before, 3), ss_number_rounded(after, s->after, 3));
+    if (s->answer == SS_STEP_NONE || s->answer == SS_STEP_UNDECIDED)
+        ss_rows_note(rows, "answer: %s: %s", s->answer == SS_STEP_NONE ? "none of these" : "cannot tell", s->why);
+    else
+        ss_rows_note(rows, "answer: %s is likelier by a factor of e^%s", ss_step_law_names[s->best],
+                     ss_number_rounded(ahead, best->log_likelihood - s->law[1 - s->best].log_likelihood, 2));
+    note_value(rows, "direct_effect", best->direct_effect, "");
+    note_value(rows, "evolution_effect", best->evolution_effect, "");
+    note_value(rows, "critical_slip_distance", best->critical_slip_distance, "m");
+    note_value(rows, "stiffness", best->stiffness, "1/m");
+    note_value(rows, "drift", best->drift, "1/m");
+}
+
+ss_status
+ss_steps_write(const ss_steps *steps, FILE *out, ss_format format, ss_error *err)
+{
+    struct rows rows;
+    if (steps == NULL || out == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, err);
+    if (st != SS_OK)
+        return st;
+    for (size_t i = 0; i < steps->n; i++)
+        note_step(&rows, &steps->step[i]);
+    write_row(&rows, 0, &steps->step[0], 0);
+    for (size_t i = 0; i < steps->n; i++)
+        for (size_t rank = 0; rank < SS_STEP_LAWS; rank++)
+            write_row(&rows, rank + 1, &steps->step[i], rank == 0 ? steps->step[i].best : 1 - steps->step[i].best);
+    return ss_rows_finish(&rows, err);
+}

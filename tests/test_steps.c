@@ -1,0 +1,224 @@
+/* Rate and state from velocity steps: friction against published digits, and recordings whose truth is known. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <stickslip.h>
+
+#include "fit/slider.h"
+#include "fit/wander.h"
+#include "near.h"
+#include "pulled_rock.h"
+#include "unit.h"
+
+/* mu0 .6, k 1e-3/um, Dc 10 um, load 1 -> 10 um/s at 10 s; by two independent methods, all digits shown agree, and the
+ * first eight are rsfmodel's. */
+static void
+slides_as_two_methods_say(void **state)
+{
+    static const double t[] = { 0, 10, 11, 12, 13, 14, 16, 40 }, a[] = { .005, .01 }, b[] = { .01, .005 };
+    static const double truth[2][6] = {
+        { .607204852468, .601866371928, .584009097426, .585630963968, .589981860446, .588487083179 },
+        { .608392994345, .614628800246, .616633352407, .614514235827, .611525592465, .611512925466 } };
+    double load[8], g[8];
+    (void)state;
+    for (int i = 0; i < 8; i++)
+        load[i] = t[i] < 10 ? t[i] * 1e-6 : 10e-6 + (t[i] - 10) * 10e-6;
+    for (int law = 0; law < 2; law++) {
+        const slider s = { law, b[law] / a[law], 10e-6, 1e3 / a[law], 1e-6 };
+        assert_int_equal(ss_slider_run(g, &s, t, load, 8, 1e-13), SS_OK);
+        for (int i = 2; i < 8; i++)             /* 5e-13 of the digits, 40 Dc at 1e-13 of the speed, in a / Dc */
+            near(law == 0 ? "aging" : "slip", 0.6 + a[law] * g[i], truth[law][i - 2], 1e-12);
+    }
+}
+
+/* Below the critical stiffness, (b - a)/Dc, friction runs away. */
+static void
+a_soft_spring_runs_away(void **state)
+{
+    static const double t[] = { 0, 10, 60 }, load[] = { 0, 10e-6, 510e-6 };
+    double g[3];
+    (void)state;
+    const slider soft = { 0, 2, 10e-6, 0.2 * 1e5, 1e-6 }, stiff = { 0, 2, 10e-6, 1.2 * 1e5, 1e-6 };
+    assert_int_equal(ss_slider_run(g, &soft, t, load, 3, 1e-9), SS_EDATA);
+    assert_int_equal(ss_slider_run(g, &stiff, t, load, 3, 1e-9), SS_OK);
+}
+
+/* Whitened noise of the right memory is white: AR(1) beside its closed form. */
+static void
+whitens_what_wanders(void **state)
+{
+    enum { N = 5 };
+    const double t[N] = { 0, 1, 2.5, 3, 7 }, y[N] = { 1, .5, -2, .25, 3 };
+    const wander by_time = { 1, 2, 0 }, by_rows = { 1, 2, 1 };
+    double white[N], logarithms = 0;
+    (void)state;
+    double got = ss_wander_whiten(white, &by_time, t, y, N, 1);
+    assert_true(fabs(white[0] - y[0]) < 1e-15);
+    for (int i = 1; i < N; i++) {
+        double keep = exp((t[i - 1] - t[i]) / 2), rest = 1 - keep * keep;
+        logarithms += log(rest);
+        assert_true(fabs(white[i] - (y[i] - keep * y[i - 1]) / sqrt(rest)) < 1e-14);
+    }
+    assert_true(fabs(got - logarithms) < 1e-14);
+    ss_wander_whiten(white, &by_rows, t, y, N, 1);
+    assert_true(fabs(white[4] - (3 - exp(-.5) * .25) / sqrt(1 - exp(-1))) < 1e-14);
+}
+
+static const rock usual = { .is_slip = 0, .a = .006, .b = .0085, .Dc = 8e-6, .k = 1500, .drift = 3,
+    .speed = { 1e-6, 10e-6 }, .until = { 150, 175 }, .noise = 3e-5, .memory = .7, .n = 1500 };
+
+static void
+within(const char *what, ss_value v, double truth, double errors)
+{
+    if (!(fabs(v.value - truth) <= errors * v.error))
+        fail_msg("%s: %g +- %g, not %g", what, v.value, v.error, truth);
+}
+
+/* The steps of a recording, all of whose numbers are within five errors of the truth. */
+static void
+answers(const char *what, const rock *r, uint64_t seed, size_t n, double stiffness)
+{
+    ss_signal *s = rock_signal(r, &seed);
+    ss_steps *steps = NULL;
+    ss_error err = { 0 };
+    if (ss_steps_new(&steps, s, 0, 1, -1, stiffness, &err) != SS_OK)
+        fail_msg("%s: %s", what, err.text);
+    assert_int_equal(steps->n, n);
+    for (size_t i = 0; i < n; i++) {
+        const ss_step_law *l = &steps->step[i].law[r->is_slip];
+        print_message("%s: a %g +- %g, b %g +- %g, Dc %g +- %g, k %g +- %g, ahead %g\n", what, l->direct_effect.value,
+                      l->direct_effect.error, l->evolution_effect.value, l->evolution_effect.error,
+                      l->critical_slip_distance.value, l->critical_slip_distance.error, l->stiffness.value,
+                      l->stiffness.error, l->log_likelihood - steps->step[i].law[!r->is_slip].log_likelihood);
+        assert_true(steps->step[i].answer == (ss_step_answer)r->is_slip || steps->step[i].answer == SS_STEP_UNDECIDED);
+        within(what, l->direct_effect, r->a, 5);
+        within(what, l->evolution_effect, r->b, 5);
+        within(what, l->critical_slip_distance, r->Dc, 5);
+        within(what, l->drift, r->drift, 5);
+        if (stiffness > 0)
+            assert_true(l->stiffness.value == stiffness && l->stiffness.error == 0);
+        else
+            within(what, l->stiffness, r->k, 5);
+        assert_true(l->direct_effect.error < 0.1 * r->a);
+    }
+    ss_steps_free(steps);
+    ss_signal_free(s);
+}
+
+static void
+finds_the_truth_of_simulated_rocks(void **state)
+{
+    (void)state;
+    rock r = usual;
+    answers("up", &r, 1, 1, 0);
+    r.is_slip = 1;
+    answers("slip", &r, 2, 1, 0);
+    answers("stiffness given", &r, 3, 1, r.k);
+    r.uneven = 2;
+    answers("fast rows behind", &r, 4, 1, 0);
+    r.uneven = 1;
+    r.by_time = 1;
+    r.memory = .3;
+    answers("random times", &r, 5, 1, 0);
+    r = usual;
+    r.ramp = 0.02 * 400e-6 / 10e-6;
+    answers("ramp", &r, 6, 1, 0);
+    r = (rock){ .is_slip = 1, .a = .006, .b = .0045, .Dc = 8e-6, .k = 1500, .drift = -3, .speed = { 10e-6, 1e-6 },
+                .until = { 20, 220 }, .noise = 3e-5, .memory = .7, .n = 1500 };
+    answers("down", &r, 7, 1, 0);
+    r = usual;
+    r.speed[1] = 0;
+    r.speed[2] = 1e-6;
+    r.until[1] = 250;
+    r.until[2] = 400;
+    answers("slide, hold, slide", &r, 8, 1, 0);
+    r = usual;
+    r.speed[2] = 1e-6;
+    r.speed[3] = 10e-6;
+    r.until[2] = 425;
+    r.until[3] = 450;
+    r.n = 4500;
+    answers("three steps", &r, 9, 3, 0);
+}
+
+/* Noise without an effect of speed, and a path without a step. */
+static void
+says_what_is_none(void **state)
+{
+    rock r = usual;
+    uint64_t seed = 3;
+    ss_steps *steps = NULL;
+    ss_error err = { 0 };
+    (void)state;
+    ss_signal *s = rock_signal(&r, &seed);
+    for (size_t i = 0; i < s->n; i++)
+        s->values[s->n + i] = 0.6 + 1e-3 * rock_gauss(&seed);
+    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, &err), SS_OK);
+    assert_int_equal(steps->step[0].answer, SS_STEP_NONE);
+    assert_non_null(strstr(steps->step[0].why, "straight line"));
+    ss_steps_free(steps);
+    for (size_t i = 0; i < s->n; i++)
+        s->values[i] = 3 * s->values[2 * s->n + i];
+    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, &err), SS_EDATA);
+    assert_null(steps);
+    assert_string_equal(err.text, "the speed of column load has no step behind a steady slide");
+    assert_int_equal(ss_steps_new(&steps, s, 1, 0, -1, 0, &err), SS_EDATA);
+    assert_string_equal(err.text, "column mu: '' is not a unit of length, as m, mm or um is");
+    s->values[s->n + 3] = NAN;
+    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, &err), SS_EDATA);
+    ss_signal_free(s);
+}
+
+/* The basalt of Giacomel et al. (2021): both steps have an answer with errors. */
+static void
+answers_the_basalt(void **state)
+{
+    static const char *const name[] = { "velstep4_BRAVA_expb819_basalt.txt",
+                                        "velstep7_BRAVA_expb819_basalt_Giacomel_et_al_2021.txt" };
+    ss_read_opts opts;
+    (void)state;
+    ss_read_opts_init(&opts, sizeof opts);
+    opts.stamps = 1;
+    for (int i = 0; i < 2; i++) {
+        char path[200];
+        ss_signal *s = NULL;
+        ss_steps *steps = NULL;
+        snprintf(path, sizeof path, "../shared/data/steps/%s", name[i]);
+        FILE *in = fopen(path, "r");
+        if (in == NULL) {
+            print_message("skipped: no ../shared/data/steps\n");
+            skip();
+        }
+        assert_int_equal(ss_signal_read(&s, in, path, &opts, NULL), SS_OK);
+        fclose(in);
+        assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, NULL), SS_OK);
+        assert_int_equal(steps->n, 1);
+        const ss_step *step = &steps->step[0];
+        assert_int_not_equal(step->answer, SS_STEP_NONE);
+        for (int law = 0; law < SS_STEP_LAWS; law++) {
+            const ss_step_law *l = &step->law[law];
+            print_message("%s %s: a %.4f +- %.4f, b %.4f +- %.4f, Dc %.3g +- %.2g\n", name[i], ss_step_law_names[law],
+                          l->direct_effect.value, l->direct_effect.error, l->evolution_effect.value,
+                          l->evolution_effect.error, l->critical_slip_distance.value, l->critical_slip_distance.error);
+            assert_true(l->direct_effect.error < l->direct_effect.value / 5);
+            assert_true(l->evolution_effect.error < l->evolution_effect.value / 5);
+            assert_true(l->critical_slip_distance.error < l->critical_slip_distance.value / 5);
+        }
+        ss_steps_free(steps);
+        ss_signal_free(s);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slides_as_two_methods_say),
+        cmocka_unit_test(a_soft_spring_runs_away),
+        cmocka_unit_test(whitens_what_wanders),
+        cmocka_unit_test(finds_the_truth_of_simulated_rocks),
+        cmocka_unit_test(says_what_is_none),
+        cmocka_unit_test(answers_the_basalt),
+    };
+    return cmocka_run_group_tests_name("steps", tests, NULL, NULL);
+}
