@@ -460,10 +460,8 @@ static void
 draw_motion(const job *j, const drawn *d)
 {
     ss_plot_opts opts;
-    char title[512];
     ss_plot_opts_init(&opts, sizeof opts);
-    snprintf(title, sizeof title, "%s: %s", j->signal_name, d->ranking->answer);
-    opts.title = title;
+    opts.title = j->signal_name;
     tool_draw(j->output, &opts, write_script, (void *)d);
 }
 
