@@ -9,7 +9,6 @@
  * starts.  errors.c finds the errors of w and s. */
 #include "find/ringdown.h"
 
-#include <complex.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
@@ -36,7 +35,8 @@ void
 ss_ringdown_clear(ringdown *r)
 {
     r->all[0] = r->all[1] = nothing;
-    r->is_train = r->is_line = 0;
+    r->is_train = 0;
+    r->slow = 0;
     for (size_t i = 0; i < r->n_anchors; i++) {
         r->window[i] = (ss_window){ r->anchor[i], r->anchor[i] };
         r->each[i][0] = r->each[i][1] = nothing;
@@ -160,51 +160,6 @@ are_long(const fitter *k)
     return 1;
 }
 
-/* The mean, over the windows, of the direction of the oscillation's amplitude at sample 0, if it runs on
- * through all of them with w and does not decay: 1 of a line with w. */
-static double
-agreement_as_line(const fitter *k, const double complex *direction, double w)
-{
-    double complex sum = 0;
-    size_t used = 0;
-    for (size_t i = 0; i < k->n; i++)
-        if (ss_window_length(k->window[i]) > 0) {
-            double turned = fmod(w * (double)k->window[i].first, 2 * M_PI);
-            sum += direction[used++] * cexp(-I * turned);
-        }
-    return cabs(sum) / (double)used;
-}
-
-/* Does one steady line run through the windows?  What rings because of slips starts anew with the phase of each,
- * or the opposite one where the slip is the other way; a hum has another phase at each start, but one phase
- * in the record.  A line is possible where the windows agree on it as well as on their starts, or better than
- * starts at random would by chance: a line at a harmonic of the cycles agrees with both.  Its frequency is sought
- * within SIGMAS errors of the windows' own, in steps by which its phase turns by half a radian from end to end. */
-static ss_status
-is_line(fitter *k, const ss_value all[2], int *is)
-{
-    double complex *direction = malloc((k->n + 1) * sizeof *direction), anew = 0;
-    size_t used = 0, first = 0, last = 0;
-    double as_line = 0;
-    if (direction == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < k->n; i++)
-        if (ss_window_length(k->window[i]) > 0) {
-            linear fitted = ss_varpro_project(&k->fit, k->window[i]);
-            direction[used] = (fitted.a - I * fitted.b) / hypot(fitted.a, fitted.b);
-            anew += direction[used] * direction[used];
-            first = used++ == 0 ? k->window[i].first : first;
-            last = k->window[i].first;
-        }
-    double reach = SIGMAS * all[0].error, step = 0.5 / (double)(last - first + 1);
-    for (double off = -reach; off <= reach + step; off += step)
-        as_line = fmax(as_line, agreement_as_line(k, direction, all[0].value + off));
-    double steps = 2 * reach / step + 1, by_chance = sqrt(log(steps / FIT_CHANCE) / (double)used);
-    *is = as_line > fmin(by_chance, cabs(anew) / (double)used);
-    free(direction);
-    return SS_OK;
-}
-
 /* Fit with a slow part that is a line, or a sinusoid of the forcing. */
 static ss_status
 fit_all(fitter *k, ringdown *r, double forcing)
@@ -238,8 +193,6 @@ fit_all(fitter *k, ringdown *r, double forcing)
     r->all[0].value = k->fit.w;
     r->all[1].value = k->fit.s;
     st = ss_errors_find(k, r->all);
-    if (st == SS_OK)
-        st = is_line(k, r->all, &r->is_line);
     for (size_t i = 0; i < k->n; i++)
         fit_one(k, k->window[i], r->each[i]);
     return st;
@@ -272,7 +225,7 @@ ss_ringdown_fit(ringdown *r)
             memcpy(r->each, other.each, n * sizeof *r->each);
             memcpy(r->all, other.all, sizeof r->all);
             r->is_train = other.is_train;
-            r->is_line = other.is_line;
+            r->slow = r->forcing;
         }
     }
     ss_varpro_free(&k.fit);

@@ -22,7 +22,7 @@ typedef struct ringdown {
     ss_value (*each)[2];        /* w and s of each window alone, per sample, with standard errors */
     ss_value all[2];            /* w and s of all; NaN: no window is left */
     int is_train;               /* micro-slips recur once a period, which passes for damping */
-    int is_line;                /* the phases of the windows may be those of one steady line through them all */
+    double slow;                /* the forcing if the slow part is a sinusoid of it, 0: it is a line */
 } ringdown;
 
 /* Fit exp(-s t) (cos w t, sin w t) plus a line to a window about each anchor, w and s shared.  Where the
