@@ -40,6 +40,7 @@
 #include <stdlib.h>
 #include "base/gauss.h"
 #include "base/versions.h"
+#include "find/judgement.h"
 #include "find/period.h"
 
 #define POINTS 256.0            /* in a period while the lag is searched: more are averaged */
@@ -71,6 +72,7 @@ typedef struct cycle {
     double symmetry;            /* correlation with itself half a cycle later */
     double mean, energy;        /* energy: mean square of the signal, less its mean */
     double drift;               /* mean square of the shift that the drift of the waveform may make [samples^2] */
+    double noise;               /* mean square of the shift that noise makes, as white as what the lag leaves [samples^2] */
     double bend;                /* error of the lag between samples, by two parabolas [samples] */
     unsigned parts;             /* bit p: it repeats after 1/p of its length as well as after all of it, to
                                    within a sample */
@@ -208,15 +210,19 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
     double d[5];
     for (size_t k = 0; k < 5; k++)
         d[k] = relative(fine, first, lag + k - 2, whole);
-    for (size_t p = 2; p <= PARTS && lag >= 4 * p; p++)
-        if (fmin(relative(fine, first, lag / p, whole), relative(fine, first, lag / p + 1, whole))
-            <= fmin(d[1], d[3]))
+    double as_well = fmax(fmin(d[1], d[3]), (1 + SIGMAS * 2 / sqrt((double)whole)) * d[2]);
+    for (size_t p = 2; p <= PARTS && lag >= 4 * p; p++) {
+        size_t off = lag / p / PULLED + 1, by = off / 8 + 1, from = lag / p - off, to = lag / p + 1 + off;
+        size_t part = best_lag(fine, first, whole, from, to, by);
+        if (part > from && part + by <= to && relative(fine, first, part, whole) <= as_well)
             c.parts |= 1u << p;
+    }
     double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);
     c.rate = 1 / ((double)lag + near);
     c.bend = fabs(near - far) / 3;
 
     double slopes = difference(fine, first, 1, whole);
+    c.noise = slopes > 0 ? difference(fine, first, lag, whole) / (slopes * (double)whole) : 0;
     if (first + 2 * lag + whole < fine->n && slopes > 0)
         c.drift = (difference(fine, first, 2 * lag, whole) - difference(fine, first, lag, whole)) / 3 / slopes;
     /* a hum may pull the lag over twice as many cycles from twice the lag, by up to reach */
@@ -331,9 +337,11 @@ summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
             v[i] = fabs(v[i] - f);
         variance = pow(gsl_stats_median(v, 1, n) / GAUSS_MEDIAN, 2);
     }
+    double by_noise = median_of(c, n, &c->noise, v) * pow(f, 4);
     double scatter = student * sqrt(M_PI / 2 * variance / free_ones), skew = fabs(lags - 1 / f);
     drift = drift > 0 ? sqrt(drift) : 0;
     out->frequency = (ss_value){ f, hypot(scatter, hypot(hypot(pull, skew), hypot(drift, bend)) * f * f) };
+    out->wander = variance > SIGMAS * SIGMAS * by_noise ? scatter / f : 0;
     out->period = (ss_value){ 1 / f, out->frequency.error / (f * f) };
 }
 

@@ -21,6 +21,7 @@
 #include <stickslip/spectrum.h>
 #include "find/varpro.h"
 
+#define BARELY 0.577            /* s / w at a damping ratio of one half */
 #define CHANCE 1e-3             /* probability that starts at random agree as a line does */
 #define FLAT 1.3                /* power re the power law: with more there is a peak */
 #define STEEP 3.2               /* power law re the power beyond: with more there is a corner */
@@ -138,7 +139,8 @@ ss_identity_of(const search *s, const ringdown *r, const char **why)
     if (st == SS_OK && shared)
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
     if (st == SS_OK)
-        *why = !(r->all[1].value > 0) ? "what recurs does not decay"
+        *why = r->all[1].value > BARELY * r->all[0].value ? "what recurs is damped so much that a filter may make it"
+            : !(r->all[1].value > 0) ? "what recurs does not decay"
             : shared && !(r->all[1].value > SIGMAS * r->all[1].error) && is_line(in, n, r->all[0])
             ? "what recurs is not shown to decay, and its phase is that of a steady line: it hums"
             : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips"

@@ -215,14 +215,20 @@ static void
 report(search *s, const ringdown *r)
 {
     ss_features *out = s->out;
-    ss_value frequency, ratio;
-    set_oscillation(r->all, s->rate, &frequency, &ratio);
+    ss_value frequency, ratio, all[2] = { r->all[0], r->all[1] };
+    double wander = out->reverses ? 0 : s->cycles.wander * all[0].value;    /* each by itself, they scatter by it */
+    for (int j = 0; j < 2; j++)
+        all[j].error = hypot(all[j].error, wander);
+    set_oscillation(all, s->rate, &frequency, &ratio);
     know(out, SS_TRANSITION_FREQUENCY, frequency);
     know(out, SS_DAMPING_RATIO, ratio);
     if (!isnan(frequency.value) && !(ratio.value > SIGMAS * ratio.error)) {
         know(out, SS_DAMPING_RATIO, unknown);
         say(out, SS_TRANSITION_FREQUENCY, "the damping ratio is less than three of its standard errors");
     }
+    if (!isnan(frequency.value) && wander > r->all[0].error)
+        say(out, SS_TRANSITION_FREQUENCY,
+            "the cycles scatter in length by more than noise, as by a clock that wanders: errors allow for it");
     for (size_t i = 0; i < out->n; i++) {
         ss_transition *tr = &out->transition[i];
         ss_window win = r->window[i];
