@@ -74,6 +74,7 @@ typedef struct cycle {
     double drift;               /* mean square of the shift that the drift of the waveform may make [samples^2] */
     double noise;               /* mean square of the shift that noise makes, as white as what the lag leaves [samples^2] */
     double bend;                /* error of the lag between samples, by two parabolas [samples] */
+    int may_be_sooner;          /* it is alike after some part of its length, if less so */
     unsigned parts;             /* bit p: it repeats after 1/p of its length as well as after all of it, to
                                    within a sample */
 } cycle;
@@ -214,8 +215,9 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
     for (size_t p = 2; p <= PARTS && lag >= 4 * p; p++) {
         size_t off = lag / p / PULLED + 1, by = off / 8 + 1, from = lag / p - off, to = lag / p + 1 + off;
         size_t part = best_lag(fine, first, whole, from, to, by);
-        if (part > from && part + by <= to && relative(fine, first, part, whole) <= as_well)
-            c.parts |= 1u << p;
+        double there = part > from && part + by <= to ? relative(fine, first, part, whole) : 1;
+        c.parts |= (unsigned)(there <= as_well) << p;
+        c.may_be_sooner |= there < 1 - CYCLES_ALIKE;
     }
     double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);
     c.rate = 1 / ((double)lag + near);
@@ -351,7 +353,7 @@ static size_t
 describe(const cycle *c, size_t n, const double *x, size_t step, cycle *known, double *v, ss_cycles *out)
 {
     double energy = 0, squares = 0;
-    size_t n_known = 0, alike = 0, first = n, last = 0;
+    size_t n_known = 0, alike = 0, sooner = 0, first = n, last = 0;
     for (size_t i = 0; i < n; i++) {
         energy += c[i].energy / (double)n;
         squares += c[i].energy * c[i].energy / (double)n;
@@ -366,6 +368,7 @@ describe(const cycle *c, size_t n, const double *x, size_t step, cycle *known, d
             continue;
         known[n_known++] = c[i];
         alike += c[i].likeness > CYCLES_UNLIKE;
+        sooner += c[i].may_be_sooner && c[i].parts == 0;
     }
     out->symmetry = n_known > 0 ? median_of(known, n_known, &known->symmetry, v) : 0;
     out->likeness = n_known > 0 ? median_of(known, n_known, &known->likeness, v) : 0;
@@ -374,6 +377,8 @@ describe(const cycle *c, size_t n, const double *x, size_t step, cycle *known, d
     else if ((double)(out->n - alike) > fmax(SPOILT, PART * (double)out->n) || n_known < 2
              || !(out->likeness >= CYCLES_ALIKE))
         out->why = "no cycle resembles the next one";
+    else if (n_known < ROBUST && 2 * sooner > n_known)
+        out->why = "what repeats may repeat sooner: in so few cycles, several may be alike by chance";
     else if (energy * energy < PART * squares || fades(c, n, ACTIVE * energy))
         out->why = "it rings once, or sounds in a small part of the record only";
     else if (repeats(c, n, &c->mean, sqrt(energy), CYCLES_ALIKE, v))
