@@ -486,9 +486,9 @@ rank_motion(job *j)
         draw_motion(j, &(drawn){ signal, motion, force, r });
     else
         tool_check(ss_motion_ranking_write(r, tool_output(j->output), tool_stream(j->kind), &err), &err);
-    if (j->residual != NULL && r->predicted == NULL)
-        tool_die("%s: %s, so nothing is left", tool_input_name(j->signal_path), r->answer);
-    if (j->residual != NULL)
+    if (j->residual != NULL && r->rows == 0)
+        tool_warn("%s, so no residual is written", r->answer);
+    else if (j->residual != NULL)
         write_residual(j, signal, motion, force, r);
     ss_motion_ranking_free(r);
     ss_signal_free(signal);

@@ -5,6 +5,7 @@
  * never smoothed: what is left of it must stay what was measured. */
 #include "fit/driven.h"
 
+#include <float.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
@@ -231,7 +232,9 @@ ss_driven_thin(driven *thin, const driven *d, size_t most)
         free(is_turn);
         return SS_ENOMEM;
     }
-    ss_driven_turns(d, d->least, is_turn);
+    /* turns that are more than noise; if these are too many, the larger ones */
+    for (double by = d->least; ss_driven_turns(d, by, is_turn) > most; by = 2 * by + DBL_EPSILON)
+        ;
     thin->n = 0;
     for (size_t i = 0; i < d->n; i++) {
         if (i % stride != 0 && !is_turn[i])

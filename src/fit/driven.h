@@ -48,7 +48,7 @@ typedef struct driven {
 /* driven.c: the record of n rows.  SS_ENOMEM. */
 ss_status ss_driven_new(driven *d, const double t[], const double motion[], const double force[], size_t n,
                         const ss_motion_opts *opts);
-/* Keep about so many rows, evenly, and those at which the motion turns. */
+/* Keep about so many rows, evenly, and at most as many at which the motion turns. */
 ss_status ss_driven_thin(driven *thin, const driven *d, size_t most);
 void ss_driven_free(driven *d);
 /* Mark the rows at which the motion turns by more than so much.  Returns their number. */
