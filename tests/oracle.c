@@ -1,5 +1,6 @@
 /* oracle.c -- see oracle.h. */
 #include "oracle.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "random_scene.h"
 
 #include "scene/model.h"
+#include "scene/scene.h"
 
 /* Within the range; one time in eight 0, where that is in it. */
 static double

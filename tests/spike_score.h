@@ -13,6 +13,7 @@
 #include <stickslip.h>
 #include "find/events.h"
 #include "shipped.h"
+#include "signal/noise.h"
 
 enum { SCORE_EVENTS = 1000 };
 #define SCORE_MACRO 0.05        /* [s] a slip that sticks again sooner is a micro-slip */

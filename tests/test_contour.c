@@ -11,6 +11,8 @@
 #include "contour_script.h"
 #include "shipped.h"
 #include "unit.h"
+#include "signal/noise.h"
+#include "signal/header.h"
 
 static const char *const scene[] = { "coulomb", "state-variable", "compliant-heavy", "compliant-light" };
 

@@ -258,7 +258,6 @@ keys_and_options_of_10000_letters_are_refused(void **state)
         ss_steady_opts_init(&opts, sizeof opts);
         ss_read_opts timed = { READ_OPTS, .time = name[i] };
         ss_axis axis;
-        ss_format format;
         ss_error err = new_error();
         assert_true(isnan(ss_scene_get(&scene, name[i])));
         assert_told(ss_scene_set(&scene, name[i], 1, &err), &err);
@@ -277,7 +276,6 @@ keys_and_options_of_10000_letters_are_refused(void **state)
         assert_fails(ss_steady_find(&steady, &scene, &opts, &err), &err);
         assert_int_equal(ss_header_column(signal->head, name[i]), -1);
         assert_null(ss_header_find_note(signal->head, name[i]));
-        assert_false(ss_format_find(&format, name[i]));
         FILE *in = tmpfile();
         fputs("t,x\n0,1\n1,2\n", in);
         rewind(in);

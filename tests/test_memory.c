@@ -21,6 +21,9 @@
 #include "store_samples.h"
 #include "unit.h"
 #include "read_opts.h"
+#include "signal/noise.h"
+#include "signal/header.h"
+#include "scene/scene.h"
 
 /* --- the allocator ------------------------------------------------------------------------- */
 

@@ -13,6 +13,7 @@
 #include "shipped.h"
 #include "unit.h"
 #include "scene/key.h"
+#include "study/trade/common.h"
 
 static ss_models *
 models_of(const ss_scene *scene)

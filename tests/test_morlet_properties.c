@@ -5,6 +5,7 @@
 #include "map/map.h"
 #include "morlet_plan.h"
 #include "unit.h"
+#include "map/wavelet.h"
 
 /* --- benchmarks of the paper --------------------------------------------------------------- */
 

@@ -8,6 +8,7 @@
 
 #include "signal/wave.h"
 #include "unit.h"
+#include "signal/header.h"
 
 /* Noise, with a drop to half in the middle, far from 0, so that the ends are high. */
 static ss_signal *

@@ -12,6 +12,7 @@
 #include "plot/extremes.h"
 #include "plot/isoline.h"
 #include "unit.h"
+#include "signal/noise.h"
 
 /* --- ss_isolines ------------------------------------------------------------------------------ */
 

@@ -8,6 +8,7 @@
 #include "new_signal.h"
 #include "pull.h"
 #include "unit.h"
+#include "signal/noise.h"
 
 enum { RATE = 2000 };
 #define FRICTION .0452

@@ -9,6 +9,7 @@
 #include "random_scene.h"
 #include "unit.h"
 #include "scene/key.h"
+#include "scene/scene.h"
 
 enum { DEFAULT_SCENES = 150 };
 

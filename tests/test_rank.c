@@ -10,6 +10,9 @@
 #include "fit/order.h"
 #include "fit/samples.h"
 #include "unit.h"
+#include "signal/noise.h"
+#include "signal/header.h"
+#include "scene/scene.h"
 
 enum { MODELS = 4, HEAVY = 0, LIGHT, COULOMB, STATE };      /* as shipped */
 

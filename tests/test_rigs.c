@@ -15,6 +15,7 @@
 #include "random_scene.h"
 #include "shipped.h"
 #include "unit.h"
+#include "scene/scene.h"
 
 static const char *const methods[] = { "exact", "rk8pd", "taylor", "rkf45", "msadams" };
 enum { METHODS = sizeof methods / sizeof *methods };

@@ -7,6 +7,7 @@
 #include "signal/source.h"
 #include "signal_text.h"
 #include "read_opts.h"
+#include "signal/noise.h"
 
 /* Headers of LabVIEW's measurement files, with two channels. */
 #define LVM(x_columns) "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nMulti_Headings\tNo\n" \

@@ -6,6 +6,7 @@
 
 #include "signal/welch.h"
 #include "unit.h"
+#include "signal/noise.h"
 
 enum { N = 1 << 16 };
 #define RATE 1000.0

@@ -8,6 +8,8 @@
 #include "spike_score.h"
 #include "unit.h"
 #include "signal/gaps.h"
+#include "signal/noise.h"
+#include "find/events.h"
 
 #define RATE 2000.
 

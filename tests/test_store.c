@@ -4,6 +4,8 @@
 #include "map/map.h"
 
 #include "store_file.h"
+#include "signal/noise.h"
+#include "motion/kind.h"
 
 /* --- records ------------------------------------------------------------------------------- */
 

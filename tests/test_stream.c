@@ -7,6 +7,7 @@
 #include "map/map.h"
 #include "morlet_oracle.h"
 #include "unit.h"
+#include "io/table.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
 
@@ -757,15 +758,18 @@ refuses_tables_that_are_malformed(void **state)
 static void
 names_each_format_that_is_written(void **state)
 {
-    ss_format found = SS_TSV;
+    static const ss_format_info known[] = { { SS_TSV, "tsv", 1 }, { SS_AU, "au", 0 }, { SS_CSV, "csv", 1 },
+                                            { SS_JSON, "json", 1 } };
+    ss_format_info found;
+    size_t i = 0;
     (void)state;
-    assert_string_equal(ss_format_name(SS_TSV), "tsv");
-    assert_string_equal(ss_format_name(SS_AU), "au");
-    for (size_t i = 0; ss_format_name(i) != NULL; i++) {
-        assert_int_equal(ss_format_find(&found, ss_format_name(i)), 1);
-        assert_string_equal(ss_format_name((size_t)found), ss_format_name(i));
+    for (; ss_format_at(&found, i); i++) {
+        assert_true(i < sizeof known / sizeof *known);
+        assert_int_equal(found.format, known[i].format);
+        assert_string_equal(found.name, known[i].name);
+        assert_int_equal(found.has_words, known[i].has_words);
     }
-    assert_int_equal(ss_format_find(&found, "nosuch"), 0);
+    assert_int_equal(i, sizeof known / sizeof *known);
 }
 
 int

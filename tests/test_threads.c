@@ -8,6 +8,7 @@
 
 #include "signal/wave.h"
 #include "unit.h"
+#include "signal/noise.h"
 
 enum { THREADS = 2, ROUNDS = 5 };
 

@@ -7,6 +7,8 @@
 #include "new_signal.h"
 #include "shipped.h"
 #include "unit.h"
+#include "signal/noise.h"
+#include "signal/header.h"
 
 enum { SEEDS = 4 };
 

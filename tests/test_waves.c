@@ -3,6 +3,7 @@
 #include <math.h>
 #include "signal/wave.h"
 #include "signal_text.h"
+#include "signal/noise.h"
 
 /* --- benchmark signals --------------------------------------------------------------------- */
 

@@ -31,16 +31,15 @@ tool_kind
 tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
 {
     char list[256] = "";
-    ss_format format;
+    ss_format_info known;
     tool_writes(path);
     if (path == NULL || strcmp(path, "-") == 0 || strcmp(path, "/dev/null") == 0)
         return fallback;
-    const char *dot = strrchr(path, '.'), *wanted = dot != NULL ? dot + 1 : NULL, *name;
-    for (size_t i = 0; (allowed & TOOL_NUMBERS) && (name = ss_format_name(i)) != NULL; i++)
-        if (ss_format_find(&format, name)
-            && ((allowed & TOOL_NUMBERS) == TOOL_NUMBERS || ss_format_has_words(format))
-            && is_name(list, sizeof list, name, wanted))
-            return (tool_kind)(TOOL_STREAM + format);
+    const char *dot = strrchr(path, '.'), *wanted = dot != NULL ? dot + 1 : NULL;
+    for (size_t i = 0; (allowed & TOOL_NUMBERS) && ss_format_at(&known, i); i++)
+        if (((allowed & TOOL_NUMBERS) == TOOL_NUMBERS || known.has_words)
+            && is_name(list, sizeof list, known.name, wanted))
+            return (tool_kind)(TOOL_STREAM + known.format);
     for (int i = TOOL_H5; i < TOOL_STREAM; i++)
         if ((allowed & 1u << i) && is_name(list, sizeof list, ending[i], wanted))
             return (tool_kind)i;
@@ -53,12 +52,13 @@ set_format(const tool_option *o, const char *text, int words)
 {
     enum { MOST = 32 };
     const char *name[MOST + 1] = { NULL };
-    ss_format format = SS_TSV;
-    for (size_t i = 0, n = 0; n < MOST && ss_format_name(i) != NULL; i++)
-        if (ss_format_find(&format, ss_format_name(i)) && (!words || ss_format_has_words(format)))
-            name[n++] = ss_format_name(i);
-    ss_format_find(&format, name[tool_choice("--format", text, name)]);
-    *(tool_kind *)o->to = (tool_kind)(TOOL_STREAM + format);
+    ss_format_info known[MOST];
+    for (size_t i = 0, n = 0; n < MOST && ss_format_at(&known[n], i); i++)
+        if (!words || known[n].has_words) {
+            name[n] = known[n].name;
+            n++;
+        }
+    *(tool_kind *)o->to = (tool_kind)(TOOL_STREAM + known[tool_choice("--format", text, name)].format);
 }
 
 void

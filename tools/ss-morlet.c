@@ -154,7 +154,7 @@ read_wisdom(const char *path)
 typedef struct flow {
     ss_writer *writer;
     ss_error error;                     /* of the writer */
-    size_t coefficients;
+    size_t coefficients, samples;       /* so far; samples of a stream */
     double seconds;                     /* spent on writing */
     double *w;                          /* all coefficients, for --check; or NULL */
     ss_stream *stream;                  /* or NULL */
@@ -296,13 +296,13 @@ static void
 follow(flow *f, ss_reader *reader, size_t column, const request *req, const char *path)
 {
     const ss_header *head = ss_reader_header(reader);
-    size_t n, all = 0, piece = ss_reader_piece(reader);
+    size_t n, piece = ss_reader_piece(reader);
     double **x = tool_columns(head->n_columns, piece);
     ss_error bad = { 0 }, err = { 0 };
     do {
         ss_status st = ss_reader_rows(reader, x, piece, &n, &bad);
-        all += n;
-        if (all == 0)                   /* then nothing is written */
+        f->samples += n;
+        if (f->samples == 0)                   /* then nothing is written */
             tool_check(st, &bad);
         if (f->writer == NULL)
             open_output(f, req, head, column, 0, ss_stream_grid(f->stream));
@@ -323,9 +323,9 @@ close_flow(flow *f, const char *path)
     ss_error err = { 0 };
     size_t scales = ss_stream_grid(f->stream)->n_scales;
     check_flow(f, ss_stream_end(f->stream, &err), &err, path);
-    tool_write_end(f->writer, ss_stream_samples(f->stream));
+    tool_write_end(f->writer, f->samples);
     tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
-              ss_stream_samples(f->stream), scales, ss_stream_grid(f->stream)->scale[0].f,
+              f->samples, scales, ss_stream_grid(f->stream)->scale[0].f,
               ss_stream_grid(f->stream)->scale[scales - 1].f);
     tool_note("each at most %zu to %zu samples behind b", ss_stream_window(f->stream, scales - 1) - 1,
               ss_stream_window(f->stream, 0) - 1);

@@ -226,7 +226,10 @@ parse(request *req, int argc, char *argv[])
     if (req->list)
         return;
     req->kind = tool_output_kind(req->path, req->events ? TOOL_WORDS : TOOL_SIGNALS, req->kind);
-    if (req->events && !ss_format_has_words(tool_stream(req->kind)))
+    ss_format_info form = { .has_words = 0 };
+    for (size_t i = 0; ss_format_at(&form, i) && form.format != tool_stream(req->kind); i++)
+        ;
+    if (req->events && !form.has_words)
         tool_usage("--events are text, and this --format holds numbers only");
     if (req->accuracy > 0 && opts->tol > 0)
         tool_usage("--accuracy and --tol exclude each other");

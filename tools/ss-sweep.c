@@ -157,9 +157,10 @@ parse(request *req, int argc, char *argv[])
     req->scene_path = tool_input(argc, argv, first);
     req->text.format = tool_stream(tool_output_kind(req->path, TOOL_WORDS, req->kind));
     const char *ending = req->resume != NULL ? strrchr(req->resume, '.') : NULL;
-    ss_format named;
-    if (ending != NULL && ss_format_find(&named, ending + 1) && ss_format_has_words(named))
-        req->text.format = named;
+    ss_format_info named;
+    for (size_t i = 0; ending != NULL && ss_format_at(&named, i); i++)
+        if (named.has_words && strcmp(named.name, ending + 1) == 0)
+            req->text.format = named.format;
     if (req->resume != NULL && strcmp(req->resume, "-") == 0)
         tool_usage("--resume needs a file: what went to standard output cannot be read again");
     if (req->resume != NULL && req->path != NULL)

@@ -27,7 +27,7 @@ typedef struct ss_maximum {
  * The translations of neighbouring scales differ.  The neighbours of a coefficient are those
  * beside it in its row, and in the two rows beside it those nearest in time.  A highest point on
  * the border of the map (its first and last scale, or beside the cone) is no maximum.  Nor is a
- * point near a gap (ss_coefficients_edge), but a saddle may lie there. */
+ * point near a gap, but a saddle may lie there. */
 ss_status ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
                          double min_prominence, ss_error *err);
 
@@ -111,9 +111,6 @@ typedef struct ss_loading {
 typedef enum ss_feature { SS_FEATURE_NUMBER_LIST(SS_FEATURE_ENUMERATOR) SS_FEATURE_NUMBERS } ss_feature;
 #undef SS_FEATURE_ENUMERATOR
 
-/* The name and the unit of a number; NULL from SS_FEATURE_NUMBERS on. */
-const ss_label *ss_feature_label(ss_feature which);
-
 typedef struct ss_features {
     size_t n;
     ss_transition *transition;  /* in time order */
@@ -155,7 +152,7 @@ void ss_features_opts_init(ss_features_opts *opts, size_t size);
  * - Else they are the single events of a record that is quiet elsewhere, from the first to the last sample that lies
  *   off lines through the quiet parts before and after.
  *
- * Nothing is found near gaps (ss_header_gaps of the signal): no local maximum nearer than sqrt(2)
+ * Nothing is found near gaps (the note gaps of the signal): no local maximum nearer than sqrt(2)
  * a, no spike nearer than 12 of its scales, no single event nearer than 6, no fall over a gap;
  * fits end before a gap.  A record that is too short for any scale, or in which nothing happens,
  * has no transitions: SS_OK.  A number is NaN if its error is not reliable, for the reasons that

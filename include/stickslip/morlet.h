@@ -181,7 +181,6 @@ typedef struct ss_stream ss_stream;
 ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts,
                         ss_coefficient_sink *sink, void *user, ss_error *err);
 const ss_grid *ss_stream_grid(const ss_stream *stream);             /* owned by the stream */
-size_t ss_stream_samples(const ss_stream *stream);                  /* the samples pushed so far */
 /* The largest delay of scale i in samples: without ss_stream_drain, a coefficient is sent before
  * so many samples after b have arrived.  0 if there is no scale i. */
 size_t ss_stream_window(const ss_stream *stream, size_t i);
@@ -249,10 +248,6 @@ void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is a
 /* Fill in n parts of a map, wherever it is.  SS_EINVAL: it has no such coefficients. */
 ss_status ss_map_read(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_error *err);
 
-/* 1 if translation k of scale i lies inside the cone of influence, in a gap, or nearer than
- * sqrt(2) a to a gap; else 0. */
-int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k);
-
 /* Compute the signal that has these coefficients, by conjugate gradients on the frame operator:
  * the least squares solution, with the weights of the integral over a and b.  It lacks the
  * frequencies below the lowest and above the highest label, and so a mean or a linear trend.
@@ -274,6 +269,7 @@ ss_status ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients
  * number of samples is not known yet, and the end of the text will give it. */
 ss_status ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, size_t n,
                                  const ss_morlet_opts *opts, ss_error *err);
+
 /* The largest |W| outside the cone of influence (or of all, if all lie inside): 0 dB of the contours.
  * NaN if they cannot be read. */
 double ss_coefficients_max(const ss_coefficients *coefficients);

@@ -17,7 +17,6 @@ SS_BEGIN_DECLARATIONS
 /* A friction model: its law, the keys of its own parameters, and what it can do.  Its name stands in
  * scenes: "coulomb", "state-variable", "compliant", "stribeck". */
 typedef struct ss_model ss_model;
-const ss_model *ss_model_at(size_t i);              /* NULL after the last */
 const ss_model *ss_model_named(const char *name);   /* NULL: there is none */
 const char *ss_model_name(const ss_model *model);   /* "?" for NULL */
 int ss_model_has_events(const ss_model *model);     /* 1: it has events; 0: it is smooth, or NULL */
@@ -100,12 +99,10 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
  * ss_scene_read gets the same double.  SS_EIO: writing failed. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out, ss_error *err);
 
-/* Make z(t) [m], the natural cubic spline through one column of a signal.  The signal's clock is
+/* Make z(t) [m], the natural cubic spline through one column of a file, of any format that ss_reader_new opens.
+ * column is its name or number; NULL or "": the column z, or the only column.  The clock of the file is
  * the scene's: its t = 0 is the start of settling.  The caller frees *base with ss_base_free.
  * SS_EDATA: the column's unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
-ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
-/* The same from a column of a file, of any format that ss_reader_new opens.  column is its name or number;
- * NULL or "": the column z, or the only column. */
 ss_status ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err);
 /* If the scene names a base_file, read it and set scene->base to *base; else *base becomes NULL.
  * The name is relative to the folder of scene_path, the file from which the scene was read.  The
@@ -122,11 +119,6 @@ ss_status ss_scene_set(ss_scene *scene, const char *key, double value, ss_error 
  * keeps the values of the keys that both have; its others are 0.  SS_EINVAL: there is no such key, or no
  * such value. */
 ss_status ss_scene_set_text(ss_scene *scene, const char *key, const char *value, ss_error *err);
-const char *ss_scene_word(const ss_scene *scene, const char *key);     /* of a word; NULL: no such key */
-
-/* SS_OK if a scene that has passed ss_scene_check lies within the ranges in which the tests verify results
- * (stickslip-scene(5) lists them), else SS_EINVAL.  A scene outside is simulated too. */
-ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX from 2^53 on */
 int ss_scene_is_pulled(const ss_scene *scene);      /* 1: U or S moves it, and no forcing does */

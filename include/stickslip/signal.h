@@ -83,7 +83,7 @@ typedef struct ss_read_opts {
     double rate;                /* [Hz] for input without a clock; 0: the input must have a clock.  With
                                    delimited text the first row is then at 0, whatever its columns */
     ss_gaps gaps;               /* delimited text and arrays in HDF5; filled gaps become a note of the
-                                   header, see ss_header_gaps */
+                                   header, "gaps: from:to from:to ..." [s] */
     double resample;            /* [Hz] rate to which the rows are brought, by the cubic spline through each
                                    column, in constant memory; 0: they stay.  Stamps in delimited text may then
                                    have any spacing.  Frequencies above half the rate fold down.  Reading
@@ -120,12 +120,6 @@ void ss_read_opts_init(ss_read_opts *opts, size_t size);
 typedef struct ss_span {
     double from, to;
 } ss_span;
-
-/* The spans in which samples were missing, in time order, from the note "gaps: from:to from:to
- * ..." in any order.  Each goes from its first missing sample to the next sample that is there;
- * those that overlap are one.  The caller frees *out with free().  SS_EDATA: the note is something
- * else; readers of files refuse it. */
-ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head, ss_error *err);
 
 typedef struct ss_reader ss_reader;
 
@@ -174,9 +168,6 @@ ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_r
 ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n, ss_error *err);
 /* Read the rows of a signal, which must live as long as the reader, and which can go back to the first. */
 ss_status ss_reader_of_signal(ss_reader **out, const ss_signal *signal, ss_error *err);
-/* Copy the columns of these indices, in this order, and of them the rows first ... end - 1. */
-ss_status ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
-                           size_t n_columns, size_t first, size_t end, ss_error *err);
 void ss_signal_free(ss_signal *signal);         /* NULL is allowed */
 
 /* --- formats --------------------------------------------------------------------------------- */
@@ -189,13 +180,14 @@ typedef enum ss_format {
     SS_JSON                     /* for other programs: an object a row; null is what is not known */
 } ss_format;
 
-/* The name of the i-th format in which streams can be written, which is also the ending of its files: "tsv",
- * "au", "csv", "json"; NULL after the last. */
-const char *ss_format_name(size_t i);
-/* If a format of this name can be written, return 1 and store it in *found; else return 0. */
-int ss_format_find(ss_format *found, const char *name);
-/* 1 if the format holds words, 0 if it holds only numbers or cannot be written. */
-int ss_format_has_words(ss_format format);
+/* A format in which streams can be written. */
+typedef struct ss_format_info {
+    ss_format format;
+    const char *name;           /* also the ending of its files: "tsv", "au", "csv", "json" */
+    int has_words;              /* 0: it holds only numbers */
+} ss_format_info;
+/* Store the i-th of them in *out and return 1; 0: there are not so many. */
+int ss_format_at(ss_format_info *out, size_t i);
 
 /* --- filtering ----------------------------------------------------------------------------- */
 
@@ -254,11 +246,8 @@ void ss_wave_opts_init(ss_wave_opts *opts, size_t size);
  * opts may be NULL. */
 ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err);
 
-/* Add Gaussian white noise of standard deviation rms >= 0 to the n values of x.  The same seed
- * gives the same noise (GSL's mt19937 and its Ziggurat). */
-ss_status ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed, ss_error *err);
-/* The same for several columns, n rows at a time.  The noise of column[c][0] ... column[c][n - 1] has
- * the standard deviation rms[c] >= 0; where this is 0 no number is drawn.  SS_ERANGE, here and below: a
+/* Add Gaussian white noise to several columns, n rows at a time.  The same seed gives the same noise (GSL's
+ * mt19937 and its Ziggurat).  That of column[c][0] ... column[c][n - 1] has the standard deviation rms[c] >= 0; where this is 0 no number is drawn.  SS_ERANGE, here and below: a
  * sum is not finite; the columns have then been changed. */
 typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed, ss_error *err);

@@ -48,7 +48,6 @@ typedef struct ss_spikes {
 /* "counted", or why the spikes are not: there is too much noise, or the signal is smooth.  A
  * constant text. */
 const char *ss_spikes_verdict(const ss_spikes *found);
-const char *ss_spike_kind_name(ss_spike_kind kind);     /* "glitch", "jump", "kink", "bend" */
 
 SS_END_DECLARATIONS
 #endif

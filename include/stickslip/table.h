@@ -42,10 +42,6 @@ typedef struct ss_table {
 ss_status ss_table_read(ss_table **out, FILE *in, const char *name, ss_kind kind, ss_error *err);
 /* The value of the first note with this key; NULL if there is none. */
 const char *ss_table_note(const ss_table *table, const char *key);
-/* The index of the column of this name; -1 if there is none. */
-int ss_table_column(const ss_table *table, const char *name);
-/* The number in a cell; NaN if the cell holds a word or "-", or if there is no such cell. */
-double ss_table_number(const ss_table *table, size_t row, size_t column);
 void ss_table_free(ss_table *table);            /* NULL is allowed */
 
 SS_END_DECLARATIONS

@@ -103,7 +103,6 @@ ss_status ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accur
  *   found in a with the scene's mass and stiffness and its columns x and f. */
 enum { SS_COMPARED_EVENTS = 10, SS_COMPARED_MICROSLIPS, SS_COMPARED_FEATURES,
        SS_COMPARED_MOST = SS_COMPARED_FEATURES + SS_FEATURE_NUMBERS };
-const char *ss_compared_name(size_t i);     /* "x", "x_rms", ...; NULL behind the last */
 
 /* Indices of rows; from SS_MODELS_SIMPLER on, the rows are the simpler scenes. */
 enum { SS_MODELS_SCENE, SS_MODELS_SETTLED, SS_MODELS_SIMPLER };

@@ -41,5 +41,6 @@ typedef struct ss_bursts {
  * below the strongest. */
 ss_status ss_bursts_find(ss_bursts **out, row_source *source, double range, ss_error *err);
 void ss_bursts_free(ss_bursts *found);          /* NULL is allowed */
+const char *ss_spike_kind_name(ss_spike_kind kind);     /* "glitch", "jump", "kink", "bend" */
 
 #endif

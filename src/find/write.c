@@ -8,6 +8,8 @@
 #include "find/numbers.h"
 #include "find/search.h"
 #include "io/record.h"
+#include "io/table.h"
+#include "find/events.h"
 
 /* --- one recording --------------------------------------------------------------------------- */
 

@@ -19,6 +19,8 @@
 #include "fit/forced.h"
 #include "fit/observation.h"
 #include "signal/gaps.h"
+#include "signal/noise.h"
+#include "signal/header.h"
 
 enum { POINTS = 32, KEEP = 2, STEPS = 40 };      /* of the search, within the usual spread */
 #define EQUAL 0.01                      /* of the spread: two scenes are equally near to within this */

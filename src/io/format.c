@@ -52,7 +52,7 @@ ss_format_of_file(const char *path)
     return NULL;
 }
 
-/* --- writing, by name ---------------------------------------------------------------------- */
+/* --- writing ------------------------------------------------------------------------------- */
 
 const struct format *
 ss_format_table(ss_format of)
@@ -67,21 +67,12 @@ ss_format_has_words(ss_format of)
     return table != NULL && table->separator != '\0';
 }
 
-const char *
-ss_format_name(size_t i)
-{
-    for (size_t k = 0; k < FORMATS; k++)
-        if (list[k]->begin != NULL && i-- == 0)
-            return list[k]->name;
-    return NULL;
-}
-
 int
-ss_format_find(ss_format *found, const char *name)
+ss_format_at(ss_format_info *out, size_t i)
 {
-    for (size_t i = 0; found != NULL && name != NULL && i < FORMATS; i++)
-        if (list[i]->begin != NULL && strcmp(list[i]->name, name) == 0) {
-            *found = (ss_format)i;
+    for (size_t k = 0; out != NULL && k < FORMATS; k++)
+        if (list[k]->begin != NULL && i-- == 0) {
+            *out = (ss_format_info){ (ss_format)k, list[k]->name, list[k]->separator != '\0' };
             return 1;
         }
     return 0;

@@ -7,6 +7,7 @@
 #include <stickslip/scene.h>
 #include "base/error.h"
 #include "scene/model.h"
+#include "scene/scene.h"
 
 /* POSIX's cksum: the CRC of the bytes and of their number, whose lowest byte comes first. */
 static unsigned long

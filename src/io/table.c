@@ -8,6 +8,7 @@
 #include "base/list.h"
 #include "signal/header.h"
 #include "io/input.h"
+#include "io/table.h"
 
 typedef struct table_reader {
     struct input in;

@@ -13,6 +13,8 @@
 #include "io/output.h"
 #include "io/record.h"
 #include "io/store.h"
+#include "signal/gaps.h"
+#include "motion/kind.h"
 
 const char *const ss_coefficient_columns[COEFFICIENT_COLUMNS][2] = {
     { "m", "" }, { "a", "s" }, { "b", "s" }, { "f", "Hz" }, { "re", "" }, { "im", "" }, { "edge", "" } };

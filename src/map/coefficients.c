@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "map/plan.h"
 #include "signal/header.h"
+#include "map/map.h"
+#include "signal/gaps.h"
 
 static const char *const norm_name[] = { "l2", "l1" };
 static const char *const engine_name[] = { "auto", "quadrature", "fft" };

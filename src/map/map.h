@@ -40,5 +40,10 @@ ss_status ss_map_of_samples(ss_coefficients **out, const double *x, size_t n, do
 /* Report the part of the work on a map that is done, 0 to 1, to the progress function of its options, if it
  * is computed; SS_STOP if that stops the work. */
 ss_status ss_map_progress(const ss_coefficients *map, double done);
+size_t ss_stream_samples(const ss_stream *stream);                  /* the samples pushed so far */
+
+/* 1 if translation k of scale i lies inside the cone of influence, in a gap, or nearer than
+ * sqrt(2) a to a gap; else 0. */
+int ss_coefficients_edge(const ss_coefficients *coefficients, size_t i, size_t k);
 
 #endif

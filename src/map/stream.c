@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "base/pool.h"
 #include "map/fft/blocks.h"
+#include "map/map.h"
 #include "map/plan.h"
 
 enum {

@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "base/range.h"
 #include "motion/method.h"
+#include "motion/kind.h"
 
 const ss_range ss_sim_tolerances = { 1e-14, 0.1 };
 static const ss_sim_opts usual = { .size = sizeof usual, .method = NULL, .tol = 1e-12 };

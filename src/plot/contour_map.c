@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "plot/noise_level.h"
+#include "map/map.h"
 
 #define LEAST_SPAN 10.0         /* [dB] that lines span, however high the noise is */
 

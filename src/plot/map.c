@@ -12,6 +12,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/sort.h"
+#include "io/table.h"
 
 enum { REGIONS_MAX = 10, COLUMNS_MAX = 4 };     /* COLUMNS_MAX: x, y and two over them */
 

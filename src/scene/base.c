@@ -2,6 +2,7 @@
  * (GSL), kept as the cubic of each interval. */
 #include "base/error.h"
 #include "scene/model.h"
+#include "scene/scene.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_spline.h>

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "scene/model.h"
+#include "scene/scene.h"
 
 static const char *
 model_word(size_t i)

@@ -1,6 +1,7 @@
 /* models.c -- the friction models by their places in the list and by their names. */
 #include <string.h>
 #include "scene/models.h"
+#include "scene/scene.h"
 
 #define POINT_TO(name) &ss_##name##_model,
 static const ss_model *const list[MODELS] = { MODEL_LIST(POINT_TO) };

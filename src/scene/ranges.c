@@ -5,6 +5,7 @@
  * scenes from this table, and stickslip-scene(5) shows it. */
 #include "base/error.h"
 #include "scene/model.h"
+#include "scene/scene.h"
 
 double
 ss_unit_one(const ss_scene *s)

@@ -8,6 +8,7 @@
 #include "base/utf8.h"
 #include "scene/model.h"
 #include "signal/header.h"
+#include "scene/scene.h"
 
 static int
 is_number(const scene_key *k)

@@ -30,5 +30,10 @@ void ss_gaps_bridge(double *x, size_t n, double rate, const ss_span *gap, size_t
 
 /* 1 for each sample of the signal that lies in a gap; to be freed.  NULL: no gaps. */
 ss_status ss_gaps_missing(char **out, const ss_signal *signal);
+/* The spans in which samples were missing, in time order, from the note "gaps: from:to from:to
+ * ..." in any order.  Each goes from its first missing sample to the next sample that is there;
+ * those that overlap are one.  The caller frees *out with free().  SS_EDATA: the note is something
+ * else; readers of files refuse it. */
+ss_status ss_header_gaps(ss_span **out, size_t *n, const ss_header *head, ss_error *err);
 
 #endif

@@ -12,6 +12,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/fft.h"
+#include "signal/noise.h"
 #include <stickslip/signal.h>
 
 struct ss_noise {

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "signal/header.h"
 #include <stickslip/signal.h>
 
 ss_status

@@ -10,6 +10,7 @@
 #include "base/options.h"
 #include "signal/header.h"
 #include "signal/wave.h"
+#include "signal/noise.h"
 
 const ss_wave_opts ss_wave_defaults = {
     .size = sizeof(ss_wave_opts), .rate = 2000, .duration = 10, .amplitude = 1, .frequency = 10, .frequency_end = 100,

@@ -12,6 +12,8 @@
 
 #include <stickslip.h>
 #include "../shipped.h"
+#include "signal/noise.h"
+#include "signal/header.h"
 
 typedef struct bench_scene {
     const char *name;

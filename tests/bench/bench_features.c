@@ -6,6 +6,8 @@
  * usage: bench_features [SEEDS] */
 #include <gsl/gsl_errno.h>
 #include "bench.h"
+#include "signal/noise.h"
+#include "signal/header.h"
 
 typedef struct tally {
     size_t n, refused, within[2];

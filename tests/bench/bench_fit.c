@@ -15,6 +15,7 @@
 #include <gsl/gsl_rng.h>
 #include "../foreign.h"
 #include "bench.h"
+#include "signal/noise.h"
 
 typedef struct tally {
     int n, conclusive, within_one, within_two, beyond_five;

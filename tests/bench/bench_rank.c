@@ -15,6 +15,7 @@
 #include <gsl/gsl_rng.h>
 #include "../foreign.h"
 #include "bench.h"
+#include "signal/noise.h"
 
 enum { MODELS = 4 };
 

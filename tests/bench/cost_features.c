@@ -7,6 +7,8 @@
 #include "map/map.h"
 #include "signal/wave.h"
 #include "bench.h"
+#include "signal/noise.h"
+#include "signal/header.h"
 
 enum { ROUNDS = 2, SAMPLES = 1000000, SECONDS = 60 };
 #define PITCH 98.0

@@ -17,6 +17,9 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include "bench.h"
+#include "signal/noise.h"
+#include "signal/header.h"
+#include "scene/scene.h"
 
 enum { CYCLES = 9, MOST_SAMPLES = 250000, MOST_STICKS = 10000 };
 

@@ -20,6 +20,7 @@
 #include <string.h>
 #include <stickslip.h>
 #include "../rig.h"
+#include "find/numbers.h"
 
 #define PI 3.14159265358979323846
 enum { MOST_SAMPLES = 120000, MOST_EVENTS = 6000 };

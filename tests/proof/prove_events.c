@@ -31,6 +31,7 @@
 #include <gsl/gsl_errno.h>
 #include "../random_scene.h"
 #include "scene/key.h"
+#include "scene/scene.h"
 
 /* --- numbers ------------------------------------------------------------------------------------
  * Balls of a pool.  A function that needs room for a moment ends with used = what it was. */

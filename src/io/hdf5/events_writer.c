@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "io/hdf5/groups.h"
+#include "motion/kind.h"
 
 #define KIND_LENGTH 8           /* "reverse" and a NUL */
 

@@ -9,6 +9,7 @@
 #include "base/versions.h"
 #include "map/wavelet.h"
 #include "io/hdf5/groups.h"
+#include "signal/gaps.h"
 
 struct scale_datasets {
     hid_t group, time, re, im, edge;

@@ -26,5 +26,6 @@ ss_status ss_trade_race(double **seconds, size_t n, ss_trade_runner *runner, con
                         void *user);
 /* Give the rows that were measured these times, and mark those that no other row beats. */
 void ss_trade_finish(ss_trade *trade, const double *seconds);
+const char *ss_compared_name(size_t i);     /* "x", "x_rms", ...; NULL behind the last */
 
 #endif
