@@ -143,7 +143,7 @@ void ss_models_free(ss_models *models);             /* NULL is allowed */
 
 /* An error that a user allows. */
 typedef struct ss_need {
-    size_t what;                /* index of ss_compared_name */
+    size_t what;                /* the place of its error among those of a row */
     double within;              /* >= 0, in dB for the maps */
 } ss_need;
 /* Read a list such as "x=1e-2,a=0.1,map=3dB,microslips": name=error, or the name alone of a count

@@ -4,14 +4,12 @@
 
 #include <stickslip/trade.h>
 
-/* The unit of what is compared: "dB"; "" if it is a number or a ratio. */
+/* What is compared: "x", "x_rms", ...; NULL behind the last.  Its unit: "dB"; "" of a number or a ratio. */
+const char *ss_compared_name(size_t i);
 const char *ss_compared_unit(size_t i);
 
 /* 1 if a row keeps all n needs. */
 int ss_models_keeps(const ss_models_row *row, const ss_need *need, size_t n);
-/* The cheapest row that keeps the needs; among rows whose times differ by less than a fifth, the
- * simplest scene.  The settled state is left out: it is the same model. */
-const ss_models_row *ss_models_cheapest(const ss_models *models, const ss_need *need, size_t n);
 
 /* own becomes the caller's options, with defaults for what is missing. */
 ss_status ss_trade_opts_take(ss_trade_opts *own, const ss_trade_opts *given, ss_error *err);

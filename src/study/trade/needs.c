@@ -10,49 +10,36 @@
 
 #define ALIKE 1.2                   /* times within this factor differ by chance */
 
-/* --- from text ----------------------------------------------------------------------------- */
-
 static int
 is_count(size_t what)
 {
     return what == SS_COMPARED_EVENTS || what == SS_COMPARED_MICROSLIPS;
 }
 
-static ss_status
-find_name(size_t *what, const char *text, size_t length, ss_error *err)
-{
-    char names[400] = "";
-    for (size_t i = 0; ss_compared_name(i) != NULL; i++) {
-        const char *name = ss_compared_name(i);
-        if (strlen(name) == length && strncmp(name, text, length) == 0) {
-            *what = i;
-            return SS_OK;
-        }
-        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i > 0 ? ", " : "", name);
-    }
-    return ss_fail(err, SS_EINVAL, "'%.*s' is none of %s", (int)length, text, names);
-}
-
+/* Read NAME=ERROR, or the NAME of a count. */
 static ss_status
 parse_need(ss_need *need, const char *text, size_t length, ss_error *err)
 {
-    const char *equals = memchr(text, '=', length);
-    ss_status st = find_name(&need->what, text, equals != NULL ? (size_t)(equals - text) : length, err);
-    if (st != SS_OK)
-        return st;
-    const char *name = ss_compared_name(need->what), *unit = ss_compared_unit(need->what);
-    need->within = 0;
-    if (equals == NULL)
-        return is_count(need->what) ? SS_OK
+    size_t letters = strcspn(text, ",="), i = 0;
+    char names[400] = "", *end = (char *)text + letters;
+    const char *name;
+    for (; (name = ss_compared_name(i)) != NULL; i++) {
+        if (strlen(name) == letters && strncmp(name, text, letters) == 0)
+            break;
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i > 0 ? ", " : "", name);
+    }
+    *need = (ss_need){ i, 0 };
+    if (name == NULL)
+        return ss_fail(err, SS_EINVAL, "'%.*s' is none of %s", (int)letters, text, names);
+    if (letters == length)
+        return is_count(i) ? SS_OK
             : ss_fail(err, SS_EINVAL, "%s needs an error that it may have, as in %s=0.01", name, name);
-    char *end;
-    need->within = ss_number_parse(equals + 1, &end);
-    if (unit[0] != '\0' && strncmp(end, unit, strlen(unit)) == 0)
-        end += strlen(unit);
-    if (end == equals + 1 || end != text + length || !(need->within >= 0 && isfinite(need->within)))
-        return ss_fail(err, SS_EINVAL, "'%.*s' is not %s=ERROR, an error of 0 or more", (int)length, text,
-                       name);
-    return SS_OK;
+    need->within = ss_number_parse(text + letters + 1, &end);
+    int is_number = end > text + letters + 1 && need->within >= 0 && isfinite(need->within);
+    if (strncmp(end, ss_compared_unit(i), strlen(ss_compared_unit(i))) == 0)
+        end += strlen(ss_compared_unit(i));
+    return is_number && end == text + length ? SS_OK
+        : ss_fail(err, SS_EINVAL, "'%.*s' is not %s=ERROR, an error of 0 or more", (int)length, text, name);
 }
 
 ss_status
@@ -60,21 +47,19 @@ ss_needs_parse(ss_need need[SS_COMPARED_MOST], size_t *n, const char *list, ss_e
 {
     if (need == NULL || n == NULL || list == NULL)
         return SS_FAIL_NULL(err);
-    *n = 0;
-    for (const char *p = list;; p++) {
+    const char *more = ",";
+    for (*n = 0; *more == ','; list = more + 1) {
         ss_need one;
-        size_t length = strcspn(p, ",");
-        ss_status st = parse_need(&one, p, length, err);
+        more = list + strcspn(list, ",");
+        ss_status st = parse_need(&one, list, (size_t)(more - list), err);
         for (size_t i = 0; st == SS_OK && i < *n; i++)
             if (need[i].what == one.what)
                 st = ss_fail(err, SS_EINVAL, "'%s' is repeated", ss_compared_name(one.what));
         if (st != SS_OK)
             return st;
         need[(*n)++] = one;
-        p += length;
-        if (*p == '\0')
-            return SS_OK;
     }
+    return SS_OK;
 }
 
 /* --- the answer ---------------------------------------------------------------------------- */
@@ -82,84 +67,66 @@ ss_needs_parse(ss_need need[SS_COMPARED_MOST], size_t *n, const char *list, ss_e
 int
 ss_models_keeps(const ss_models_row *row, const ss_need *need, size_t n)
 {
-    if (row == NULL || need == NULL || row->status != SS_OK)
-        return 0;
+    int keeps = row->status == SS_OK;
     for (size_t i = 0; i < n; i++)
-        if (!(row->error[need[i].what] <= need[i].within))
-            return 0;
-    return 1;
+        keeps = keeps && row->error[need[i].what] <= need[i].within;
+    return keeps;
 }
 
-static int
-is_answer(const ss_models *models, size_t i, const ss_need *need, size_t n)
+/* The cheapest row that keeps the need; among rows whose times differ by less than a fifth, the simplest scene.
+ * The settled state is left out: it is the same model. */
+static const ss_models_row *
+cheapest(const ss_models *models, const ss_need *need)
 {
-    return i != SS_MODELS_SETTLED && ss_models_keeps(&models->row[i], need, n);
-}
-
-const ss_models_row *
-ss_models_cheapest(const ss_models *models, const ss_need *need, size_t n)
-{
-    if (models == NULL)
-        return NULL;
     const ss_models_row *best = NULL;
     double least = INFINITY;
-    for (size_t i = 0; i < models->n; i++)
-        if (is_answer(models, i, need, n))
-            least = fmin(least, models->row[i].seconds);
-    for (size_t i = 0; i < models->n; i++)
-        if (is_answer(models, i, need, n) && models->row[i].seconds <= ALIKE * least)
-            best = &models->row[i];
+    for (int choose = 0; choose < 2; choose++)
+        for (size_t i = 0; i < models->n; i++) {
+            const ss_models_row *row = &models->row[i];
+            if (i == SS_MODELS_SETTLED || !ss_models_keeps(row, need, 1))
+                continue;
+            least = fmin(least, row->seconds);
+            best = choose && row->seconds <= ALIKE * least ? row : best;
+        }
     return best;
 }
 
 static void
 write_need(FILE *out, const ss_need *need)
 {
-    const char *name = ss_compared_name(need->what);
-    if (is_count(need->what) && need->within == 0)
+    const char *name = ss_compared_name(need->what), *unit = ss_compared_unit(need->what);
+    int count = is_count(need->what), ratio = !count && unit[0] == '\0';
+    if (count && need->within == 0)
         fprintf(out, "the number of %s", name);
-    else if (is_count(need->what))
-        fprintf(out, "%s within %g", name, need->within);
-    else if (ss_compared_unit(need->what)[0] != '\0')
-        fprintf(out, "%s within %g %s", name, need->within, ss_compared_unit(need->what));
     else
-        fprintf(out, "%s within %g %%", name, 100 * need->within);
+        fprintf(out, "%s within %g%s%s", name, ratio ? 100 * need->within : need->within,
+                count ? "" : " ", ratio ? "%" : unit);
 }
 
-/* Write the needs for which this row is the cheapest, as "A, B and C".  Returns their number. */
-static size_t
-write_needs(FILE *out, const ss_models *models, const ss_models_row *row, const ss_need *need, size_t n)
-{
-    size_t all = 0, done = 0;
-    for (size_t i = 0; i < n; i++)
-        all += ss_models_cheapest(models, &need[i], 1) == row;
-    for (size_t i = 0; i < n; i++)
-        if (ss_models_cheapest(models, &need[i], 1) == row) {
-            fputs(done == 0 ? "" : done + 1 == all ? " and " : ", ", out);
-            write_need(out, &need[i]);
-            done++;
-        }
-    return all;
-}
-
-/* Write which row suffices for which needs.  The rows that leave out most come first, the scene last. */
+/* Write which row suffices for which needs: "coulomb suffices for A and B; C needs compliant".  The rows that
+ * leave out most come first, the scene last. */
 static void
 write_answer(FILE *out, const ss_models *models, const ss_need *need, size_t n)
 {
     const char *then = "";
     for (size_t i = models->n; i-- > 0;) {
         const ss_models_row *row = &models->row[i];
-        int wanted = 0;
+        size_t all = 0, done = 0;
         for (size_t k = 0; k < n; k++)
-            wanted |= ss_models_cheapest(models, &need[k], 1) == row;
-        if (!wanted)
+            all += cheapest(models, &need[k]) == row;
+        if (all == 0)
             continue;
         fputs(then, out);
         if (i > 0)
             fprintf(out, "%s suffices for ", row->name);
-        size_t needs = write_needs(out, models, row, need, n);
+        for (size_t k = 0; k < n; k++)
+            if (cheapest(models, &need[k]) == row) {
+                fputs(done == 0 ? "" : done + 1 == all ? " and " : ", ", out);
+                write_need(out, &need[k]);
+                done++;
+            }
         if (i == 0)
-            fprintf(out, " need%s %s", needs > 1 ? "" : "s", row->name);
+            fprintf(out, " need%s %s", all > 1 ? "" : "s", row->name);
         then = "; ";
     }
 }
@@ -169,20 +136,18 @@ ss_models_answer(char **out, const ss_models *models, const ss_need *need, size_
 {
     if (out == NULL || models == NULL || need == NULL)
         return SS_FAIL_NULL(err);
-    char *sentence = NULL;
     size_t length;
+    *out = NULL;
     for (size_t i = 0; i < n; i++)
         if (isnan(models->row[0].error[need[i].what]))
             return ss_fail(err, SS_EDATA, "%s cannot be kept: the scene has none",
                            ss_compared_name(need[i].what));
-    FILE *text = open_memstream(&sentence, &length);
-    if (text == NULL)
-        return ss_fail_memory(err, NULL);
-    write_answer(text, models, need, n);
-    if (fclose(text) != 0) {
-        free(sentence);
-        return ss_fail_memory(err, NULL);
-    }
-    *out = sentence;
-    return SS_OK;
+    FILE *text = open_memstream(out, &length);
+    if (text != NULL)
+        write_answer(text, models, need, n);
+    if (text != NULL && fclose(text) == 0)
+        return SS_OK;
+    free(*out);
+    *out = NULL;
+    return ss_fail_memory(err, NULL);
 }
