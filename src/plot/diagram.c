@@ -85,18 +85,12 @@ write_panel(script_stack *stack, const map_column *column, script_scale of_x, si
 }
 
 static ss_status
-write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_columns,
+write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_columns, const map_axis *x,
               const ss_plot_opts *opts, ss_error *err)
 {
     const ss_plot_opts titled = ss_map_titled(opts, t);
-    const char *vary = ss_table_note(t, "vary");
-    size_t letters = vary != NULL ? strlen(vary) : 0;
-    int log = letters > 4 && strcmp(vary + letters - 4, ":log") == 0;
-    script_extent x = ss_script_extent(column[0].value, t->n);
     script_stack stack;
-    script_scale of_x = log ? ss_script_power(0) : ss_map_scale(x);
-    script_label x_label = ss_map_label(column[0].label, of_x, INFINITY);
-    x = ss_script_scaled_extent(x, of_x);
+    script_label x_label = ss_map_label(column[0].label, x->scale, INFINITY);
     ss_status st = ss_script_begin_stack(&stack, out, &titled, NULL,
                                          FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, err);
     if (st != SS_OK)
@@ -104,15 +98,15 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     ss_script_write_frame(out, 0.175, 0.965);
     fputs("colour = '" BLUE "'; size = 0.1\nset xtics format ''\n"
           "set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n", out);
-    ss_map_write_range(out, 'x', x, log, 9);
+    ss_map_write_axis(out, 'x', x);
     for (size_t i = 1; i < n_columns; i++) {
         if (i + 1 == n_columns) {
             fputs("set xtics format '%g'; ", out);
             ss_script_write_x_label(out, &x_label, "0,0.4");
-            if (log)
-                ss_script_write_decades(out, "x", x.lo, x.hi);
+            if (x->log)
+                ss_script_write_decades(out, "x", x->value[0], x->value[x->n - 1]);
         }
-        write_panel(&stack, column, of_x, i, t->n);
+        write_panel(&stack, column, x->scale, i, t->n);
     }
     return ss_script_end(out);
 }
@@ -130,15 +124,18 @@ ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, co
     if (n < 2 || n > COLUMNS_MAX)
         return ss_fail(err, SS_EINVAL, "a diagram shows 1 ... %d columns", COLUMNS_MAX - 1);
     map_column column[COLUMNS_MAX];
+    map_axis x = { .n = 0 };
     st = ss_map_read_columns(column, n, t, drawn, err);
-    for (size_t i = 0; st == SS_OK && i < n; i++) {
+    if (st == SS_OK)
+        st = ss_map_make_axis(&x, &column[0], t->n, err);
+    for (size_t i = 1; st == SS_OK && i < n; i++) {
         script_extent e = ss_script_extent(column[i].value, t->n);
-        if (!(e.lo <= e.hi) || (i == 0 && !(e.lo < e.hi)))
-            st = ss_fail(err, SS_EINVAL, "%s has %s", column[i].label->name,
-                         i == 0 ? "one value only" : "no value to draw");
+        if (!(e.lo <= e.hi))
+            st = ss_fail(err, SS_EINVAL, "%s has no value to draw", column[i].label->name);
     }
     if (st == SS_OK)
-        st = write_diagram(out, t, column, n, &own, err);
+        st = write_diagram(out, t, column, n, &x, &own, err);
+    free(x.value);
     ss_map_free_columns(column, n);
     return st;
 }

@@ -68,10 +68,19 @@ is_log(const map_axis *a)
         && d.hi > d.lo * (1 + 1e-6) && r.hi / r.lo < d.hi / d.lo;
 }
 
-static ss_status
-make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
+/* The scale of a linear axis: values as they are, unless their labels would be long. */
+static script_scale
+linear_scale(script_extent e)
+{
+    script_scale scale = ss_script_scale(e);
+    return scale.offset != 0 ? scale : ss_script_power(0);
+}
+
+ss_status
+ss_map_make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
 {
     size_t found = 0;
+    *a = (map_axis){ .n = 0 };
     a->value = malloc((n + 1) * sizeof *a->value);
     if (a->value == NULL)
         return ss_fail_memory(err, NULL);
@@ -83,10 +92,10 @@ make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
         if (a->n == 0 || a->value[i] != a->value[a->n - 1])
             a->value[a->n++] = a->value[i];
     if (a->n < 2)
-        return ss_fail(err, SS_EINVAL, "a map needs two values of %s at least", column->label->name);
+        return ss_fail(err, SS_EINVAL, "a picture needs two values of %s at least", column->label->name);
     double lo = a->value[0], hi = a->value[a->n - 1];
     a->log = is_log(a);
-    a->scale = a->log ? ss_script_power(0) : ss_map_scale((script_extent){ lo, hi });
+    a->scale = a->log ? ss_script_power(0) : linear_scale((script_extent){ lo, hi });
     a->digits = 6 + (int)fmax(0, floor(log10(fmax(fabs(lo), fabs(hi)) / (hi - lo))));
     return SS_OK;
 }
@@ -122,9 +131,9 @@ ss_status
 ss_map_make_grid(map_grid *g, map_column column[], size_t n_columns, size_t n, ss_error *err)
 {
     *g = (map_grid){ .x = { .n = 0 } };
-    ss_status st = make_axis(&g->x, &column[0], n, err);
+    ss_status st = ss_map_make_axis(&g->x, &column[0], n, err);
     if (st == SS_OK)
-        st = make_axis(&g->y, &column[1], n, err);
+        st = ss_map_make_axis(&g->y, &column[1], n, err);
     if (st != SS_OK)
         return st;
     size_t points = g->x.n * g->y.n, *row;
@@ -168,7 +177,9 @@ ss_map_write_coordinate(FILE *out, const map_axis *a, double x, char behind)
 
 /* --- title and axes ------------------------------------------------------------------------- */
 
-#define TICS_WIDE 24            /* letters of all tics below a map together, if they are long */
+enum { INTERVALS = 9,           /* of tics at most; */
+       TICS_WIDE = 27,          /* letters of all tics below a map together */
+       DECADE_LETTERS = 4 };    /* of a logarithmic axis */
 
 ss_plot_opts
 ss_map_titled(const ss_plot_opts *opts, const ss_table *t)
@@ -190,34 +201,30 @@ ss_map_label(const ss_column *column, script_scale scale, double room)
     return label;
 }
 
-script_scale
-ss_map_scale(script_extent e)
+script_extent
+ss_map_range(const map_axis *a)
 {
-    script_scale scale = ss_script_scale(e);
-    return scale.offset != 0 ? scale : ss_script_power(0);
+    return ss_script_scaled_extent((script_extent){ a->value[0], a->value[a->n - 1] }, a->scale);
 }
 
-/* gnuplot sets tics at powers of ten, or at some ten equally spaced values. */
 int
-ss_map_letters(script_extent e, int log)
+ss_map_letters(const map_axis *a)
 {
-    double step = pow(10, floor(log10(e.hi - e.lo)));
-    double first = log ? pow(10, ceil(log10(e.lo))) : step * ceil(10 * e.lo / step) / 10;
-    double last = log ? pow(10, floor(log10(e.hi))) : step * floor(10 * e.hi / step) / 10;
-    return (int)fmax(snprintf(NULL, 0, "%g", first), snprintf(NULL, 0, "%g", last));
+    return a->log ? DECADE_LETTERS : ss_script_letters(ss_map_range(a), INTERVALS);
 }
 
 /* gnuplot leaves out a tic at the very end of a logarithmic axis where rounding puts it beyond. */
 void
-ss_map_write_range(FILE *out, char axis, script_extent e, int log, int digits)
+ss_map_write_axis(FILE *out, char name, const map_axis *a)
 {
-    const char name[] = { axis, '\0' };
-    int letters = ss_map_letters(e, log);
-    if (log)
-        ss_print(out, "set %srange [%.9g:%.9g]; set logscale %s\n", name, e.lo * (1 - 1e-8), e.hi * (1 + 1e-8),
+    script_extent e = ss_map_range(a);
+    const char axis[] = { name, 't', 'i', 'c', 's', '\0' };
+    if (a->log)
+        ss_print(out, "set %crange [%.9g:%.9g]; set logscale %c\n", name, e.lo * (1 - 1e-8), e.hi * (1 + 1e-8),
                  name);
     else
-        ss_print(out, "set %srange [%.*g:%.*g]\n", name, digits, e.lo, digits, e.hi);
-    if (!log && axis == 'x' && letters > 4)
-        ss_script_write_tics(out, "xtics", e, (int)fmax(1, TICS_WIDE / letters));
+        ss_print(out, "set %crange [%.*g:%.*g]\n", name, a->digits, e.lo, a->digits, e.hi);
+    if (!a->log)
+        ss_script_write_tics(out, axis, e, name == 'y' ? INTERVALS
+                             : (int)fmax(1, fmin(INTERVALS, TICS_WIDE / ss_map_letters(a))));
 }

@@ -172,20 +172,6 @@ write_data(FILE *out, const drawn *d, const ss_plot_opts *opts, ss_error *err)
 
 /* --- the script ---------------------------------------------------------------------------- */
 
-static script_extent
-range_of(const map_axis *a)
-{
-    return ss_script_scaled_extent((script_extent){ a->value[0], a->value[a->n - 1] }, a->scale);
-}
-
-static void
-write_axis(FILE *out, char name, const map_axis *a)
-{
-    ss_map_write_range(out, name, range_of(a), a->log, a->digits);
-    if (a->log)
-        ss_script_write_decades(out, (const char[]){ name, '\0' }, a->value[0], a->value[a->n - 1]);
-}
-
 static void
 write_key(FILE *out, const drawn *d)
 {
@@ -247,12 +233,16 @@ write_map(FILE *out, const drawn *d, const ss_plot_opts *opts, ss_error *err)
     st = write_data(out, d, opts, err);
     if (st != SS_OK)
         return st;
-    ss_script_write_frame(out, 0.14 + 0.025 * fmax(0, ss_map_letters(range_of(&d->g.y), d->g.y.log) - 3),
+    ss_script_write_frame(out, 0.14 + 0.025 * fmax(0, ss_map_letters(&d->g.y) - 3),
                           d->n_values > 0 || d->missing ? 0.835 : 0.965);
     ss_print(out, "unset grid; set tmargin at screen %s; set bmargin at screen 0.14\n",
              d->lines > 0 && opts->title[0] != '\0' ? "0.88" : "0.92");
-    write_axis(out, 'x', &d->g.x);
-    write_axis(out, 'y', &d->g.y);
+    for (int i = 0; i < 2; i++) {
+        const map_axis *a = i == 0 ? &d->g.x : &d->g.y;
+        ss_map_write_axis(out, "xy"[i], a);
+        if (a->log)
+            ss_script_write_decades(out, i == 0 ? "x" : "y", a->value[0], a->value[a->n - 1]);
+    }
     fputs("set border lw 0.8 front\n"
           "set style textbox opaque fillcolor '#ffffff' noborder margins 0.4,0.3\n", out);
     write_key(out, d);

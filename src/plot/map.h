@@ -31,6 +31,9 @@ typedef struct map_axis {
     int digits;                 /* enough to show a hundred-thousandth of the range */
 } map_axis;
 
+/* Those of n rows; value is to be freed even after a failure. */
+ss_status ss_map_make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err);
+
 typedef struct map_grid {
     map_axis x, y;
 } map_grid;
@@ -47,12 +50,11 @@ void ss_map_write_coordinate(FILE *out, const map_axis *a, double x, char behind
 ss_plot_opts ss_map_titled(const ss_plot_opts *opts, const ss_table *t);
 /* The label of a column: "base frequency / Hz" of base_frequency. */
 script_label ss_map_label(const ss_column *column, script_scale scale, double room);
-/* The scale of a linear axis with a range above 0: values as they are, unless their labels would be long. */
-script_scale ss_map_scale(script_extent of_values);
-/* The length of the longest label of the tics that gnuplot sets on an axis over this range. */
-int ss_map_letters(script_extent drawn, int log);
-/* Set the range of axis x or y, and fewer tics on a linear x than gnuplot would if their labels are long. */
-void ss_map_write_range(FILE *out, char axis, script_extent drawn, int log, int digits);
+/* The range of an axis, as it is drawn, and the length of the longest label of its tics. */
+script_extent ss_map_range(const map_axis *a);
+int ss_map_letters(const map_axis *a);
+/* Set the range of axis x or y, and tics that have room; powers of ten are left to ss_script_write_decades. */
+void ss_map_write_axis(FILE *out, char name, const map_axis *a);
 
 /* --- map_lines.c ---------------------------------------------------------------------------- */
 

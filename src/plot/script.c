@@ -156,14 +156,13 @@ short_scale(double lo, double hi)
 #define TIC_LETTERS 5           /* of a tic's label, which the margin has room for */
 #define TIC_INTERVALS 5
 
-/* Are labels of values from lo to hi longer than TIC_LETTERS? */
-static int
-is_long(script_extent e)
+int
+ss_script_letters(script_extent e, int intervals)
 {
     int decimals;
     double largest = fmax(fabs(e.lo), fabs(e.hi));
-    ss_script_step(e.hi - e.lo, TIC_INTERVALS, &decimals);
-    return 1 + (int)fmax(0, floor(log10(largest))) + (e.lo < 0) + decimals + (decimals > 0) > TIC_LETTERS;
+    ss_script_step(e.hi - e.lo, intervals, &decimals);
+    return 1 + (int)fmax(0, floor(log10(largest))) + (e.lo < 0) + decimals + (decimals > 0);
 }
 
 /* The offset is the middle of the values, or somewhat less, rounded to a power of ten above their range: so
@@ -173,7 +172,8 @@ ss_script_scale(script_extent e)
 {
     script_scale scale = short_scale(e.lo, e.hi);
     double power = ceil(log10(e.hi - e.lo));
-    if (!(e.lo < e.hi) || fabs(power) > 290 || !is_long(ss_script_scaled_extent(e, scale)))
+    if (!(e.lo < e.hi) || fabs(power) > 290
+        || ss_script_letters(ss_script_scaled_extent(e, scale), TIC_INTERVALS) <= TIC_LETTERS)
         return scale;
     double middle = e.lo + 0.49 * (e.hi - e.lo), unit = pow(10, fabs(power));
     double offset = power > 0 ? round(middle / unit) * unit : round(middle * unit) / unit;

@@ -86,6 +86,8 @@ ss_status ss_script_check(const char *column, script_extent of_values, ss_error 
 /* The smallest step of 1, 2 or 5 times a power of ten with at most so many intervals in a range; *decimals
  * becomes the number of its decimals. */
 double ss_script_step(double range, double intervals, int *decimals);
+/* The length of the longest label of such steps over these values. */
+int ss_script_letters(script_extent of_values, int intervals);
 /* What is drawn of a value: (x - offset)/unit.  offset is 0 unless labels would be long without. */
 typedef struct script_scale {
     double offset, unit;        /* unit: 10^exponent */
