@@ -22,9 +22,10 @@ draw(rng *r, const char *name)
     return draw_within(r, range);
 }
 
-/* Draw the numbers and words of the scene's model, whichever it is, by its own table. */
+/* Draw the numbers and words of the scene's model, whichever it is, by its own table.  The older scenes have no
+ * terms. */
 static void
-draw_own(rng *r, ss_scene *s)
+draw_own(rng *r, ss_scene *s, int has_terms)
 {
     const ss_scene_range *range;
     for (size_t i = 0; i < s->model->n_keys; i++) {
@@ -32,15 +33,21 @@ draw_own(rng *r, ss_scene *s)
         size_t words = 0;
         while (k->word != NULL && k->word(words) != NULL)
             words++;
+        if (k->required == TERM && !has_terms)
+            continue;
         if (words > 0 && s->model->normalise == NULL)   /* else its ranges are those of the first word */
             ss_scene_set_text(s, k->name, k->word((size_t)((double)words * uniform(r))), NULL);
     }
     if (ss_scene_get(s, "static_friction") == 0 && !s->model->linear)
         s->static_friction = draw(r, "f_s/f_k") * s->friction;
     for (size_t i = 0; (range = ss_model_range(s->model, i)) != NULL; i++)
-        if (ss_key_is_own(range->offset) && (s->model->dim > 2 || (strcmp(range->name, "b/X") != 0
-                                                                   && strcmp(range->name, "K_y-/K_y") != 0)))
+        if (ss_key_is_own(range->offset)
+            && (has_terms || ss_key_of_field(s->model, range->offset)->required != TERM))
             ss_range_set(range, s, draw_within(r, range));
+    if (has_terms && ss_key_named(s->model, "friction_negative") != NULL) {
+        s->friction_negative = perhaps(r, .3, 3, 0) * s->friction;
+        s->static_friction_negative = perhaps(r, 1, 10, 0) * fmax(s->friction, s->friction_negative);
+    }
 }
 
 /* The fastest motion of the scene, in units of its own frequency. */
@@ -60,7 +67,7 @@ random_scene(uint64_t number)
     rng r = { number * UINT64_C(0xd1342543de82ef95) + 1 };
     ss_scene s = ss_scene_defaults;
     double omega = 2 * M_PI * draw(&r, "omega_n/(2 pi)"), X = draw(&r, "X");
-    size_t models = 0, first = number < RANDOM_NEWER ? 0 : RANDOM_OLDER;
+    size_t models = 0, first = number < RANDOM_NEWER ? 0 : RANDOM_OLDER - 1;
     while (ss_model_at(first + models) != NULL && (first > 0 || models < RANDOM_OLDER))
         models++;
     s.model = ss_model_at(first + (size_t)((double)models * uniform(&r)));
@@ -81,7 +88,7 @@ random_scene(uint64_t number)
         s.v0 *= X / largest;
     }
     s.friction = draw(&r, "f_k/(k X)") * s.stiffness * X;
-    draw_own(&r, &s);
+    draw_own(&r, &s, number >= RANDOM_NEWER);
     double fastest = fastest_of(&s);
     /* ten of the slowest periods, or RANDOM_STEPS of the longest steps if that is less */
     double slow = base > 0 ? fmin(1, base) : 1;

@@ -37,8 +37,8 @@ perhaps(rng *r, double from, double to, int is_signed)
 
 enum { RIG_PERIODS = 30, RIG_SAMPLES = 300 };
 
-/* Scenes from this number on are of the models behind the first RANDOM_OLDER of the list, those before it of
- * these: some were measured, and are known by their numbers. */
+/* Scenes before this number are of the first RANDOM_OLDER models of the list, without terms: some were measured,
+ * and are known by their numbers.  Those from it on have terms, and are of the last of these and all behind it. */
 enum { RANDOM_NEWER = 1000000, RANDOM_OLDER = 4 };
 /* A scene of any of these models, within the ranges of the model. */
 ss_scene random_scene(uint64_t number);

@@ -49,6 +49,13 @@ has_closed_form(const ss_scene *scene)
 }
 
 static int
+has_series(const ss_scene *scene)
+{
+    const ss_model *model = scene->model;
+    return model->series != NULL && (model->analytic == NULL || model->analytic(scene));
+}
+
+static int
 is_stiff(const ss_scene *scene)
 {
     const ss_model *model = scene->model;
@@ -63,7 +70,7 @@ ss_method_for(const ss_scene *scene, wish wanted)
         return &list[EXACT];
     if (is_stiff(scene))
         return &list[BSIMP];
-    return &list[!model->linear && model->series != NULL ? TAYLOR : RK8PD];
+    return &list[!model->linear && has_series(scene) ? TAYLOR : RK8PD];
 }
 
 const char *
@@ -99,9 +106,10 @@ ss_method_named(const struct method **how, const char *name, const ss_scene *sce
         return ss_fail(err, SS_EINVAL, "unknown method '%.32s'", name);
     method_kind kind = list[i].kind;
     const char *lacks = kind == CLOSED_FORM && !model->linear ? "closed form"
-        : kind == SERIES && model->series == NULL ? "series" : NULL;
+        : kind == SERIES && !has_series(scene) ? "series" : NULL;
     if (lacks != NULL)
-        return ss_fail(err, SS_EINVAL, "method %s: the %s model has no %s", name, model->name, lacks);
+        return ss_fail(err, SS_EINVAL, "method %s: %s %s model has no %s", name,
+                       kind == SERIES && model->series != NULL ? "with this exponent the" : "the", model->name, lacks);
     if (kind == CLOSED_FORM && scene->base != NULL)
         return ss_fail(err, SS_EINVAL, "method %s: a measured base has no closed form", name);
     if (kind == MULTISTEP && model->next != NULL && model->derivatives == NULL)

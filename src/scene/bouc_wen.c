@@ -5,6 +5,7 @@
  * The state is the deflection y = z f_k / K.  There is no event; the law has kinks at v = 0 and at y = 0, so a
  * mode is a sign of v and a side of y.  With a gap b, the sides are y > b, |y| <= b, where y follows the mass
  * without a force, and y < -b; then z = (y -+ b) K / f_k. */
+#include <string.h>
 #include "scene/models.h"
 
 enum { STIFFNESS, EXPONENT, FRACTION, GAP };    /* K, n, p, b */
@@ -21,7 +22,7 @@ static const vanishing vanishing_terms[] = {
 };
 
 static const ss_scene_range ranges[] = {
-    { "K/k", "1", 1e-1, 1e5, 0, OWN_AT(STIFFNESS), ss_unit_stiffness },
+    { "K X/f_k", "1", 1e-1, 1e4, 0, OWN_AT(STIFFNESS), ss_unit_contact },
     { "n", "1", 0.5, 20, 0, OWN_AT(EXPONENT), ss_unit_one },
     { "p", "1", 0.5, 1, 0, OWN_AT(FRACTION), ss_unit_one },
     { "b/X", "1", 1e-3, 1, 1, OWN_AT(GAP), ss_unit_length },
@@ -84,6 +85,41 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
         dfdq[i] = row[i];
     dfdt[0] = dfdt[2] = 0;
     dfdt[1] = base_force_rate(m, u) / s->mass;
+}
+
+/* |z|^n is a product of series if n is a whole number. */
+enum { MOST_POWER = 20 };
+
+static int
+analytic(const ss_scene *s)
+{
+    return s->own[EXPONENT] <= MOST_POWER && s->own[EXPONENT] == floor(s->own[EXPONENT]);
+}
+
+static void
+series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
+{
+    enum { N = MOST_SERIES + 1 };
+    const ss_scene *s = m->scene;
+    const int side = m->side, power = (int)s->own[EXPONENT];
+    double force[N], v[N], yields[N], pow_z[MOST_POWER + 1][N];
+    double per_y = side != 0 && s->friction > 0 ? side * s->own[STIFFNESS] / s->friction : 0;
+    double p = s->own[FRACTION], factor = per_y != 0 ? 1 - p + p * m->mode * side : 0;
+    base_force_series(m, step, order, force);
+    memcpy(c[0], m->q, sizeof m->q);
+    for (int n = 0; n < order; n++) {
+        v[n] = c[n][1];
+        pow_z[1][n] = per_y * (c[n][2] - (n == 0 ? side * s->own[GAP] : 0));
+        for (int i = 2; i <= power && factor != 0; i++)
+            pow_z[i][n] = product_term(pow_z[i / 2], pow_z[i - i / 2], n);
+        yields[n] = (n == 0 && s->friction > 0) - (factor != 0 ? factor * pow_z[power][n] : 0);
+        double a = (force[n] - s->stiffness * c[n][0] - s->damping * v[n]
+                    - s->friction * side * pow_z[1][n]) / s->mass;
+        c[n][MAX_DIM] = a;
+        c[n + 1][0] = step[n] * v[n];
+        c[n + 1][1] = step[n] * a;
+        c[n + 1][2] = step[n] * product_term(v, yields, n);
+    }
 }
 
 static void
@@ -183,6 +219,12 @@ drive(const ss_scene *s, double *memory, const piece *p, double part[])
     part[1] = s->friction * fmin(z, 0);
 }
 
+static void
+limit(ss_scene *s)
+{
+    ss_to_compliant(s, s->own[STIFFNESS], s->own[GAP]);
+}
+
 MODEL(bouc_wen) = {
     .name = "bouc-wen",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
@@ -190,8 +232,9 @@ MODEL(bouc_wen) = {
     .parameter = { { .offset = OWN_AT(STIFFNESS), .by_mass = 1 } },
     .n_parameters = 1,
     .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,
-    .limit = ss_to_coulomb, .dim = 3, .kinks = 1, .force_varies = IN_STICK | IN_SLIP,
-    .start = start, .fastest = fastest, .rates = rates, .jacobian = jacobian, .next = next,
+    .limit = limit, .dim = 3, .kinks = 1, .force_varies = IN_STICK | IN_SLIP,
+    .start = start, .fastest = fastest, .rates = rates, .jacobian = jacobian, .series = series,
+    .analytic = analytic, .next = next,
     .sample = sample, .memory = memory, .variation = &ss_kink_variation,
     .drive = drive
 };

@@ -10,6 +10,7 @@
  *
  * The state in a microstick is q, not x: in a stiff contact Y_m is far smaller than x, and x - X_s
  * would lose most of its digits. */
+#include <string.h>
 #include "scene/models.h"
 
 enum { STIFFNESS, DAMPING, RELEASE, GAP, NEGATIVE };    /* K_y, c, the force that ends a microstick, b, K_y of y < 0 */
@@ -340,6 +341,15 @@ drive(const ss_scene *s, double *memory, const piece *p, double part[])
     *memory = fmax(-down, fmin(*memory + p->dx, up));
     part[0] = stiffness_of(s, 1) * fmax(*memory - b, 0);
     part[1] = stiffness_of(s, -1) * fmin(*memory + b, 0);
+}
+
+void
+ss_to_compliant(ss_scene *scene, double stiffness, double gap)
+{
+    scene->model = &ss_compliant_model;
+    memset(scene->own, 0, sizeof scene->own);
+    scene->own[STIFFNESS] = stiffness;
+    scene->own[GAP] = gap;
 }
 
 MODEL(compliant) = {

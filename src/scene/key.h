@@ -5,7 +5,8 @@
 #include <stddef.h>
 #include <stickslip/scene.h>
 
-enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE, RATE, FROM_HALF, HALF_TO_ONE };  /* ranges of numbers; all are finite */
+/* ranges of numbers; all are finite */
+enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE, RATE, FROM_HALF, HALF_TO_ONE, FROM_ONE };
 enum { ANY_TEXT, PATH };                           /* of texts; a PATH does not leave its folder */
 /* TERM: a term of the equation of motion that most scenes do not have; it is 0 if the key is left
  * out, and a scene is then written without it.  FORCING: either all these keys are left out, or
@@ -98,7 +99,8 @@ const ss_scene_range *ss_model_range(const ss_model *model, size_t i);
 double ss_range_value(const ss_scene_range *range, const ss_scene *scene);      /* NaN where it has no meaning */
 /* Change the model's own number of which this is the range so that the value is x; 0: there is none. */
 int ss_range_set(const ss_scene_range *range, ss_scene *scene, double x);
-/* Units of numbers: 1, k, omega_n X. */
+/* Units of numbers: 1, k, f_k / X, X, omega_n X, 2 sqrt(k m). */
+double ss_unit_contact(const ss_scene *scene);
 double ss_unit_one(const ss_scene *scene);
 double ss_unit_stiffness(const ss_scene *scene);
 double ss_unit_length(const ss_scene *scene);

@@ -4,6 +4,7 @@
  *
  * There is no stick and no event.  |v| has a kink at v = 0, so modes are the signs of v, and the law is
  * smooth within each.  Without friction there are no bristles: z stays 0. */
+#include <string.h>
 #include "scene/models.h"
 
 enum { STIFFNESS, DAMPING, VISCOUS, SPEED };    /* sigma_0, sigma_1, sigma_2, v_s */
@@ -28,7 +29,7 @@ critical(const ss_scene *s)
 }
 
 static const ss_scene_range ranges[] = {
-    { "sigma_0/k", "1", 1, 1e5, 0, OWN_AT(STIFFNESS), ss_unit_stiffness },
+    { "sigma_0 X/f_k", "1", 1, 1e5, 0, OWN_AT(STIFFNESS), ss_unit_contact },
     { "sigma_1/(2 sqrt((k + sigma_0) m))", "1", 1e-3, 1, 1, OWN_AT(DAMPING), critical },
     { "sigma_2/(2 sqrt(k m))", "1", 1e-3, 1, 1, OWN_AT(VISCOUS), ss_unit_damping },
     { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, OWN_AT(SPEED), ss_unit_speed },
@@ -102,6 +103,44 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
     dfdt[1] = base_force_rate(m, u) / s->mass;
 }
 
+static void
+series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
+{
+    enum { N = MOST_SERIES + 1 };
+    const ss_scene *s = m->scene;
+    double fall = static_friction(s) - s->friction, force_of_base[N], v[N], z[N], u[N], e[N], g[N], rate[N];
+    base_force_series(m, step, order, force_of_base);
+    memcpy(c[0], m->q, sizeof m->q);
+    for (int n = 0; n < order; n++) {
+        v[n] = c[n][1];
+        z[n] = c[n][2];
+        u[n] = product_term(v, v, n) / (s->own[SPEED] * s->own[SPEED]);
+        e[n] = n == 0 ? exp(-u[0]) : next_of_exp(u, e, n);
+        g[n] = fall * e[n] + (n == 0 ? s->friction : 0);
+        rate[n] = m->mode * s->own[STIFFNESS] * v[n];
+        if (n > 0)
+            rate[n] -= inner_products(g, rate, n) + g[n] * rate[0];
+        rate[n] = g[0] > 0 ? rate[n] / g[0] : 0;
+        double by_time = static_friction(s) > 0 ? v[n] - product_term(rate, z, n) : 0;
+        double a = (force_of_base[n] - s->stiffness * c[n][0] - s->damping * v[n]
+                    - force(s, v[n], z[n], by_time)) / s->mass;
+        c[n][MAX_DIM] = a;
+        c[n + 1][0] = step[n] * v[n];
+        c[n + 1][1] = step[n] * a;
+        c[n + 1][2] = step[n] * by_time;
+    }
+}
+
+/* In a step v may change by this part of itself and v_s: behind the Stribeck range the terms of exp(-(v/v_s)^2)
+ * do not show it. */
+#define WAY_TO_FALL 0.4
+
+static double
+reach(const state *m, double c[][SERIES_PARTS], double step)
+{
+    return step_within(c, step, WAY_TO_FALL * (fabs(m->q[1]) + m->scene->own[SPEED]));
+}
+
 static double
 sight(const state *m, const double dqdt[])
 {
@@ -154,7 +193,7 @@ MODEL(lugre) = {
     .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,
     .limit = ss_to_coulomb, .dim = 3, .kinks = 1, .force_varies = IN_STICK | IN_SLIP,
     .start = ss_kink_start, .fastest = fastest, .sight = sight,
-    .rates = rates, .jacobian = jacobian, .next = ss_kink_next,
+    .rates = rates, .jacobian = jacobian, .series = series, .reach = reach, .next = ss_kink_next,
     .sample = sample, .memory = memory, .variation = &ss_kink_variation,
     .drive = drive
 };

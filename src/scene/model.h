@@ -159,8 +159,10 @@ struct ss_model {
      * MOST_SERIES, and those of v', the last part, up to one order less; step[n] = unit / (n + 1).
      * Parts that the model does not have are not written.  NULL if the model has no recurrence. */
     void (*series)(const state *m, const double step[], int order, double c[][SERIES_PARTS]);
+    /* Returns 0 if the law of this scene has no such series; NULL if every scene's has. */
+    int (*analytic)(const ss_scene *scene);
     /* The Taylor coefficients, along the series c and up to the same order, of the derivative of the
-     * state's last rate of change by v.  NULL if this derivative is constant in a mode. */
+     * state's last rate of change by v.  NULL if this derivative is constant in a mode, or the law has kinks. */
     void (*slope)(const state *m, const double step[], int order, double c[][SERIES_PARTS],
                   double slope[]);
     /* Shorten a step [unit] to the range in which these coefficients describe the motion: beyond a
@@ -190,6 +192,7 @@ struct ss_model {
     void (*drive)(const ss_scene *scene, double *memory, const piece *p, double part[DRIVEN_PARTS]);
 };
 
+void ss_to_compliant(ss_scene *scene, double stiffness, double gap);    /* compliant.c: an undamped contact */
 void ss_to_coulomb(ss_scene *scene);                 /* coulomb.c: the limit of most models */
 
 static inline double
@@ -395,6 +398,37 @@ inner_products(const double a[], const double b[], int n)
     for (; j > 0; j--, i++)
         sum += a[j] * b[i] + a[i] * b[j];
     return sum;
+}
+
+/* The coefficient of order n of the product of two series. */
+static inline double
+product_term(const double a[], const double b[], int n)
+{
+    return n == 0 ? a[0] * b[0] : a[0] * b[n] + inner_products(a, b, n) + a[n] * b[0];
+}
+
+/* The coefficient of order n > 0 of exp(-u), from those of lower order. */
+static inline double
+next_of_exp(const double u[], const double e[], int n)
+{
+    double sum = 0;
+    for (int k = 1; k <= n; k++)
+        sum += k * u[k] * e[n - k];
+    return -sum / n;
+}
+
+/* The longest step of at most this length in which v changes by no more than `most`. */
+static inline double
+step_within(double c[][SERIES_PARTS], double step, double most)
+{
+    enum { TERMS = 6 };
+    double way = INFINITY;
+    for (; way > most; step *= 0.9) {
+        way = 0;
+        for (int n = TERMS; n > 0; n--)
+            way = (way + fabs(c[n][1])) * step;
+    }
+    return step / 0.9;
 }
 
 /* --- linear.c: functions that Coulomb and compliant contact share ------------------------------- */

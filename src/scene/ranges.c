@@ -33,6 +33,13 @@ ss_unit_speed(const ss_scene *s)
 }
 
 double
+ss_unit_contact(const ss_scene *s)
+{
+    double X = amplitude_of(s);
+    return X > 0 && s->friction > 0 ? s->friction / X : s->stiffness;
+}
+
+double
 ss_unit_damping(const ss_scene *s)
 {
     return 2 * sqrt(s->stiffness) * sqrt(s->mass);

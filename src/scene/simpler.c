@@ -20,16 +20,6 @@ vanishes(ss_scene *scene, size_t offset)
     return there;
 }
 
-static int
-reaches_limit(ss_scene *scene)
-{
-    const ss_model *model = scene->model;
-    if (model->limit == NULL)
-        return 0;
-    model->limit(scene);
-    return 1;
-}
-
 /* Apply simplification i to *scene, and return its name: "" if it changes nothing in this scene, NULL
  * after the last. */
 static const char *
@@ -42,11 +32,13 @@ step(ss_scene *scene, size_t i)
     if (i < model->n_vanishing)
         return vanishes(scene, model->vanishing[i].offset) ? model->vanishing[i].name : "";
     i -= model->n_vanishing;
-    if (i == 0)
-        return reaches_limit(scene) ? ss_model_name(scene->model) : "";
-    if (i > 1)
+    for (; scene->model->limit != NULL; i--) {
+        scene->model->limit(scene);
+        if (i == 0)
+            return ss_model_name(scene->model);
+    }
+    if (i > 0)
         return NULL;
-    reaches_limit(scene);
     scene->static_friction = scene->friction_negative = scene->static_friction_negative = 0;
     return vanishes(scene, offsetof(ss_scene, friction)) ? "friction=0" : "";
 }

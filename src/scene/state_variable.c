@@ -243,14 +243,7 @@ slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], 
 static double
 reach(const state *m, double c[][SERIES_PARTS], double step)
 {
-    enum { TERMS = 6 };
-    double most = WAY_TO_POLE * (fabs(m->q[1]) + M_PI / 2 / m->scene->own[ALPHA]), way = INFINITY;
-    for (; way > most; step *= 0.9) {
-        way = 0;
-        for (int n = TERMS; n > 0; n--)
-            way = (way + fabs(c[n][1])) * step;
-    }
-    return step / 0.9;
+    return step_within(c, step, WAY_TO_POLE * (fabs(m->q[1]) + M_PI / 2 / m->scene->own[ALPHA]));
 }
 
 static void

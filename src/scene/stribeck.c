@@ -1,23 +1,45 @@
-/* stribeck.c -- friction that falls with speed, f = sgn(v) (f_k + (f_s - f_k) / (1 + |v| / v_s)) in
- * slip; true stick (stick.c). */
+/* stribeck.c -- friction that falls with speed, in slip; true stick (stick.c):
+ * f = sgn(v) (f_k + (f_s - f_k) p(u)), u = |v / v_s|^delta, p = 1 / (1 + u) or exp(-u). */
 #include "scene/models.h"
 
-enum { SPEED };                 /* v_s */
+enum { SPEED, EXPONENT, SHAPE };        /* v_s; delta, 0: it is 1; p */
+enum { HYPERBOLIC, EXPONENTIAL };
+
+static const char *
+shape_word(size_t i)
+{
+    static const char *const word[] = { [HYPERBOLIC] = "hyperbolic", [EXPONENTIAL] = "exponential", NULL };
+    return word[i];
+}
 
 static const scene_key keys[] = {
     KEY_STATIC_FRICTION, KEYS_FRICTION_NEGATIVE,
     OWN_NUMBER("stribeck_velocity", SPEED, REQUIRED, POSITIVE, "m/s"),
+    { "stribeck_shape", TERM, ANY_NUMBER, OWN_AT(SHAPE), "", 0, shape_word },
+    OWN_NUMBER("stribeck_exponent", EXPONENT, TERM, FROM_ONE, "1"),
 };
 
 static const ss_scene_range ranges[] = {
+    { "delta", "1", 1, 4, 1, OWN_AT(EXPONENT), ss_unit_one },
     { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, OWN_AT(SPEED), ss_unit_speed },
 };
 
-/* The part of f_s - f_k that remains at v. */
 static double
-part_at(const ss_scene *s, double v)
+exponent(const ss_scene *s)
 {
-    return s->own[SPEED] / (s->own[SPEED] + fabs(v));
+    return s->own[EXPONENT] > 0 ? s->own[EXPONENT] : 1;
+}
+
+/* The part of f_s - f_k that remains at v; *fall becomes its derivative by |v|, with the sign changed. */
+static double
+part_at(const ss_scene *s, double v, double *fall)
+{
+    double delta = exponent(s), v_s = s->own[SPEED], w = fabs(v) / v_s;
+    double below = delta == 1 ? 1 : pow(w, delta - 1);          /* w^(delta - 1) */
+    int is_exponential = s->own[SHAPE] == EXPONENTIAL;
+    double part = is_exponential ? exp(-w * below) : delta == 1 ? v_s / (v_s + fabs(v)) : 1 / (1 + w * below);
+    *fall = (is_exponential ? part : part * part) * delta * below / v_s;
+    return part;
 }
 
 /* The friction in slip.  Its direction is that of the mode even where a step goes past v = 0, the end of
@@ -26,7 +48,8 @@ static double
 friction_at(const state *m, double v)
 {
     const ss_scene *s = m->scene;
-    return m->mode * (s->friction + (static_friction(s) - s->friction) * part_at(s, v));
+    double slope, f_k = kinetic_friction(s, m->mode);
+    return m->mode * (f_k + (holding_friction(s, m->mode) - f_k) * part_at(s, v, &slope));
 }
 
 /* The derivative of the friction by v. */
@@ -34,15 +57,17 @@ static double
 slope_at(const state *m, double v)
 {
     const ss_scene *s = m->scene;
-    double part = part_at(s, v), fall = static_friction(s) - s->friction;
-    return -m->mode * sign(v) * fall * part * part / s->own[SPEED];
+    double fall, drop = holding_friction(s, m->mode) - kinetic_friction(s, m->mode);
+    part_at(s, v, &fall);
+    return -m->mode * sign(v) * drop * fall;
 }
 
 /* The rate at which v grows where the friction falls with speed. */
 static double
 quickest(const ss_scene *s)
 {
-    return (static_friction(s) - s->friction) / s->own[SPEED] / s->mass + own_frequency(s);
+    double drop = fmax(holding_friction(s, 1) - s->friction, holding_friction(s, -1) - kinetic_friction(s, -1));
+    return exponent(s) * drop / s->own[SPEED] / s->mass + own_frequency(s);
 }
 
 static void
@@ -67,47 +92,77 @@ sight(const state *m, const double dqdt[])
                                               - (m->c + slope) * dqdt[1]) / m->scene->mass);
 }
 
-/* The coefficients of order n of p = 1 + |v| / v_s and of w = 1 / p, the part of f_s - f_k that remains. */
-static void
-next_fall(const state *m, const double c[], int n, double p[], double w[])
+/* u is a product of series if delta is 1 or 2. */
+static int
+analytic(const ss_scene *s)
 {
-    p[n] = m->mode / m->scene->own[SPEED] * c[1] + (n == 0);
-    w[n] = n == 0 ? 1 / p[0] : -w[0] * (w[0] * p[n] + inner_products(w, p, n));
+    return exponent(s) == 1 || exponent(s) == 2;
+}
+
+/* The coefficients of order n of w = |v| / v_s, of u and of p. */
+typedef struct fall {
+    double w[MOST_SERIES + 1], u[MOST_SERIES + 1], p[MOST_SERIES + 1];
+} fall;
+
+static void
+next_fall(const state *m, const double c[], int n, fall *f)
+{
+    const ss_scene *s = m->scene;
+    f->w[n] = m->mode / s->own[SPEED] * c[1];
+    f->u[n] = exponent(s) == 1 ? f->w[n] : product_term(f->w, f->w, n);
+    if (s->own[SHAPE] == EXPONENTIAL)
+        f->p[n] = n == 0 ? exp(-f->u[0]) : next_of_exp(f->u, f->p, n);
+    else
+        f->p[n] = n == 0 ? 1 / (1 + f->u[0]) : -f->p[0] * (f->p[0] * f->u[n] + inner_products(f->p, f->u, n));
 }
 
 static void
 series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
-    enum { N = MOST_SERIES + 1 };
     const ss_scene *s = m->scene;
-    double fall = m->mode * (static_friction(s) - s->friction), per_mass = 1 / s->mass;
-    double force[N], w[N], p[N];
+    double drop = m->mode * (holding_friction(s, m->mode) - kinetic_friction(s, m->mode)), per_mass = 1 / s->mass;
+    double force[MOST_SERIES + 1];
+    fall f;
     base_force_series(m, step, order, force);
     force[0] -= m->f0;
     c[0][0] = m->q[0];
     c[0][1] = m->q[1];
     for (int n = 0; n < order; n++) {
-        next_fall(m, c[n], n, p, w);
+        next_fall(m, c[n], n, &f);
         c[n + 1][0] = step[n] * c[n][1];
-        double a = per_mass * (force[n] - fall * w[n] - m->k * c[n][0] - m->c * c[n][1]);
+        double a = per_mass * (force[n] - drop * f.p[n] - m->k * c[n][0] - m->c * c[n][1]);
         c[n + 1][1] = step[n] * a;
         c[n][MAX_DIM] = a;
     }
 }
 
-/* The derivative of f by v is -(f_s - f_k) w^2 / v_s. */
+/* The derivative of f by v is -(f_s - f_k) p^2 u' / v_s, or p in place of p^2, with u' = 1 or 2 w. */
 static void
 slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], double out[])
 {
-    enum { N = MOST_SERIES + 1 };
     const ss_scene *s = m->scene;
-    double factor = (static_friction(s) - s->friction) / s->own[SPEED] / s->mass, w[N], p[N];
+    double drop = holding_friction(s, m->mode) - kinetic_friction(s, m->mode), factor = drop / s->own[SPEED] / s->mass;
+    double part[MOST_SERIES + 1];
+    fall f;
     (void)step;
     for (int n = 0; n <= order; n++) {
-        next_fall(m, c[n], n, p, w);
-        out[n] = factor * (n == 0 ? w[0] * w[0] : inner_products(w, w, n) + 2 * w[0] * w[n]);
+        next_fall(m, c[n], n, &f);
+        part[n] = s->own[SHAPE] == EXPONENTIAL ? f.p[n] : product_term(f.p, f.p, n);
+        out[n] = factor * (exponent(s) == 1 ? part[n] : 2 * product_term(part, f.w, n));
     }
     out[0] -= m->c / s->mass;
+}
+
+/* In a step v may change by this part of itself and v_s, as in lugre.c; the first shape needs no such limit. */
+#define WAY_TO_FALL 0.4
+
+static double
+reach(const state *m, double c[][SERIES_PARTS], double step)
+{
+    const ss_scene *s = m->scene;
+    if (exponent(s) == 1 && s->own[SHAPE] == HYPERBOLIC)
+        return step;
+    return step_within(c, step, WAY_TO_FALL * (fabs(m->q[1]) + s->own[SPEED]));
 }
 
 static void
@@ -122,8 +177,9 @@ static void
 drive(const ss_scene *s, double *memory, const piece *p, double part[])
 {
     const double way = direction_of(memory, p);
-    part[0] = way * s->friction;
-    part[1] = way * (static_friction(s) - s->friction) * part_at(s, p->v);
+    double f_k = kinetic_friction(s, (int)way), slope;
+    part[0] = way * f_k;
+    part[1] = way * (holding_friction(s, (int)way) - f_k) * part_at(s, p->v, &slope);
 }
 
 MODEL(stribeck) = {
@@ -134,7 +190,8 @@ MODEL(stribeck) = {
     .n_parameters = 1,
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight,
-    .rates = rates, .jacobian = jacobian, .series = series, .slope = slope,
+    .rates = rates, .jacobian = jacobian, .series = series, .slope = slope, .reach = reach,
+    .analytic = analytic,
     .still = ss_stick_still, .next = ss_stick_next, .sample = sample, .variation = &ss_stick_variation,
     .drive = drive
 };

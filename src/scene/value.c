@@ -21,6 +21,8 @@ in_range(const scene_key *k, double x)
 {
     if (k->range == RATE)
         return x >= RATE_MIN && x <= RATE_MAX;
+    if (k->range == FROM_ONE)
+        return isfinite(x) && x >= 1;
     if (k->range == FROM_HALF || k->range == HALF_TO_ONE)
         return isfinite(x) && x >= .5 && (x <= 1 || k->range == FROM_HALF);
     return isfinite(x) && (k->range == ANY_NUMBER || x > 0 || (k->range == NOT_NEGATIVE && x == 0));
@@ -31,7 +33,7 @@ out_of_range(char wrong[WRONG_ROOM], const scene_key *k, const char *value)
 {
     static const char *const range[] = {
         [ANY_NUMBER] = "finite", [NOT_NEGATIVE] = ">= 0", [POSITIVE] = "> 0", [RATE] = ("in " RATE_RANGE),
-        [FROM_HALF] = ">= .5", [HALF_TO_ONE] = "in .5 ... 1",
+        [FROM_HALF] = ">= .5", [HALF_TO_ONE] = "in .5 ... 1", [FROM_ONE] = ">= 1",
     };
     snprintf(wrong, WRONG_ROOM, "%s = %.64s is out of range, it must be %s", k->name, value, range[k->range]);
     return 0;

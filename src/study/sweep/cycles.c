@@ -334,7 +334,7 @@ ss_cycles_derive(cycles *c, int n, derivative_use use, tangent *t)
         ss_cycles_go(c, n, NULL);
         return;
     }
-    if (c->w.e->type->response == NULL) {
+    if (c->w.e->type->response == NULL || m->model->kinks) {
         differences(c, n, use, t);
         return;
     }
