@@ -15,7 +15,7 @@
 #include "base/list.h"
 #include "base/options.h"
 
-enum { RICH = 32, PARTS = 8, FEW = 3, LEVELS = 20, REFITS = 3 };         /* samples a period that are enough; parts in which a line is looked
+enum { RICH = 32, PARTS = 8, FEW = 3, LEVELS = 20, REFITS = 3, SOME = 1024 };         /* samples a period that are enough; parts in which a line is looked
                                                    at; blocks that are a decay */
 #define LONG 12.0               /* periods of a block, where noise wants it long */
 #define NEPER 0.11512925464970229       /* a decibel */
@@ -341,8 +341,11 @@ add_line(decay *d, int *found)
         if (power[k] > power[k - 1] && power[k] > power[k + 1] && power[k] > power[best] && !is_known(d, (double)k * unit, n))
             best = k;
     double w = (double)best * unit, peak = power[best];
-    qsort(power, size / 2, sizeof *power, ascending);
-    if (peak > OUTSTANDING * power[size / 4]) {
+    size_t some = size / 2 < SOME ? size / 2 : SOME;        /* of the terms tell what is usual */
+    for (size_t i = 0; i < some; i++)
+        power[i] = power[i * (size / 2 / some)];
+    qsort(power, some, sizeof *power, ascending);
+    if (peak > OUTSTANDING * power[some / 2]) {
         *found = 1;
         d->beside.s[d->beside.n] = line_decay(&w, left, n);
         d->beside.w[d->beside.n++] = w;

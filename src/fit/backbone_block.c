@@ -11,7 +11,7 @@
 #include <string.h>
 #include "base/versions.h"
 
-enum { COLUMNS = 16, STEPS = 8 };       /* with x, which comes last */
+enum { ROOM = 17, AT_ONCE = 64, LANES = 8, STEPS = 8 };         /* ROOM: columns, with x, which comes last */
 
 /* The columns of a block, one after the other, as factors that turn by themselves. */
 typedef struct turner {
@@ -25,50 +25,74 @@ turner_at(bend at, double t)
     return (turner){ cexp(rate * t + change * t * t / 2), cexp(rate + change * (t + .5)), cexp(change) };
 }
 
+/* Finite factors need not ask for the infinities that C's own product looks after. */
+static inline double complex
+times(double complex a, double complex b)
+{
+    return CMPLX(creal(a) * creal(b) - cimag(a) * cimag(b), creal(a) * cimag(b) + cimag(a) * creal(b));
+}
+
 static inline double complex
 turned(turner *g)
 {
     double complex now = g->now;
-    g->now *= g->turn;
-    g->turn *= g->bend;
+    g->now = times(g->now, g->turn);
+    g->turn = times(g->turn, g->bend);
     return now;
 }
 
-/* Add the products of the columns of each sample to the normal matrix, of which the lower half is used. */
-FAST static size_t
-add_up(double sum[COLUMNS + 1][COLUMNS + 1], size_t m, const double *x, size_t first, size_t end, bend at,
-       size_t harmonics, const lines *beside)
+/* Add the products of AT_ONCE samples of the columns to the lower half of the normal matrix.  Lanes let the machine
+ * multiply several at a time. */
+VERSIONS static void
+add_products(double sum[ROOM][ROOM], double column[ROOM][AT_ONCE], size_t m)
 {
-    double middle = (double)(first + end - 1) / 2, half = (double)(end - first) / 2, row[COLUMNS + 1] = { 0 };
-    turner g = turner_at(at, (double)first - middle), pure, line[LINES_MAX];
-    size_t n = 0;
-    at.s = at.ds = 0;
-    pure = turner_at(at, (double)first - middle);
+    for (size_t i = 0; i <= m; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double lane[LANES] = { 0 };
+            for (size_t k = 0; k < AT_ONCE; k += LANES)
+                for (size_t l = 0; l < LANES; l++)
+                    lane[l] += column[i][k + l] * column[j][k + l];
+            for (size_t l = 0; l < LANES; l++)
+                sum[i][j] += lane[l];
+        }
+}
+
+/* Add samples first ... end - 1; returns how many are there. */
+static size_t
+add_up(double sum[ROOM][ROOM], size_t m, const double *x, size_t first, size_t end, bend at, size_t harmonics,
+       const lines *beside)
+{
+    double middle = (double)(first + end - 1) / 2, half = (double)(end - first) / 2, column[ROOM][AT_ONCE];
+    turner g = turner_at(at, (double)first - middle), line[LINES_MAX];
+    turner pure = turner_at((bend){ 0, at.w, 0, at.dw }, (double)first - middle);
+    size_t n = 0, kept = 0;
     for (size_t i = 0; i < beside->n; i++)
         line[i] = turner_at((bend){ beside->s[i], beside->w[i], 0, 0 }, (double)first - middle);
     for (size_t k = first; k < end; k++) {
         double complex z = turned(&g), h = turned(&pure), power = h;
         double u = ((double)k - middle) / half;
-        size_t c = 6;
-        row[0] = creal(z), row[1] = -cimag(z), row[2] = u * row[0], row[3] = u * row[1];
-        row[4] = 1, row[5] = u;
+        size_t c = 4;
+        column[0][kept] = creal(z), column[1][kept] = -cimag(z);
+        column[2][kept] = u * creal(z), column[3][kept] = -u * cimag(z);
+        column[c++][kept] = 1, column[c++][kept] = u;
         for (size_t i = 0; i < harmonics; i++) {
-            power *= h;
-            row[c++] = creal(power);
-            row[c++] = cimag(power);
+            power = times(power, h);
+            column[c++][kept] = creal(power), column[c++][kept] = cimag(power);
         }
         for (size_t i = 0; i < beside->n; i++) {
             double complex l = turned(&line[i]);
-            row[c++] = creal(l);
-            row[c++] = cimag(l);
+            column[c++][kept] = creal(l), column[c++][kept] = cimag(l);
         }
-        if (isnan(x[k]))
-            continue;
-        row[c] = x[k];
-        for (size_t i = 0; i <= m; i++)
-            for (size_t j = 0; j <= i; j++)
-                sum[i][j] += row[i] * row[j];
-        n++;
+        column[c][kept] = x[k];
+        kept += !isnan(x[k]);
+        n += !isnan(x[k]);
+        if (k + 1 == end)
+            for (size_t i = 0; i <= m; i++)
+                memset(&column[i][kept], 0, (AT_ONCE - kept) * sizeof **column);
+        if (k + 1 == end || kept == AT_ONCE) {
+            add_products(sum, column, m);
+            kept = 0;
+        }
     }
     return n;
 }
@@ -76,9 +100,9 @@ add_up(double sum[COLUMNS + 1][COLUMNS + 1], size_t m, const double *x, size_t f
 /* Gauss's and Jordan's sweep of the first m rows of a symmetric matrix: the inverse there, the coefficients in the
  * last row, and what is left at its end.  A column that the others explain to 1e-10 gets none. */
 static void
-sweep(double a[COLUMNS + 1][COLUMNS + 1], size_t m)
+sweep(double a[ROOM][ROOM], size_t m)
 {
-    double whole[COLUMNS + 1];
+    double whole[ROOM];
     for (size_t i = 0; i <= m; i++)
         whole[i] = a[i][i];
     for (size_t i = 0; i <= m; i++)
@@ -100,7 +124,7 @@ sweep(double a[COLUMNS + 1][COLUMNS + 1], size_t m)
 int
 ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, const lines *beside, int is_near)
 {
-    double a[COLUMNS + 1][COLUMNS + 1], half = (double)(end - first) / 2;
+    double a[ROOM][ROOM], half = (double)(end - first) / 2;
     for (int i = 0; i < STEPS; i++) {
         size_t harmonics = start.w * 3 < 3 ? 2 : start.w * 2 < 3 ? 1 : 0, m = 6 + 2 * (harmonics + beside->n);
         memset(a, 0, sizeof a);
@@ -133,7 +157,7 @@ ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, co
         start.w += cimag(step) * ease;
         if (!(start.w > 0) || start.w > 3)
             return 0;
-        if (far * far < 1e-4 * b->cov[LEVEL][2] * half * half * b->left / b->free || far < 1e-9)
+        if (far * far < .01 * b->cov[LEVEL][2] * half * half * b->left / b->free || far < 1e-9)
             return 1;
     }
     return 0;
