@@ -18,6 +18,8 @@
 enum { RICH = 32, PARTS = 8, FEW = 3, LEVELS = 20, REFITS = 3, SOME = 1024 };         /* samples a period that are enough; parts in which a line is looked
                                                    at; blocks that are a decay */
 #define LONG 12.0               /* periods of a block, where noise wants it long */
+#define HIT 3.0                 /* times what the blocks behind it leave: a blow is in the first
+                                   block */
 #define NEPER 0.11512925464970229       /* a decibel */
 #define FALL .35                /* of ln A in a block, at most */
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
@@ -224,6 +226,14 @@ follow(decay *d)
         }
         return SS_OK;
     }
+}
+
+/* 1: the first block leaves far more than the next, as the blow is in it. */
+static int
+is_hit(const decay *d)
+{
+    const block *b = d->block;
+    return d->n_blocks >= FEW && b[0].left / b[0].free > HIT * fmax(b[1].left / b[1].free, b[2].left / b[2].free);
 }
 
 /* The noise of each block, from those about it. */
@@ -470,6 +480,11 @@ find(decay *d, const double *x, size_t n, decay_source *source)
     for (int more = d->w > 0; st == SS_OK && more;) {
         more = 0;
         st = follow(d);
+        while (st == SS_OK && is_hit(d)) {
+            d->first += (size_t)ceil(M_PI / d->w);
+            d->start = "a blow before it";
+            st = follow(d);
+        }
         if (st == SS_OK && d->n_blocks >= FEW)
             st = settle(d);
         if (st == SS_OK && d->n_blocks >= FEW && d->beside.n < LINES_MAX)

@@ -212,7 +212,8 @@ run(score *s, ss_mechanism kind, double decibels, int condition)
     }
     s->records++;
     if (verbose)
-        printf("# %s %zu blocks, %.1f points a period, f %.6g, stop: %s, why %s\n", ss_mechanism_names[kind], b->n,
+        printf("# named %s chi2 %.2f, %s %zu blocks, %.1f points a period, f %.6g, stop: %s, why %s\n",
+               b->n_mechanisms == 1 ? ss_mechanism_names[b->mechanism[0]] : "none", b->chi2_dof, ss_mechanism_names[kind], b->n,
                per_period, (double)of.w / 2 / PI, b->stop, b->why ? b->why : "-");
     for (size_t i = 0; i < b->n; i++) {
         const ss_backbone_row *r = &b->row[i];
