@@ -383,6 +383,9 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_backbone_scene(NULL, &none_found, signal, 0, 1, NULL), NULL);
     assert_refused(ss_backbone_scene(&scene, NULL, signal, 0, 1, NULL), NULL);
     assert_refused(ss_backbone_scene(&scene, &none_found, NULL, 0, 1, NULL), NULL);
+    assert_refused(ss_plot_backbone(NULL, &none_found, signal, 0, NULL, NULL), NULL);
+    assert_refused(ss_plot_backbone(stdout, NULL, signal, 0, NULL, NULL), NULL);
+    assert_refused(ss_plot_backbone(stdout, &none_found, NULL, 0, NULL, NULL), NULL);
     ss_backbone_free(NULL);
     e.text[0] = '\0';
     assert_refused(ss_ranking_new(NULL, signal, 0, &scene, 1, NULL, &e), &e);

@@ -16,9 +16,26 @@ static const char usage[] =
 "      --envelope=db     the column is a level in dB, of a decay of --frequency\n"
 "      --frequency=HZ    of the level's decay\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE     .tsv or .csv, with --fit any name; --format=tsv|csv\n"
+"  -o, --output=FILE     .tsv, .csv, or a picture: .gp .png .svg .pdf .eps; with\n"
+"                        --fit any name\n"
+"      --format=tsv|csv  of standard output\n"
+"      --title=TEXT      of the picture\n"
+"      --style=NAME      of the picture: paper (default) or screen\n"
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
+
+typedef struct picture {
+    const ss_backbone *found;
+    const ss_signal *signal;
+    size_t column;
+} picture;
+
+static ss_status
+draw(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
+{
+    const picture *p = user;
+    return ss_plot_backbone(out, p->found, p->signal, p->column, opts, err);
+}
 
 int
 main(int argc, char *argv[])
@@ -32,14 +49,16 @@ main(int argc, char *argv[])
     ss_backbone_opts opts;
     ss_backbone *found = NULL;
     ss_scene scene;
+    ss_plot_opts plot;
     ss_error err = { 0 };
     ss_backbone_opts_init(&opts, sizeof opts);
+    ss_plot_opts_init(&plot, sizeof plot);
     const tool_option options[] = {
         TOOL_TEXT('c', "column", &column_name), TOOL_NUMBER(0, "mode", &opts.mode, frequencies),
         TOOL_NUMBER(0, "periods", &opts.periods, periods), TOOL_NUMBER(0, "mass", &opts.mass, positive),
         TOOL_FLAG(0, "fit", &fits), TOOL_CHOICE(0, "envelope", &envelope, envelopes),
         TOOL_NUMBER(0, "frequency", &opts.level_frequency, frequencies), TOOL_OUTPUT(&output),
-        TOOL_FORMAT_OF_WORDS(&kind) };
+        TOOL_FORMAT_OF_WORDS(&kind), TOOL_TEXT(0, "title", &plot.title), TOOL_STYLE(&plot.style) };
 
     tool_begin(argv, "ss-backbone", usage);
     int first = TOOL_PARSE(argc, argv, options, &reading);
@@ -51,7 +70,9 @@ main(int argc, char *argv[])
     if (fits)
         tool_writes(output);
     else
-        kind = tool_output_kind(output, TOOL_WORDS, kind);
+        kind = tool_output_kind(output, TOOL_WORDS | TOOL_PICTURES, kind);
+    if (!fits && kind < TOOL_STREAM)
+        tool_script_to(output);
     tool_reading_needs(&reading, &column_name, column_name != NULL);
     reading.opts.progress = (ss_progress){ tool_reading_progress, &reading };
     const char *path = tool_input(argc, argv, first);
@@ -66,6 +87,8 @@ main(int argc, char *argv[])
         tool_note("no decay: %s", found->why);
     if (fits)
         tool_check(ss_scene_write(&scene, tool_output(output), &err), &err);
+    else if (kind < TOOL_STREAM)
+        tool_draw(output, &plot, draw, &(picture){ found, signal, column });
     else
         tool_check(ss_backbone_write(found, signal, column, tool_output(output), tool_stream(kind), &err), &err);
     ss_backbone_free(found);

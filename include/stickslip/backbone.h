@@ -39,6 +39,7 @@ typedef struct ss_backbone_row {
     ss_value frequency;         /* [Hz] the undamped one, sqrt(w^2 + s^2) / (2 pi); of levels without error */
     ss_value damping_ratio;     /* s / sqrt(w^2 + s^2) */
     double periods;             /* of its block */
+    double named[2];            /* frequency [Hz] and damping ratio by the mechanism, if one is named; else NaN */
 } ss_backbone_row;
 
 enum { SS_MECHANISM_NUMBERS = 8 };  /* at most */

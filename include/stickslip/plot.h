@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 #include <stdio.h>
+#include <stickslip/backbone.h>
 #include <stickslip/status.h>
 #include <stickslip/signal.h>
 #include <stickslip/morlet.h>
@@ -140,6 +141,11 @@ ss_status ss_plot_map(FILE *out, const ss_table *table, const size_t column[], s
  * points if rows of the same x differ (a bifurcation diagram), else a line.  Words are as in ss_plot_map. */
 ss_status ss_plot_diagram(FILE *out, const ss_table *table, const size_t column[], size_t n,
                           const ss_plot_opts *opts, ss_error *err);
+
+/* Draw a free decay: its amplitude [dB] and blocks over time, and its frequency and damping ratio over amplitude, with
+ * errors; what is known by the mechanism's name dashed.  SS_EINVAL: there are no rows. */
+ss_status ss_plot_backbone(FILE *out, const ss_backbone *backbone, const ss_signal *signal, size_t column,
+                           const ss_plot_opts *opts, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

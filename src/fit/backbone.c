@@ -15,14 +15,16 @@
 #include "base/list.h"
 #include "base/options.h"
 
-enum { RICH = 32, PARTS = 8, FEW = 3, LEVELS = 20, REFITS = 3, SOME = 1024 };         /* samples a period that are enough; parts in which a line is looked
+enum { RICH = 32, PARTS = 8, FEW = 3, LEVELS = 20, REFITS = 3, SOME = 1024, HARMONICS = 9 };         /* samples a period that are enough; parts in which a line is looked
                                                    at; blocks that are a decay */
 #define LONG 12.0               /* periods of a block, where noise wants it long */
 #define HIT 3.0                 /* times what the blocks behind it leave: a blow is in the first
                                    block */
+#define SURE .02                 /* error of ln A below which a block alone is not biased */
 #define NEPER 0.11512925464970229       /* a decibel */
 #define FALL .35                /* of ln A in a block, at most */
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
+#define FAINT .01                /* of the last amplitude: a line below is let be */
 #define OUTSTANDING 60.0        /* times the median power: a line, as noise never is */
 
 typedef struct decay {
@@ -263,7 +265,8 @@ settle(decay *d)
             return SS_ENOMEM;
         for (size_t i = 0; pass + 1 < REFITS && i < d->n_blocks; i++) {
             block *b = &d->block[i], again;
-            if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside, 1)) {
+            if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside,
+                             b->cov[LEVEL][0] * b->noise > SURE * SURE)) {
                 again.at = b->at;
                 *b = again;
             }
@@ -291,14 +294,18 @@ leave(const decay *d, size_t *n)
     return left;
 }
 
-/* 1: a line at w may be the decay itself or its harmonics, or one that is known. */
+/* 1: a line at w may be the decay itself or a harmonic of it, or one that is known. */
 static int
 is_known(const decay *d, double w, size_t n)
 {
-    double of = d->block[d->n_blocks / 2].at.w, width = 12 / (double)n;
-    int known = fabs(w - of) < NEAR * of + width;
-    for (int h = 2; h <= 3; h++)
-        known |= fabs(w - h * of) < .03 * h * of + width;
+    double width = 12 / (double)n, lo = INFINITY, hi = 0;
+    int known = 0;
+    for (size_t i = 0; i < d->n_blocks; i++) {
+        lo = fmin(lo, d->block[i].at.w);
+        hi = fmax(hi, d->block[i].at.w);
+    }
+    for (int h = 1; h <= HARMONICS; h++)
+        known |= w > h * lo * (1 - (h == 1 ? NEAR : NEAR / 5)) - width && w < h * hi * (1 + (h == 1 ? NEAR : NEAR / 5)) + width;
     for (size_t i = 0; i < d->beside.n; i++)
         known |= fabs(w - d->beside.w[i]) < 4 * d->beside.s[i] + width;
     return known;
@@ -355,7 +362,8 @@ add_line(decay *d, int *found)
     for (size_t i = 0; i < some; i++)
         power[i] = power[i * (size / 2 / some)];
     qsort(power, some, sizeof *power, ascending);
-    if (peak > OUTSTANDING * power[some / 2]) {
+    double least = FAINT * exp(d->block[d->n_blocks - 1].level) * (double)n / 2;
+    if (peak > OUTSTANDING * power[some / 2] && peak > least * least) {
         *found = 1;
         d->beside.s[d->beside.n] = line_decay(&w, left, n);
         d->beside.w[d->beside.n++] = w;

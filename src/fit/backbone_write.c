@@ -61,7 +61,7 @@ ss_backbone_write(const ss_backbone *b, const ss_signal *signal, size_t column, 
     if (st != SS_OK)
         return st;
     const char *unit = signal->head->column[column].unit;
-    const ss_backbone_row none = { NAN, NAN, { NAN, NAN }, { NAN, NAN }, NAN };
+    const ss_backbone_row none = { NAN, NAN, { NAN, NAN }, { NAN, NAN }, NAN, { NAN, NAN } };
     ss_rows_notes(&rows, signal->head, own);
     if (b->why != NULL)
         ss_rows_note(&rows, "decay: none: %s", b->why);

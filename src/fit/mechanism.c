@@ -138,7 +138,8 @@ make_points(point *p, const block *b, size_t n, double unit, double ln_a, double
 {
     double walked[TRACKS] = { 0 };
     for (size_t i = 0; i < n; i++) {
-        double s = b[i].at.s / unit, step = i > 0 ? (b[i].t - b[i - 1].t) * unit : 0;
+        double before_it = i > 0 ? b[i - 1].at.s : 0, behind = i + 1 < n ? b[i + 1].at.s : 0;
+        double s = fmax(b[i].at.s, fmax(before_it, behind)) / unit, step = i > 0 ? (b[i].t - b[i - 1].t) * unit : 0;
         double uneven = fabs(b[i].at.ds) / b[i].at.w / 2 / unit;
         p[i].t = b[i].t * unit;
         p[i].y[LEVEL] = b[i].y[LEVEL] - ln_a;
@@ -313,6 +314,14 @@ ss_mechanism_find(ss_backbone *out, const block *b, size_t n, const decay_source
     for (const fitted *x = best; best->p >= REJECT && x < f + SS_MECHANISMS; x++)
         if (x == best || (x->p >= REJECT && x->bic < best->bic + NEARLY && !(laws[x->kind].contains & 1u << best->kind)))
             out->mechanism[out->n_mechanisms++] = x->kind;
+    for (size_t i = 0; i < n; i++) {
+        trial of = { best->kind, NULL, 0, 0, w / unit };
+        double rate[TRACKS], at = frequency(&of, best->u, exp(b[i].level - b->level));
+        int is_named = out->n_mechanisms == 1 && source->has_phase;
+        rates(&of, best->u, b[i].level - b->level, rate);
+        out->row[i].named[0] = is_named ? at * unit * source->rate / (2 * M_PI) : NAN;
+        out->row[i].named[1] = out->n_mechanisms == 1 ? -rate[LEVEL] / hypot(rate[LEVEL], at) : NAN;
+    }
     if (out->n_mechanisms > 0)
         add_numbers(out, best, source, w / unit, unit * source->rate, exp(b->level));
     return SS_OK;

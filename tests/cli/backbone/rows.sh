@@ -17,6 +17,9 @@ ss-backbone --mass 2.42 --fit joint.tsv > joint.scene
 awk -F ' = ' '{ want["stiffness"] = 2310; want["friction"] = 0.3; want["contact_stiffness"] = 500; want["damping"] = 1 }
     $1 in want { print $1, ($2 / want[$1] > 0.95 && $2 / want[$1] < 1.05 ? "is near" : "is " $2) }' joint.scene
 ss-sim -c t,x joint.scene | ss-backbone | grep '^# mechanism'
+ss-backbone joint.tsv -o joint.gp && grep -c 'xerrorbars\|yerrorbars' joint.gp
+! command -v gnuplot > /dev/null || ss-backbone joint.tsv -o joint.png || echo no picture
+ss-signal noise | ss-backbone -o none.gp || echo $?
 # no decay; a later one
 ss-signal noise --duration 2 | ss-backbone | tail -n 2
 ss-backbone --from 3 ring.tsv | grep -v '^#' | awk '$6 < 3 { print "before:", $0 }'
