@@ -16,7 +16,7 @@ static const char usage[] =
 "      --envelope=db     the column is a level in dB, of a decay of --frequency\n"
 "      --frequency=HZ    of the level's decay\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE     .tsv .csv .json, a picture: .gp .png .svg .pdf .eps; with\n"
+"  -o, --output=FILE     .tsv .csv .json .gp .png .svg .pdf .eps, or with\n"
 "                        --fit any name\n"
 "      --format=FORM     of standard output: tsv, csv or json\n"
 "      --title=TEXT      of the picture\n"
