@@ -22,8 +22,9 @@ typedef ss_status ss_trade_runner(size_t i, int again, double done, double *seco
  * all of them alike.  *seconds becomes an array of the times, medians of those of short rows. */
 ss_status ss_trade_race(double **seconds, size_t n, ss_trade_runner *runner, const ss_progress *progress,
                         void *user);
-/* Give the rows that were measured these times, and mark those that no other row beats. */
-void ss_trade_finish(ss_trade *trade, const double *seconds);
-const char *ss_compared_name(size_t i);     /* "x", "x_rms", ...; NULL behind the last */
+/* Let the rows of a trade race: they get their times, and those that no other row beats are marked. */
+ss_status ss_trade_time(ss_trade *trade, ss_trade_runner *runner, const ss_progress *progress, void *user);
+/* *out becomes the trade, or it is freed if the measurement did not succeed.  Returns its status. */
+ss_status ss_trade_give(ss_trade **out, ss_trade *trade, ss_status st, ss_error *err);
 
 #endif

@@ -166,25 +166,14 @@ ss_trade_error_x(const run *k, const run *ref)
 static const ss_event *
 nearest(const run *k, const ss_event *e)
 {
-    const ss_event *best = NULL;
-    size_t from = 0, end = k->n_events;
-    while (from < end) {                /* the first that is not earlier than e is in [from, end] */
-        size_t mid = from + (end - from) / 2;
-        if (k->event[mid].t < e->t)
-            from = mid + 1;
-        else
-            end = mid;
-    }
-    for (int after = 0; after <= 1; after++)
-        for (size_t i = from; after ? i < k->n_events : i > 0; i += after ? 1 : (size_t)-1) {
-            const ss_event *other = &k->event[after ? i : i - 1];
-            if (other->kind != e->kind || other->direction != e->direction)
-                continue;
-            if (best == NULL || fabs(other->t - e->t) < fabs(best->t - e->t))
-                best = other;
-            break;
-        }
-    return best;
+    const ss_event *best = NULL, *end = k->event + k->n_events;
+    const ss_event *from = k->event + ss_list_from(k->event, k->n_events, sizeof *from, e->t), *after = from;
+    while (after < end && (after->kind != e->kind || after->direction != e->direction))
+        after++;
+    while (from > k->event && best == NULL)
+        if ((--from)->kind == e->kind && from->direction == e->direction)
+            best = from;
+    return after < end && (best == NULL || after->t - e->t < e->t - best->t) ? after : best;
 }
 
 /* Compare the events of two runs.  Two events that are each other's nearest are the same event.  own[i]

@@ -139,23 +139,34 @@ ss_trade_race(double **out, size_t n, ss_trade_runner *runner, const ss_progress
     return st;
 }
 
-void
-ss_trade_finish(ss_trade *trade, const double *seconds)
+ss_status
+ss_trade_time(ss_trade *trade, ss_trade_runner *runner, const ss_progress *progress, void *user)
 {
-    for (size_t i = 0; i < trade->n; i++)
+    double *seconds;
+    ss_status st = ss_trade_race(&seconds, trade->n, runner, progress, user);
+    for (size_t i = 0; st == SS_OK && i < trade->n; i++)
         if (!isnan(seconds[i]))
             trade->row[i].seconds = seconds[i];
+    free(seconds);
     for (size_t i = 0; i < trade->n; i++) {
         ss_trade_row *row = &trade->row[i];
         row->frontier = row->status == SS_OK;
-        for (size_t k = 0; k < trade->n; k++) {
-            const ss_trade_row *other = &trade->row[k];
-            if (other->status == SS_OK && other->seconds <= row->seconds
-                && other->error_x <= row->error_x
+        for (const ss_trade_row *other = trade->row; other < trade->row + trade->n; other++)
+            if (other->status == SS_OK && other->seconds <= row->seconds && other->error_x <= row->error_x
                 && (other->seconds < row->seconds || other->error_x < row->error_x))
                 row->frontier = 0;
-        }
     }
+    return st;
+}
+
+ss_status
+ss_trade_give(ss_trade **out, ss_trade *trade, ss_status st, ss_error *err)
+{
+    if (st == SS_OK)
+        *out = trade;
+    else
+        ss_trade_free(trade);
+    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }
 
 static ss_status
@@ -180,13 +191,7 @@ measure_rows(measurement *t, ss_error *err)
     trade->known_t = between.error_t;
     trade->events = t->ref.n_events;
     trade->samples = t->p.n;
-    double *seconds = NULL;
-    if (st == SS_OK)
-        st = ss_trade_race(&seconds, trade->n, run_row, &t->opts->progress, t);
-    if (st == SS_OK)
-        ss_trade_finish(trade, seconds);
-    free(seconds);
-    return st;
+    return st == SS_OK ? ss_trade_time(trade, run_row, &t->opts->progress, t) : st;
 }
 
 ss_status
@@ -205,12 +210,7 @@ ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *giv
     st = t.trade != NULL ? measure_rows(&t, err) : SS_ENOMEM;
     ss_trade_run_free(&t.ref);
     ss_trade_run_free(&t.run);
-    if (st == SS_OK) {
-        *out = t.trade;
-        return SS_OK;
-    }
-    ss_trade_free(t.trade);
-    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+    return ss_trade_give(out, t.trade, st, err);
 }
 
 void

@@ -162,7 +162,6 @@ static ss_status
 fill_rows(trial *t, ss_error *err)
 {
     ss_trade *trade = t->trade;
-    double *seconds = NULL;
     ss_status st = refer(t, err);
     trade->row = calloc(ROWS, sizeof *trade->row);
     if (st == SS_OK && trade->row == NULL)
@@ -175,12 +174,7 @@ fill_rows(trial *t, ss_error *err)
         for (int i = LOOSEST; i <= TIGHTEST; i++)
             trade->row[trade->n++] = (ss_trade_row){ .method = method[e], .tol = ss_trade_tolerance[i] };
     t->err = err;
-    if (st == SS_OK)
-        st = ss_trade_race(&seconds, trade->n, run_row, &t->how->progress, t);
-    if (st == SS_OK)
-        ss_trade_finish(trade, seconds);
-    free(seconds);
-    return st;
+    return st == SS_OK ? ss_trade_time(trade, run_row, &t->how->progress, t) : st;
 }
 
 ss_status
@@ -202,10 +196,5 @@ ss_trade_transform(ss_trade **out, const double *x, size_t n, double rate,
     st = t.trade != NULL ? fill_rows(&t, err) : SS_ENOMEM;
     free(t.w);
     free(t.reference);
-    if (st == SS_OK) {
-        *out = t.trade;
-        return SS_OK;
-    }
-    ss_trade_free(t.trade);
-    return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
+    return ss_trade_give(out, t.trade, st, err);
 }
