@@ -467,7 +467,6 @@ sweeps_refuse_null(void **state)
     ss_steady_opts_init(&how, sizeof how);
     ss_sweep_opts opts = { .size = sizeof opts, .steady = &how, .axis = &axis, .n_axes = 1, .shards = 1,
                            .threads = 1, .sink = no_rows }, no_axis = opts, no_sink = opts;
-    size_t n;
     (void)state;
     no_axis.axis = NULL;
     no_sink.sink = NULL;
@@ -487,20 +486,15 @@ sweeps_refuse_null(void **state)
     assert_refused(ss_sweep_run(&scene, &no_sink, &e), &e);
     ss_sweep_text text = { "x", &scene, &opts, NULL, 1, SS_TSV }, none = { .name = "x" },
         numbers = { "x", &scene, &opts, NULL, 0, SS_AU };
-    ss_sweep_row row = { .index = 0, .reason = "ok" };
-    char *header = NULL;
-    long end;
-    assert_int_equal(ss_sweep_header(NULL, &numbers, NULL), SS_EINVAL);
-    assert_int_equal(ss_sweep_header(&header, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_sweep_header(&header, &text, NULL), SS_EINVAL);
-    assert_int_equal(ss_sweep_header(&header, &none, NULL), SS_EINVAL);
-    assert_int_equal(ss_sweep_header(&header, &numbers, NULL), SS_EINVAL);
-    assert_null(header);
-    assert_int_equal(ss_sweep_row_write(&text, &row, in, NULL), SS_EINVAL);
-    assert_int_equal(ss_sweep_row_write(&numbers, &row, in, NULL), SS_EINVAL);
-    assert_refused(ss_sweep_resume(NULL, in, "in", &n, &end, &e), &e);
-    assert_refused(ss_sweep_resume(&text, NULL, "in", &n, &end, &e), &e);
-    assert_int_equal(ss_sweep_resume(&text, in, "in", &n, &end, &e), SS_EINVAL);
+    ss_sweep_done done;
+    assert_refused(ss_sweep_write(&numbers, NULL, NULL, &done, &e), &e);
+    assert_refused(ss_sweep_write(&numbers, in, NULL, NULL, &e), &e);
+    assert_int_equal(ss_sweep_write(NULL, in, NULL, &done, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_write(&text, in, NULL, &done, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_write(&none, in, NULL, &done, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_write(&numbers, in, NULL, &done, NULL), SS_EINVAL);
+    assert_int_equal(ss_sweep_write(&numbers, in, "in", &done, NULL), SS_EINVAL);
+    assert_int_equal(ftell(in), 0);
     assert_int_equal(axis.n, 0);
     fclose(in);
 }

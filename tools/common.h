@@ -120,8 +120,6 @@ const char *tool_output_path(const char *path);
 /* Open a file at its start, or make it, so that a later run can continue it: all that is written
  * stays, whatever happens.  Dies if another process has opened it in this way. */
 FILE *tool_output_kept(const char *path);
-/* Continue to write at this offset, and remove the rest of the file. */
-void tool_cut(FILE *out, long offset);
 
 /* Begin to write to the output that -o names, as .h5 or a stream, or die. */
 ss_writer *tool_writer(const char *path, tool_kind kind, const ss_contents *contents);

@@ -292,13 +292,6 @@ tool_output_kept(const char *path)
     return out[n_out++].file;
 }
 
-void
-tool_cut(FILE *file, long offset)
-{
-    if (fseek(file, offset, SEEK_SET) != 0 || ftruncate(fileno(file), offset) != 0)
-        tool_die("%s", strerror(errno));
-}
-
 /* --- its end --------------------------------------------------------------------------------- */
 
 int

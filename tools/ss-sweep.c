@@ -1,5 +1,4 @@
 /* ss-sweep -- the periodic state of a scene in numbers, over a grid of its parameters. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,9 +40,6 @@ typedef struct request {
     ss_measure pick[SS_MEASURES];       /* the measures, in the order of the command line */
     size_t n_picks;
     ss_sweep_text text;
-    FILE *out;
-    char *due;                          /* the row that must come next, as the file to be resumed has it; or NULL */
-    size_t rows, failed;
 } request;
 
 /* --- options ------------------------------------------------------------------------------- */
@@ -169,84 +165,7 @@ parse(request *req, int argc, char *argv[])
         tool_usage("--resume goes on with .tsv or .csv, not with JSON");
 }
 
-/* --- rows ---------------------------------------------------------------------------------- */
-
-/* A file without notes does not say of what scene it is: its last row is computed again, and must be the same. */
-static void
-check_due(request *req, const ss_sweep_row *row)
-{
-    char *text = NULL;
-    size_t length;
-    FILE *again = open_memstream(&text, &length);
-    if (again == NULL || ss_sweep_row_write(&req->text, row, again, NULL) != SS_OK || fclose(again) != 0)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    if (strncmp(text, req->due, strlen(req->due)) != 0)
-        tool_die("%s: another sweep than this: its last point, %zu, has other numbers", req->resume, row->index);
-    tool_cut(req->out, ftell(req->out));
-    free(text);
-    free(req->due);
-    req->due = NULL;
-}
-
-static int
-write_row(const ss_sweep_row *row, void *user)
-{
-    request *req = user;
-    if (tool_stopping())
-        return 1;
-    if (req->due != NULL)
-        check_due(req, row);
-    req->rows++;
-    req->failed += row->status != SS_OK;
-    return ss_sweep_row_write(&req->text, row, req->out, NULL) != SS_OK;
-}
-
-/* Called between batches: flush the rows, which must outlive a kill. */
-static int
-report(double done, void *user)
-{
-    request *req = user;
-    return (req->resume != NULL && fflush(req->out) != 0) || tool_progress(done, NULL) != 0;
-}
-
-/* The whole line from here on, if the file has one and no notes; NULL: it has not. */
-static char *
-read_due(const request *req, long at)
-{
-    char *line = NULL;
-    size_t room = 0;
-    if (req->text.format == SS_TSV || fseek(req->out, at, SEEK_SET) != 0)
-        return NULL;
-    ssize_t n = getline(&line, &room, req->out);
-    if (fseek(req->out, at, SEEK_SET) == 0 && at > 0 && n > 0 && line[n - 1] == '\n')
-        return line;
-    free(line);
-    return NULL;
-}
-
-/* Open the output of the rows, and write the header unless it is there already. */
-static void
-open_rows(request *req)
-{
-    char *header;
-    long end = 0;
-    ss_error err = { 0 };
-    if (req->resume == NULL) {
-        req->out = tool_output(req->path);
-    } else {
-        req->out = tool_output_kept(req->resume);
-        tool_check(ss_sweep_resume(&req->text, req->out, req->resume, &req->opts.first, &end, &err),
-                   &err);
-        req->due = read_due(req, end);
-        if (req->due == NULL)
-            tool_cut(req->out, end);
-        tool_note("%s: rows that are there: %zu", req->resume, req->opts.first);
-    }
-    tool_check(ss_sweep_header(&header, &req->text, &err), &err);
-    if (end == 0)
-        fputs(header, req->out);
-    free(header);
-}
+/* --- the scene ---------------------------------------------------------------------------- */
 
 /* Refuse a setting of a key that is varied. */
 static void
@@ -294,8 +213,7 @@ main(int argc, char *argv[])
     ss_steady_opts_init(&req.steady, sizeof req.steady);
     ss_sweep_opts_init(&req.opts, sizeof req.opts);
     req.opts.steady = &req.steady;
-    req.opts.sink = write_row;
-    req.opts.progress.function = report;
+    req.opts.progress.function = tool_progress;
 
     tool_begin(argv, "ss-sweep", usage);
     parse(&req, argc, argv);
@@ -304,7 +222,6 @@ main(int argc, char *argv[])
     if (req.n_picks == 0)
         pick_usual(&req, &scene);
     req.opts.axis = req.axis;
-    req.opts.user = req.opts.progress.user = &req;
     if (ss_sweep_check(&scene, &req.opts, &err) != SS_OK)
         tool_usage("%s", err.text);
 
@@ -313,12 +230,12 @@ main(int argc, char *argv[])
                                 .measure = req.pick, .n_measures = req.n_picks,
                                 .format = req.text.format };
     tool_end_at_rows(req.path);
-    open_rows(&req);
-    ss_status st = ss_sweep_run(&scene, &req.opts, &err);
-    if (st == SS_STOP && !tool_stopping())
-        tool_die("write error: %s", strerror(errno));
-    tool_check(st, &err);
-    tool_note("%zu point%s, incomplete: %zu", req.rows, tool_s(req.rows), req.failed);
+    FILE *out = req.resume != NULL ? tool_output_kept(req.resume) : tool_output(req.path);
+    ss_sweep_done done;
+    tool_check(ss_sweep_write(&req.text, out, req.resume, &done, &err), &err);
+    if (req.resume != NULL)
+        tool_note("%s: rows that were there: %zu", req.resume, done.kept);
+    tool_note("%zu point%s, incomplete: %zu", done.rows, tool_s(done.rows), done.failed);
     free(name);
     free(req.settings.text);
     free(req.axis);

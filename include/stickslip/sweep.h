@@ -184,20 +184,24 @@ typedef struct ss_sweep_text {
     ss_format format;           /* one that holds words */
 } ss_sweep_text;
 
-/* Make the header of the text; the caller frees it with free().  It holds everything on which the
- * rows depend, and nothing else: files with the same header are parts of the same sweep.
- * SS_EINVAL: a field is missing, or the format holds numbers only. */
-ss_status ss_sweep_header(char **header, const ss_sweep_text *sweep, ss_error *err);
-/* Write one row; if starts of cycles are wanted, one for each, with its own x_phase and v_phase. */
-ss_status ss_sweep_row_write(const ss_sweep_text *sweep, const ss_sweep_row *row, FILE *out, ss_error *err);
-/* Find where to continue a file of such rows that may have been cut off anywhere.  *rows becomes
- * the number of whole rows of the shard (use it as opts->first), and *end the byte behind them,
- * where the next row belongs; if *end is 0, the header belongs there first.  The last row is not
- * counted, but to be computed again, if the format has no notes to say of what scene it is; nor are
- * those of a last point with several.  file is read from its present place, which must be its
- * start.  SS_EDATA: these are not rows of this sweep; SS_EIO. */
-ss_status ss_sweep_resume(const ss_sweep_text *sweep, FILE *file, const char *name, size_t *rows,
-                          long *end, ss_error *err);
+/* What has been done. */
+typedef struct ss_sweep_done {
+    size_t kept;                /* points that a file had already */
+    size_t rows, failed;        /* points that were computed, and those of them that are not complete */
+} ss_sweep_done;
+
+/* Compute the sweep, whose sink is not used, and write its text: a header, which holds everything on which the
+ * rows depend, and nothing else, and a row for each point; if starts of cycles are wanted, one for each, with
+ * its own x_phase and v_phase.
+ *
+ * resumed: NULL; or the name of a file, open for reading and writing, that is empty or has the beginning of such
+ * a text, which may have been cut off anywhere.  Its whole rows are kept.  The last one is computed again if the
+ * format has no notes to say of what scene it is, and so are those of a last point with several.
+ *
+ * SS_EINVAL: a field is missing, or the format holds numbers only; SS_EDATA: the file has not rows of this sweep,
+ * and is left as it was; SS_EIO; other errors as from ss_sweep_run. */
+ss_status ss_sweep_write(const ss_sweep_text *sweep, FILE *out, const char *resumed, ss_sweep_done *done,
+                         ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

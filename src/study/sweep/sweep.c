@@ -187,9 +187,6 @@ work_out(size_t i, void *result, void *user)
     p->row.reason = p->reason.text;
 }
 
-/* Progress is told once in so many points: a user may flush the rows then. */
-enum { AT_ONCE = 16 };
-
 static ss_status
 send(size_t i, void *result, void *user)
 {
@@ -199,8 +196,7 @@ send(size_t i, void *result, void *user)
         return SS_ENOMEM;
     if (w->opts->sink(&p->row, w->opts->user) != 0)
         return SS_STOP;
-    return (i + 1) % AT_ONCE == 0 || i + 1 == w->n
-        ? ss_progress_at(&w->opts->progress, (double)(i + 1) / (double)w->n) : SS_OK;
+    return ss_progress_at(&w->opts->progress, (double)(i + 1) / (double)w->n);
 }
 
 ss_status

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <stickslip/signal.h>
 #include "base/error.h"
 #include "io/input.h"
@@ -148,34 +149,6 @@ make_header(char **out, const ss_sweep_text *sweep, ss_error *err)
     return st == SS_ENOMEM ? ss_fail_memory(err, NULL) : st;
 }
 
-ss_status
-ss_sweep_header(char **out, const ss_sweep_text *given, ss_error *err)
-{
-    own_text own;
-    if (out == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status st = take(&own, given, err);
-    return st == SS_OK ? make_header(out, &own.text, err) : st;
-}
-
-ss_status
-ss_sweep_row_write(const ss_sweep_text *given, const ss_sweep_row *row, FILE *out, ss_error *err)
-{
-    own_text own;
-    if (row == NULL || out == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status st = take(&own, given, err);
-    if (st != SS_OK)
-        return st;
-    struct rows rows = { .out = out, .format = ss_format_table(given->format) };
-    size_t n = own.steady.strobe > 0 ? row->steady.n_strobes : 0;
-    if (n == 0)
-        write_row(&rows, &own.text, row, NULL);
-    for (size_t i = 0; i < n; i++)
-        write_row(&rows, &own.text, row, &row->steady.strobe[i]);
-    return ferror(out) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
-}
-
 /* --- going on ------------------------------------------------------------------------------ */
 
 /* Is a line the row of this point?  It is written anew from its numbers, and must be the same up to the status,
@@ -252,22 +225,13 @@ count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t number
     return st;
 }
 
-ss_status
-ss_sweep_resume(const ss_sweep_text *given, FILE *in, const char *name, size_t *rows, long *end,
-                ss_error *err)
+/* Find how far a file of this sweep goes: *rows whole rows, and *end, the byte behind them. */
+static ss_status
+find_end(const ss_sweep_text *sweep, FILE *in, const char *name, const char *header, size_t *rows, long *end,
+         ss_error *err)
 {
-    char *header = NULL;
-    own_text own;
-    if (in == NULL || name == NULL || rows == NULL || end == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status st = take(&own, given, err);
-    if (st == SS_OK && given->format == SS_JSON)
-        st = ss_fail(err, SS_EINVAL, "rows of JSON are not resumed");
-    if (st == SS_OK)
-        st = make_header(&header, &own.text, err);
     size_t at = 0, lines = 0;
-    *rows = 0;
-    *end = 0;
+    ss_status st = SS_OK;
     for (int c; st == SS_OK && header[at] != '\0' && (c = getc(in)) != EOF; at++) {
         lines += c == '\n';
         if (c != (unsigned char)header[at])
@@ -275,10 +239,116 @@ ss_sweep_resume(const ss_sweep_text *given, FILE *in, const char *name, size_t *
     }
     if (st == SS_OK && header[at] == '\0') {
         *end = (long)at;
-        st = count_rows(&own.text, in, name, lines, rows, end, err);
+        st = count_rows(sweep, in, name, lines, rows, end, err);
     }
-    if (st == SS_OK && ferror(in))
-        st = ss_fail_errno(err, name, errno);
+    return st == SS_OK && ferror(in) ? ss_fail_errno(err, name, errno) : st;
+}
+
+/* --- the whole ----------------------------------------------------------------------------- */
+
+typedef struct writing {
+    own_text own;
+    FILE *out;
+    const char *name;           /* of a file that is gone on with, or NULL */
+    char *due;                  /* the row that must come next, as it stands there, or NULL */
+    ss_sweep_done *done;
+    ss_status status;
+    ss_error *err;
+} writing;
+
+static void
+write_point(FILE *out, const ss_sweep_text *sweep, const ss_sweep_row *row)
+{
+    struct rows rows = { .out = out, .format = ss_format_table(sweep->format) };
+    size_t n = sweep->opts->steady->strobe > 0 ? row->steady.n_strobes : 0;
+    for (size_t i = 0; i < (n > 0 ? n : 1); i++)
+        write_row(&rows, sweep, row, n > 0 ? &row->steady.strobe[i] : NULL);
+}
+
+/* Let the file end here. */
+static ss_status
+cut(const writing *w, long at)
+{
+    return fseek(w->out, at, SEEK_SET) == 0 && ftruncate(fileno(w->out), at) == 0 ? SS_OK
+        : ss_fail_errno(w->err, w->name, errno);
+}
+
+/* A file without notes does not say of what scene it is: its last row is computed again, and must be the same. */
+static ss_status
+check_due(writing *w, const ss_sweep_row *row)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *again = open_memstream(&text, &length);
+    if (again != NULL)
+        write_point(again, &w->own.text, row);
+    ss_status st = again != NULL && fclose(again) == 0 ? SS_OK : ss_fail_memory(w->err, NULL);
+    if (st == SS_OK && strncmp(text, w->due, strlen(w->due)) != 0)
+        st = ss_fail(w->err, SS_EDATA, "%s: another sweep than this: its last point, %zu, has other numbers",
+                     w->name, row->index);
+    free(text);
+    free(w->due);
+    w->due = NULL;
+    return st == SS_OK ? cut(w, ftell(w->out)) : st;
+}
+
+/* Rows of a file that is gone on with must outlive a kill. */
+static int
+take_point(const ss_sweep_row *row, void *user)
+{
+    writing *w = user;
+    if (w->due != NULL)
+        w->status = check_due(w, row);
+    if (w->status != SS_OK)
+        return 1;
+    w->done->rows++;
+    w->done->failed += row->status != SS_OK;
+    write_point(w->out, &w->own.text, row);
+    if (ferror(w->out) || (w->name != NULL && fflush(w->out) != 0))
+        w->status = ss_fail_errno(w->err, "write error", errno);
+    return w->status != SS_OK;
+}
+
+/* Go to where the file is gone on with; the line there, if it is whole and there are no notes, is due. */
+static ss_status
+go_on(writing *w, const char *header, long *end)
+{
+    size_t room = 0;
+    ss_status st = find_end(&w->own.text, w->out, w->name, header, &w->done->kept, end, w->err);
+    if (st != SS_OK)
+        return st;
+    w->own.opts.first = w->done->kept;
+    if (*end > 0 && !ss_format_table(w->own.text.format)->has_notes && fseek(w->out, *end, SEEK_SET) == 0) {
+        ssize_t n = getline(&w->due, &room, w->out);
+        if (fseek(w->out, *end, SEEK_SET) == 0 && n > 0 && w->due[n - 1] == '\n')
+            return SS_OK;
+        free(w->due);
+        w->due = NULL;
+    }
+    return cut(w, *end);
+}
+
+ss_status
+ss_sweep_write(const ss_sweep_text *given, FILE *out, const char *resumed, ss_sweep_done *done, ss_error *err)
+{
+    char *header = NULL;
+    long end = 0;
+    writing w = { .out = out, .name = resumed, .done = done, .status = SS_OK, .err = err };
+    if (out == NULL || done == NULL)
+        return SS_FAIL_NULL(err);
+    *done = (ss_sweep_done){ 0, 0, 0 };
+    ss_status st = take(&w.own, given, err);
+    if (st == SS_OK)
+        st = make_header(&header, &w.own.text, err);
+    if (st == SS_OK && resumed != NULL)
+        st = go_on(&w, header, &end);
+    if (st == SS_OK) {
+        fputs(end == 0 ? header : "", out);
+        w.own.opts.sink = take_point;
+        w.own.opts.user = &w;
+        st = ss_sweep_run(w.own.text.scene, &w.own.opts, err);
+    }
+    free(w.due);
     free(header);
-    return st;
+    return w.status != SS_OK ? w.status : st;
 }

@@ -3,7 +3,7 @@
 set -- --vary friction=0.6:1.2:3000 coulomb
 ss-sweep -o whole.tsv "$@"
 for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
-    stopped $((2 + i % 10)) 9 ss-sweep --threads 2 --resume part.tsv "$@" || true
+    stopped $((10 + 9 * (i % 10))) 9 ss-sweep --threads 2 --resume part.tsv "$@" || true
     [ ! -e part.tsv ] || head -c "$(wc -c < part.tsv)" whole.tsv | cmp - part.tsv
 done
 echo "$(hits) of 20 hit at work"
