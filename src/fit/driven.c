@@ -7,12 +7,14 @@
 
 #include <float.h>
 #include <gsl/gsl_linalg.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/sort.h"
 
 enum { TERMS = 4, WIDEST = 64 };    /* of the cubic; half the widest window, in rows */
+#define NOISY 1e-3                  /* of the force's range, from row to row: it is clipped, not saturated */
 #define UNKNOWN_MEMORY 0.03         /* the part of the time in which the memory of a law is not known yet */
 
 /* The cubic about row i by the rows at most m away: its value and derivatives there, and how much of the row
@@ -104,18 +106,21 @@ ss_driven_free(driven *d)
     free(d->row);
 }
 
-/* Leave out rows at an end of the force's range if more of them stand there than chance puts on one value: ten
- * times as many as on the values next to it. */
+/* Leave out rows at an end of the range of a noisy force if more of them stand there than chance puts on one value:
+ * ten times as many as on the values next to it.  Without noise, friction itself has one value in slip. */
 static ss_status
 leave_out_clipped(driven *d)
 {
     enum { NEXT = 4 };
-    double *sorted = malloc(d->n * sizeof *sorted);
+    double *sorted = calloc(d->n, sizeof *sorted);
     if (sorted == NULL)
         return SS_ENOMEM;
+    for (size_t i = 1; i + 1 < d->n; i++)
+        sorted[i] = fabs(d->f[i - 1] - 2 * d->f[i] + d->f[i + 1]);
+    const double noise = gsl_stats_median(sorted, 1, d->n);
     memcpy(sorted, d->f, d->n * sizeof *sorted);
     qsort(sorted, d->n, sizeof *sorted, ss_ascending);
-    for (int end = 0; end < 2; end++) {
+    for (int end = 0; end < 2 && noise > NOISY * (sorted[d->n - 1] - sorted[0]); end++) {
         const double at = end ? sorted[d->n - 1] : sorted[0];
         size_t count = 0, others = 0, values = 0;
         double last = at;
@@ -179,9 +184,8 @@ ss_driven_new(driven *d, const double t[], const double motion[], const double f
     d->sign = work < 0 ? -1 : 1;            /* friction takes work from what moves */
     if (!(d->length > 0 && d->speed > 0 && d->force > 0))
         return SS_OK;
-    /* where it turns so fast that the direction of one row is not known */
-    for (size_t i = 1; i + 1 < n; i++)
-        if (fabs(d->v[i]) < d->slow && (fabs(d->v[i - 1]) > d->slow || fabs(d->v[i + 1]) > d->slow))
+    for (size_t i = 0; i < n; i++)          /* where its direction is not known, and static friction not by it */
+        if (fabs(d->v[i]) <= d->slow)
             d->used[i] = 0;
     const double time = d->length / d->speed;
     for (size_t i = 0; i < n; i++) {
