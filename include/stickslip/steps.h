@@ -22,6 +22,7 @@ extern const char *const ss_step_law_names[SS_STEP_LAWS];   /* "aging", "slip" *
  * where the step does not show it. */
 typedef struct ss_step_law {
     double log_likelihood;      /* of the rows; NaN: no fit */
+    double gain;                /* how much larger it is than that of a straight line along the path */
     ss_value direct_effect, evolution_effect;   /* a, b */
     ss_value critical_slip_distance;            /* Dc [m] */
     ss_value stiffness, drift;  /* of the machine, and of friction along the load point's path [1/m] */
@@ -50,7 +51,7 @@ typedef struct ss_steps {
  * of its rows, see ss_read_opts.stamps.  stiffness [1/m] of the machine; 0: it is fitted.
  *
  * A hold and the slide behind it are one step.  The slider begins in a steady slide and has no inertia.  The
- * load point moves as recorded, on straight lines between the rows; of more than 16384 rows means are taken.
+ * load point moves as recorded, on straight lines between the rows; of more than 4096 rows means are taken.
  * SS_EDATA: the unit is not one of length, a value is not finite, or there is no step; SS_ENOMEM.
  * The caller frees *out with ss_steps_free. */
 ss_status ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t friction, int normal,

@@ -347,6 +347,21 @@ ss_loaded_fit(ss_step_law *out, double *model, const track *record, int is_slip,
         if (st == SS_OK && pass < 2)
             st = find_noise(&l, s.u, room, room + n);
     }
+    double c[2], line;                          /* the squares that a line leaves of rows as white as these */
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        l.rows[3 * i] = 1;
+        l.rows[3 * i + 1] = record->load[i] / way;
+        l.rows[3 * i + 2] = record->mu[i];
+    }
+    if (st == SS_OK) {
+        ss_wander_whiten(l.rows, &l.noise, record->t, l.rows, n, 3);
+        for (size_t i = 0; i < n; i++) {
+            room[n + 2 * i] = l.rows[3 * i];
+            room[n + 2 * i + 1] = l.rows[3 * i + 1];
+            room[i] = l.rows[3 * i + 2];
+        }
+        st = ss_least_linear(room + n, room, n, 2, c, &line, NULL);
+    }
     if (st == SS_OK)
         st = leave(&l, s.u, room, NULL);
     if (st == SS_OK) {
@@ -359,6 +374,7 @@ ss_loaded_fit(ss_step_law *out, double *model, const track *record, int is_slip,
         for (size_t i = 0; i < n; i++)
             squares += room[i] * room[i];
         out->log_likelihood = -0.5 * (logarithms + (double)n * (log(2 * acos(-1) * squares / (double)n) + 1));
+        out->gain = 0.5 * (double)n * log(line / squares);
         out->noise = sqrt(squares / (double)n);
     }
     free(room);

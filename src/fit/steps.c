@@ -21,11 +21,12 @@
 #include "io/record.h"
 #include "signal/header.h"
 
-enum { FEWEST = 4, MOST = 16384 };      /* rows of a line, and of a step */
+enum { FEWEST = 4, MOST = 4096 };      /* rows of a line, and of a step */
 #define CHANGE 0.2              /* the least relative change of speed */
 #define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
 #define SHORT 0.1               /* a ramp over the lines beside it */
 #define STILL 0.01              /* a hold's speed over that of the lines beside it */
+#define FOLLOWS 10              /* the same, over a straight line, of a law that friction follows */
 #define DECISIVE 5              /* difference of logarithms of likelihood that names a law */
 
 const char *const ss_step_law_names[SS_STEP_LAWS] = { "aging", "slip" };
@@ -246,29 +247,12 @@ take(ss_step *s, track *r, const path *p, const double *mu, size_t at, size_t li
         mean += s->path[i] / (double)r->change[0];
     }
     s->path[0] = mean - r->speed * middle;
-    for (size_t k = 1; k < lines && apart == 1; k++)
-        find_corner(&r->corner[k - 1], p, l[k - 1].end == l[k].first ? &l[k - 1] : NULL, first, sign);
+    for (size_t k = 1; k < lines; k++)          /* means of rows are too coarse for corners */
+        find_corner(&r->corner[k - 1], p, apart == 1 && l[k - 1].end == l[k].first ? &l[k - 1] : NULL, first, sign);
     s->at = p->t[l[1].first];
     s->before = r->speed;
     s->after = sign * l[lines - 1].speed;
     return SS_OK;
-}
-
-/* Sum of squares about a line along the path. */
-static double
-straight(const ss_step *s)
-{
-    double n = (double)s->n, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-    for (size_t i = 0; i < s->n; i++) {
-        x += s->path[i] / n;
-        y += s->friction[i] / n;
-    }
-    for (size_t i = 0; i < s->n; i++) {
-        xx += (s->path[i] - x) * (s->path[i] - x);
-        xy += (s->path[i] - x) * (s->friction[i] - y);
-        yy += (s->friction[i] - y) * (s->friction[i] - y);
-    }
-    return yy - xy * xy / xx;
 }
 
 /* What a step does not show is no number. */
@@ -282,12 +266,12 @@ forget(ss_value *v)
 static ss_status
 judge(ss_step *s, const track *r, double stiffness)
 {
-    double left = INFINITY;
     for (int i = 0; i < SS_STEP_LAWS; i++) {
         ss_step_law *l = &s->law[i];
         ss_status st = ss_loaded_fit(l, l->model, r, i == SS_STEP_SLIP, stiffness);
         if (st == SS_EDATA)
-            *l = (ss_step_law){ NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN, l->model };
+            *l = (ss_step_law){ NAN, NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN,
+                                l->model };
         else if (st != SS_OK)
             return st;
         forget(&l->direct_effect);
@@ -295,18 +279,20 @@ judge(ss_step *s, const track *r, double stiffness)
         forget(&l->stiffness);
         if (stiffness > 0)
             l->stiffness = (ss_value){ stiffness, 0 };
-        left = fmin(left, l->noise * l->noise * (double)s->n);
     }
     double ahead = s->law[SS_STEP_SLIP].log_likelihood - s->law[SS_STEP_AGING].log_likelihood;
     s->best = ahead > 0 || isnan(s->law[SS_STEP_AGING].log_likelihood) ? SS_STEP_SLIP : SS_STEP_AGING;
-    double explained = 1 - left / straight(s);
+    const ss_step_law *best = &s->law[s->best];
     s->answer = fabs(ahead) <= DECISIVE ? SS_STEP_UNDECIDED : (ss_step_answer)s->best;
     if (s->answer == SS_STEP_UNDECIDED)
         ss_print_to(s->why, sizeof s->why, "the likelihoods differ by a factor of e^%.2g only", fabs(ahead));
-    if (!(explained > 0.5) || isnan(s->law[s->best].direct_effect.value)) {
+    if (isnan(best->direct_effect.value)) {
+        s->answer = SS_STEP_UNDECIDED;
+        ss_print_to(s->why, sizeof s->why, "the direct effect is less than its error");
+    }
+    if (!(best->gain > FOLLOWS)) {
         s->answer = SS_STEP_NONE;
-        ss_print_to(s->why, sizeof s->why, "they explain %.2g %% of what a straight line leaves",
-                    100 * fmax(explained, 0));
+        ss_print_to(s->why, sizeof s->why, "friction is a straight line along the path, but for noise");
     }
     return SS_OK;
 }
