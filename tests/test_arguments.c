@@ -413,6 +413,7 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_steps_new(NULL, signal, 0, 0, -1, 0, &e), &e);
     assert_refused(ss_steps_new(&steps, NULL, 0, 0, -1, 0, &e), &e);
     assert_refused(ss_steps_write(NULL, stdout, SS_TSV, &e), &e);
+    assert_refused(ss_plot_steps(stdout, NULL, NULL, &e), &e);
     ss_steps_free(NULL);
     assert_refused(ss_pull_fit(NULL, signal, 0, &scene, NULL, &e), &e);
     assert_refused(ss_pull_fit(&pull, NULL, 0, &scene, NULL, &e), &e);

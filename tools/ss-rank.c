@@ -41,7 +41,7 @@ static const char usage[] =
 "      --normal-stress=NAME|N  divide the column, a shear stress, by this one\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE     .tsv .csv .json, --fit: any; --format=tsv|csv|json; with\n"
-"                        --motion also a picture: .gp, .png, .svg, .pdf, .eps\n"
+"                        --motion or --load also .gp, .png, .svg, .pdf, .eps\n"
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
 
@@ -509,6 +509,23 @@ given_stiffness(const tool_texts *settings)
     return stiffness;
 }
 
+static ss_status
+write_steps(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
+{
+    return ss_plot_steps(out, user, opts, err);
+}
+
+static void
+draw_steps(const job *j, ss_steps *steps)
+{
+    ss_plot_opts opts;
+    ss_plot_opts_init(&opts, sizeof opts);
+    char *title = signal_name(j->signal_path);
+    opts.title = title;
+    tool_draw(j->output, &opts, write_steps, steps);
+    free(title);
+}
+
 static void
 fit_load(job *j)
 {
@@ -528,7 +545,10 @@ fit_load(job *j)
     for (size_t i = 0; i < steps->n; i++)
         tool_note("step at %.9g s: %zu rows, noise of %.2g", steps->step[i].at, steps->step[i].n,
                   steps->step[i].law[steps->step[i].best].noise);
-    tool_check(ss_steps_write(steps, tool_output(j->output), tool_stream(j->kind), &err), &err);
+    if (j->kind < TOOL_STREAM)
+        draw_steps(j, steps);
+    else
+        tool_check(ss_steps_write(steps, tool_output(j->output), tool_stream(j->kind), &err), &err);
     ss_steps_free(steps);
     ss_signal_free(signal);
 }
@@ -614,7 +634,7 @@ parse(job *j, int argc, char *argv[])
     if (j->fits)
         tool_writes(j->output);
     else
-        j->kind = tool_output_kind(j->output, TOOL_WORDS | (j->motion != NULL ? TOOL_PICTURES : 0), j->kind);
+        j->kind = tool_output_kind(j->output, TOOL_WORDS | (j->motion != NULL || j->load != NULL ? TOOL_PICTURES : 0), j->kind);
     set_files(j, argc - first, argv + first);
 }
 

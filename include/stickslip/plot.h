@@ -13,6 +13,7 @@
 #include <stickslip/morlet.h>
 #include <stickslip/overlay.h>
 #include <stickslip/rank.h>
+#include <stickslip/steps.h>
 #include <stickslip/spectrum.h>
 #include <stickslip/table.h>
 #include <stickslip/trade.h>
@@ -123,6 +124,9 @@ ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *op
 /* Draw the errors of x, v, a and f, and the rms error of the map as a ratio less 1, over CPU time as a
  * multiple of the scene's own, with a colour for each simpler scene. */
 ss_status ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_error *err);
+
+/* Draw each step of a load point: friction along the path, as measured and by both laws, and what each law leaves. */
+ss_status ss_plot_steps(FILE *out, const ss_steps *steps, const ss_plot_opts *opts, ss_error *err);
 
 /* Draw a ranking of friction laws by two columns of the signal: the loop of force over motion as measured and as
  * the first law predicts it, what that leaves over time, and for each law a bar of what it explains of the force

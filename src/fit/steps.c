@@ -2,7 +2,8 @@
  *
  * A sensor of the path has noise, of which a stiff spring would make noise of friction; and friction that answers to
  * its own model's noise is fitted by too small a, b and k.  So the path is first cut into lines, again and again
- * where two of them fit best, as long as they are significantly better than one; and the load point moves on these.
+ * where two of them fit best, as long as they are significantly better than one; and the load point moves on a chain
+ * of links that meet where the lines do.
  *
  * Lines whose speeds differ by less than a fifth are one slide.  A line that is short beside its neighbours, in time and way, is the ramp of a
  * servo; it belongs to the change between these.  A step begins in the second half of a slide, when that may be
@@ -10,6 +11,7 @@
 #include <stickslip/steps.h>
 
 #include <float.h>
+#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
@@ -24,6 +26,7 @@
 enum { FEWEST = 4, MOST = 4096 };      /* rows of a line, and of a step */
 #define CHANGE 0.2              /* the least relative change of speed */
 #define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
+#define NOISY 9                 /* times the noise: mean square off a link that noise explains */
 #define SHORT 0.1               /* a ramp over the lines beside it */
 #define STILL 0.01              /* a hold's speed over that of the lines beside it */
 #define FOLLOWS 10              /* the same, over a straight line, of a law that friction follows */
@@ -87,20 +90,25 @@ cut(path *p, size_t first, size_t end)
     return SS_OK;
 }
 
-/* Is a line short beside this one, in time and way? */
+/* Are the n lines behind this one a ramp to the next, short beside both, in time and way? */
 static int
-is_short(const path *p, const line *l, const line *beside)
+is_ramp(const path *p, const line *l, size_t n)
 {
-    double time = p->t[l->end - 1] - p->t[l->first], other = p->t[beside->end - 1] - p->t[beside->first];
-    return time < SHORT * other && fabs(l->speed) * time < SHORT * fabs(beside->speed) * other;
-}
-
-/* Is the line behind this one a ramp to the next but one? */
-static int
-is_ramp(const path *p, const line *l)
-{
-    double low = fmin(l[0].speed, l[2].speed), high = fmax(l[0].speed, l[2].speed), margin = CHANGE * (high - low);
-    return l[1].speed > low - margin && l[1].speed < high + margin && is_short(p, l + 1, l) && is_short(p, l + 1, l + 2);
+    const line *beside[2] = { l, l + n + 1 };
+    const double low = fmin(l->speed, beside[1]->speed), high = fmax(l->speed, beside[1]->speed);
+    double time = 0, way = 0;
+    for (const line *r = l + 1; r <= l + n; r++) {
+        if (!(r->speed > low - CHANGE * (high - low) && r->speed < high + CHANGE * (high - low)))
+            return 0;
+        time += p->t[r->end - 1] - p->t[r->first];
+        way += fabs(r->speed) * (p->t[r->end - 1] - p->t[r->first]);
+    }
+    for (int k = 0; k < 2; k++) {
+        double other = p->t[beside[k]->end - 1] - p->t[beside[k]->first];
+        if (!(time < SHORT * other && way < SHORT * fabs(beside[k]->speed) * other))
+            return 0;
+    }
+    return 1;
 }
 
 /* How much the speeds of a line and the next differ, in parts of what makes them two. */
@@ -112,10 +120,10 @@ difference(const line *l)
 }
 
 static void
-drop(path *p, size_t i)
+drop(path *p, size_t i, size_t n)
 {
-    memmove(&p->line[i], &p->line[i + 1], (p->lines - i - 1) * sizeof *p->line);
-    p->lines--;
+    memmove(&p->line[i], &p->line[i + n], (p->lines - i - n) * sizeof *p->line);
+    p->lines -= n;
 }
 
 /* Join lines of like speed, the likest first, and leave out ramps: then the change between their neighbours ends where
@@ -131,11 +139,12 @@ join(path *p)
         again = p->lines > 1 && difference(&p->line[likest]) < 1;
         if (again) {
             fit_line(p, p->line[likest].first, p->line[likest + 1].end, &p->line[likest]);
-            drop(p, likest + 1);
+            drop(p, likest + 1, 1);
         }
         for (size_t i = 0; !again && i + 2 < p->lines; i++)
-            if ((again = is_ramp(p, &p->line[i])))
-                drop(p, i + 1);
+            for (size_t n = 1; !again && i + n + 1 < p->lines; n++)
+                if ((again = is_ramp(p, &p->line[i], n)))
+                    drop(p, i + 1, n);
     }
 }
 
@@ -157,6 +166,56 @@ noise_of(const path *p, double *off)
     return sum / (double)kept / 0.623;          /* of Gaussian noise, the other tenth has the rest */
 }
 
+/* The time at which line k begins: where it meets the one before, if that is near, else its first row. */
+static double
+joint(const path *p, size_t k)
+{
+    const line *l = &p->line[k > 0 ? k - 1 : 0];
+    const double first = k < p->lines ? p->t[p->line[k].first] : p->t[p->n - 1];
+    if (k == 0 || k == p->lines)
+        return first;
+    double meet = p->t[0] + (l[0].from - l[0].speed * l[0].at - l[1].from + l[1].speed * l[1].at) / (l[1].speed - l[0].speed);
+    double before = (p->t[l[0].first] + first) / 2, behind = (first + p->t[l[1].end - 1]) / 2;
+    return meet > before && meet < behind ? meet : first;
+}
+
+/* Move the path onto the chain of straight links between such joints that is nearest to it; but a link that noise does
+ * not explain stays as recorded.  SS_ENOMEM. */
+static ss_status
+chain(path *p, double noise)
+{
+    const size_t joints = p->lines + 1;
+    double *on = calloc(4 * joints, sizeof *on), *beside = on + joints, *sum = on + 2 * joints, *at = on + 3 * joints;
+    if (on == NULL)
+        return SS_ENOMEM;
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t k = 0, i = 0, end; k < p->lines; k++, i = end) {
+            const double from = joint(p, k), to = joint(p, k + 1);
+            double squares = 0;
+            for (end = i; end < p->n && (p->t[end] < to || k + 1 == p->lines); end++) {
+                double u = (p->t[end] - from) / (to - from), x = p->x[end] - p->start;
+                double off = (1 - u) * at[k] + u * at[k + 1] - x;
+                on[k] += (1 - u) * (1 - u);
+                on[k + 1] += u * u;
+                beside[k] += u * (1 - u);
+                sum[k] += (1 - u) * x;
+                sum[k + 1] += u * x;
+                squares += off * off;
+            }
+            for (size_t j = i; pass == 1 && squares < NOISY * noise * (double)(end - i) && j < end; j++) {
+                double u = (p->t[j] - from) / (to - from);
+                p->x[j] = p->start + (1 - u) * at[k] + u * at[k + 1];
+            }
+        }
+        gsl_vector_view d = gsl_vector_view_array(on, joints), e = gsl_vector_view_array(beside, joints - 1);
+        gsl_vector_view b = gsl_vector_view_array(sum, joints), x = gsl_vector_view_array(at, joints);
+        if (pass == 0)
+            gsl_linalg_solve_symm_tridiag(&d.vector, &e.vector, &b.vector, &x.vector);
+    }
+    free(on);
+    return SS_OK;
+}
+
 /* Find the lines of different speed, and move the path onto its lines, but for rows that noise does not explain. */
 static ss_status
 find_lines(path *p)
@@ -174,12 +233,8 @@ find_lines(path *p)
         }
         p->saved = fmax(SIGNIFICANT * noise, 10 * DBL_EPSILON * way * way);     /* rounding of the sums */
         st = cut(p, 0, p->n);
-        for (size_t k = 0; st == SS_OK && k < p->lines; k++)
-            for (size_t i = p->line[k].first; i < p->line[k].end; i++) {
-                double x = from + p->line[k].from + p->line[k].speed * (p->t[i] - p->t[0] - p->line[k].at);
-                if ((p->x[i] - x) * (p->x[i] - x) < SIGNIFICANT * noise)
-                    p->x[i] = x;
-            }
+        if (st == SS_OK)
+            st = chain(p, noise);
     }
     if (st == SS_OK)
         join(p);

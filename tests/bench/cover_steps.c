@@ -3,7 +3,7 @@
  * Random steps of rate and state, made by tests/pulled_rock.h, which has no code of the library: a .003 ... .015,
  * b/a .5 ... 1.4, Dc 2 ... 30 um, k 300 ... 5000 /m, drift -10 ... 10 /m, steps of 3 to 30 up or down over 30 to 60
  * Dc or more, noise of .3 to 5 % of the direct effect with memory, 600 to 3000 rows, even or not, a ramp over up
- * to 2 % of the path, and holds.  A row a kind and law: records, law named rightly, not told, wrongly, none of these,
+ * to 2 % of the path, a path with noise of .3 to 3 % of Dc, and holds.  A row a kind and law: records, law named rightly, not told, wrongly, none of these,
  * percentage of the numbers within 1 and 2 errors, of each and of all, and CPU a step and law.
  * usage: cover_steps [RECORDS [SEED]] */
 #include <stdio.h>
@@ -14,8 +14,8 @@
 #include "../pulled_rock.h"
 
 enum { NUMBERS = 5 };
-static const char *const kinds[] = { "even rows", "memory in time", "fast after", "ramp", "hold" };
-enum { KINDS = sizeof kinds / sizeof *kinds };
+static const char *const kinds[] = { "even rows", "memory in time", "fast after", "ramp", "noisy path", "hold" };
+enum { KINDS = sizeof kinds / sizeof *kinds, HOLD = KINDS - 1 };
 
 static double
 between(uint64_t *seed, double from, double to)
@@ -30,16 +30,17 @@ draw(uint64_t *seed, size_t kind, int is_slip)
                .k = between(seed, 300, 5000), .drift = 20 * uniform(seed) - 10 };
     r.b = r.a * (0.5 + 0.9 * uniform(seed));
     double ratio = between(seed, 3, 30), way = r.Dc * between(seed, 30, 60) + 3 * r.a / r.k;
-    r.speed[0] = 1e-6 * (kind < 4 && uniform(seed) < 0.4 ? ratio : 1);
-    r.speed[1] = kind == 4 ? 0 : r.speed[0] > 1e-6 ? 1e-6 : 1e-6 * ratio;
+    r.speed[0] = 1e-6 * (kind < HOLD && uniform(seed) < 0.4 ? ratio : 1);
+    r.speed[1] = kind == HOLD ? 0 : r.speed[0] > 1e-6 ? 1e-6 : 1e-6 * ratio;
     r.until[0] = way / 2 / r.speed[0];
-    r.until[1] = r.until[0] + (kind == 4 ? between(seed, 10, 300) : way / r.speed[1]);
-    if (kind == 4) {
+    r.until[1] = r.until[0] + (kind == HOLD ? between(seed, 10, 300) : way / r.speed[1]);
+    if (kind == HOLD) {
         r.speed[2] = r.speed[0];
         r.until[2] = r.until[1] + way / r.speed[2];
     }
     r.ramp = kind == 3 ? 0.02 * way / fmax(r.speed[0], r.speed[1]) : 0;
     r.noise = r.a * log(ratio) * between(seed, .003, .05);
+    r.path_noise = kind == 4 ? r.Dc * between(seed, .003, .03) : 0;
     r.n = (size_t)between(seed, 600, 3000);
     r.memory = 0.95 * uniform(seed);
     r.uneven = kind == 2 ? 2 : kind == 1;
