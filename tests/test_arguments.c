@@ -370,6 +370,13 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_maxima_along(&maxima, NULL, &none, 0, 1, 1, &e), &e);
     assert_refused(ss_maxima_along(&maxima, &n, NULL, 0, 1, 1, &e), &e);
     assert_refused(ss_features_find(NULL, signal, 0, NULL, &e), &e);
+    ss_features_stream *stream = NULL;
+    assert_refused(ss_features_stream_new(NULL, signal->head, 0, NULL, stdout, SS_TSV, &e), &e);
+    assert_refused(ss_features_stream_new(&stream, NULL, 0, NULL, stdout, SS_TSV, &e), &e);
+    assert_refused(ss_features_stream_new(&stream, signal->head, 0, NULL, NULL, SS_TSV, &e), &e);
+    assert_refused(ss_features_stream_push(NULL, NULL, 0, &e), &e);
+    assert_refused(ss_features_stream_end(NULL, &e), &e);
+    ss_features_stream_free(NULL);
     assert_refused(ss_features_find(&features, NULL, 0, NULL, &e), &e);
     ss_backbone *backbone;
     ss_backbone none_found = { .why = "nothing" };

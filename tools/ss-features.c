@@ -4,6 +4,7 @@
 #include "options.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char usage[] =
@@ -23,6 +24,7 @@ static const char usage[] =
 "      --drop=HEIGHT       transitions are falls by more than this, in a force\n"
 "      --threads=N         for the transform (1)\n"
 "  -j, --jobs=N            work on N files at a time (1)\n"
+"      --stream            write rows as they come (needs --fmin), numbers last\n"
 "      --summary           one summary a row, of one file too\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE       .tsv .csv .json; --format=tsv|csv|json of stdout\n"
@@ -36,7 +38,7 @@ typedef struct request {
     tool_reading reading;
     const char *column, *displacement, *force, *output, *needed[3];
     tool_kind kind;
-    int jobs, summary;
+    int jobs, summary, stream;
 } request;
 
 /* The column that was asked for, or else the one with this name, or -1. */
@@ -89,6 +91,32 @@ write_one(const request *req, const char *path, tool_kind kind)
     tool_check(ss_features_write(f.features, f.signal, f.column, &f.opts, tool_output(req->output),
                                  tool_stream(kind), &err), &err);
     free_features(&f);
+}
+
+/* Write each row when nothing behind it can change it, and the numbers at the end or when the user stops. */
+static void
+follow(const request *req, const char *path, tool_kind kind)
+{
+    ss_features_stream *stream;
+    ss_features_opts opts = req->opts;
+    ss_error err = { 0 };
+    ss_reader *reader = tool_read_rows(path, &req->reading.opts);
+    const ss_header *head = ss_reader_header(reader);
+    size_t n, piece = ss_reader_piece(reader), column = tool_column(head, path, req->column);
+    opts.displacement = find_column(head, path, req->displacement, usual_displacement);
+    opts.force = find_column(head, path, req->force, usual_force);
+    opts.progress = (ss_progress){ NULL, NULL };
+    double **x = tool_columns(head->n_columns, piece);
+    tool_end_at_rows(req->output);
+    tool_check(ss_features_stream_new(&stream, head, column, &opts, tool_output(req->output), tool_stream(kind), &err),
+               &err);
+    tool_note("rows come at most %.3g s behind the end of a transition", 2 / opts.fmin + 0.2);
+    while (!tool_stopping() && (n = tool_rows(reader, x, piece)) > 0)
+        tool_check(ss_features_stream_push(stream, x, n, &err), &err);
+    tool_check(ss_features_stream_end(stream, &err), &err);
+    ss_features_stream_free(stream);
+    ss_reader_free(reader);
+    free(x);
 }
 
 /* --- several files ------------------------------------------------------------------------- */
@@ -159,7 +187,7 @@ main(int argc, char *argv[])
         TOOL_NUMBER(0, "stiffness", &req.opts.stiffness, springs),
         TOOL_TEXT(0, "displacement", &req.displacement), TOOL_TEXT(0, "force", &req.force),
         TOOL_NUMBER(0, "drop", &req.opts.drop, heights), TOOL_THREADS(0, &req.opts.threads),
-        TOOL_WHOLE('j', "jobs", &req.jobs, jobs), TOOL_FLAG(0, "summary", &req.summary),
+        TOOL_WHOLE('j', "jobs", &req.jobs, jobs), TOOL_FLAG(0, "summary", &req.summary), TOOL_FLAG(0, "stream", &req.stream),
         TOOL_OUTPUT(&req.output), TOOL_FORMAT_OF_WORDS(&req.kind) };
 
     tool_begin(argv, "ss-features", usage);
@@ -177,7 +205,11 @@ main(int argc, char *argv[])
     size_t n = argc > first ? (size_t)(argc - first) : 1, good = 1;
     if (n == 1 && !req.summary)
         req.reading.opts.progress = (ss_progress){ tool_reading_progress, &req };
-    if (n > 1 || req.summary)
+    if (req.stream && (n > 1 || req.summary || !(req.opts.fmin > 0)))
+        tool_usage("--stream needs --fmin, and excludes --summary and several files");
+    if (req.stream)
+        follow(&req, tool_input(argc, argv, first), kind);
+    else if (n > 1 || req.summary)
         good = write_table(&req, file, n, kind);
     else
         write_one(&req, tool_input(argc, argv, first), kind);

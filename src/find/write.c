@@ -7,9 +7,9 @@
 #include "base/options.h"
 #include "find/numbers.h"
 #include "find/search.h"
-#include "io/record.h"
 #include "io/table.h"
 #include "find/events.h"
+#include "find/write.h"
 
 /* --- one recording --------------------------------------------------------------------------- */
 
@@ -42,15 +42,15 @@ write_loading(struct rows *rows, const ss_loading *l)
 
 /* In a format without notes each row ends with the numbers of the whole recording, and a recording without
  * transitions has one row, for these. */
-static void
-write_row(struct rows *rows, const ss_features *f, size_t i, double start, unsigned has)
+void
+ss_features_row(struct rows *rows, const ss_features *f, size_t i, double start, unsigned has)
 {
     const ss_transition no_transition = { NAN, NAN, 1, 0, no_maximum, unknown, unknown, NAN, NAN };
     const ss_loading no_loading = { NAN, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
                                     unknown, unknown, NAN, NAN, NAN };
     write_transition(rows, i < f->n ? &f->transition[i] : &no_transition, start, f->spikes->conclusive);
-    if (f->loading != NULL)
-        write_loading(rows, i < f->n ? &f->loading[i] : &no_loading);
+    if (has & LOADING)
+        write_loading(rows, i < f->n && f->loading != NULL ? &f->loading[i] : &no_loading);
     for (size_t k = SS_TRANSITIONS + 1; k < SS_FEATURE_NUMBERS && !rows->format->has_notes; k++) {
         char name[64];
         snprintf(name, sizeof name, "all_%s", ss_feature_numbers[k].label.name);
@@ -60,9 +60,8 @@ write_row(struct rows *rows, const ss_features *f, size_t i, double start, unsig
     ss_rows_end(rows);
 }
 
-/* Write the reasons, and then each number with its error; a median also has the scatter of the events. */
-static void
-write_numbers(struct rows *rows, const ss_features *f, unsigned has)
+void
+ss_features_numbers(struct rows *rows, const ss_features *f, unsigned has)
 {
     char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX], scatter[SS_NUMBER_MAX];
     for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
@@ -80,15 +79,22 @@ write_numbers(struct rows *rows, const ss_features *f, unsigned has)
 
 /* Write the notes of a signal, except those that features write themselves, or may write: a scene's friction is
  * not the one that was measured, and no file says of itself what was found in it. */
-static void
-write_notes(struct rows *rows, const ss_header *head)
+void
+ss_features_notes(struct rows *rows, const ss_header *head, size_t column, const ss_features_opts *opts)
 {
+    char threshold[SS_NUMBER_MAX];
     enum { OTHERS = 7 };
     const char *own[OTHERS + SS_FEATURE_NUMBERS + 1]
         = { "column", "threshold", "norm", "near_gaps", "spike", "spikes", "about_*" };
     for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
         own[OTHERS + k] = ss_feature_numbers[k].label.name;
     ss_rows_notes(rows, head, own);
+    ss_rows_note(rows, "column: %s", head->column[column].name);
+    ss_rows_note(rows, "threshold: %s", ss_number_text(threshold, opts->threshold));
+    ss_rows_note(rows, "norm: %s", opts->norm == SS_NORM_L1 ? "l1" : "l2");
+    if (ss_header_find_note(head, "gaps") != NULL)
+        ss_rows_note(rows, "near_gaps: nothing is claimed: no spike within 12 scales, no event "
+                     "within 6, no local maximum within sqrt(2), no fit over one");
 }
 
 static void
@@ -108,7 +114,6 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
                   const ss_features_opts *given, FILE *out, ss_format format, ss_error *err)
 {
     struct rows rows;
-    char threshold[SS_NUMBER_MAX];
     if (f == NULL || signal == NULL || out == NULL)
         return SS_FAIL_NULL(err);
     const ss_header *head = signal->head;
@@ -122,17 +127,11 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
         return st;
     unsigned has = ss_features_have(f, opts);
     ss_rows_note(&rows, "spikes: %s", ss_spikes_verdict(f->spikes));
-    write_numbers(&rows, f, has);
-    write_notes(&rows, head);
-    ss_rows_note(&rows, "column: %s", head->column[column].name);
-    ss_rows_note(&rows, "threshold: %s", ss_number_text(threshold, opts->threshold));
-    ss_rows_note(&rows, "norm: %s", opts->norm == SS_NORM_L1 ? "l1" : "l2");
-    if (ss_header_find_note(head, "gaps") != NULL)
-        ss_rows_note(&rows, "near_gaps: nothing is claimed: no spike within 12 scales, no event "
-                     "within 6, no local maximum within sqrt(2), no fit over one");
-    write_row(&rows, f, f->n, head->start, has);        /* the names */
+    ss_features_numbers(&rows, f, has);
+    ss_features_notes(&rows, head, column, opts);
+    ss_features_row(&rows, f, f->n, head->start, has);  /* the names */
     for (size_t i = 0; i < f->n + (f->n == 0 && !rows.format->has_notes); i++)
-        write_row(&rows, f, i, head->start, has);
+        ss_features_row(&rows, f, i, head->start, has);
     write_spikes(&rows, f->spikes, head->start);
     return ss_rows_finish(&rows, err);
 }

@@ -1,0 +1,38 @@
+# A stream of features: the rows of the whole recording, each at most two periods of --fmin and .2 s late.
+ss-sim -c t,a compliant-light --set duration=8 --set rate=1000 | ss-noise --snr 40 -o run.tsv
+ss-features --fmin 5 run.tsv > whole.tsv
+ss-features --fmin 5 --stream run.tsv > stream.tsv
+both() {        # rows of either, and of these whose onsets are the same within 20 ms
+    awk '/^[0-9]/ { if (FNR == NR) t[++n] = $1; else { m++; for (i = 1; i <= n; i++) if (($1 - t[i]) ^ 2 < 4e-4) k++ } }
+        END { print n, (m > n - 3 && m < n + 3), (k > n - 3) }' whole.tsv stream.tsv; }
+both
+awk '/^# transition_frequency:/ { print ($3 - 47.1226) ^ 2 < 9 * $4 ^ 2, $4 < .02 }
+    /^# transitions:/ { print ($3 > 36) }' stream.tsv
+awk '/^[0-9]/ && $7 != "-"' stream.tsv | wc -l | awk '{ print ($1 > 20) }'
+
+echo "-- as they come, and stopped"
+mkfifo in
+: > out
+ss-features --fmin 5 --stream < in > out &
+tool=$!
+exec 3> in
+awk '/^#/ || $1 < 5' run.tsv >&3        # what ends .6 s before is there, while the pipe is open
+last() { awk '/^[0-9]/ && $2 < 4.4 { t = $2 } END { print t + 0 }' "$1"; }
+until [ "$(last out)" = "$(last stream.tsv)" ]; do sleep 0.1; done
+echo there
+kill -TERM "$tool"
+awk '!/^#/ && $1 >= 5 && $1 < 5.1' run.tsv >&3 || :
+exec 3>&-
+wait "$tool" 2> /dev/null || echo "a signal: $(($? > 128))"
+grep -c '^# transitions:' out
+
+echo "-- the same bytes"
+awk '{ print; fflush() } NR % 2000 == 0 { system("sleep .1") }' run.tsv | ss-features --fmin 5 --stream | cmp - stream.tsv
+ss-features --fmin 5 --stream --format json run.tsv | head -n 1 | tr ',' '\n' | sed -n '2p;4p;s/^{//p'
+
+echo "-- refused"
+refused() { "$@" > out || echo "exit $?"; }
+refused ss-features --stream run.tsv
+refused ss-features --stream --fmin 5 run.tsv run.tsv
+refused ss-features --stream --fmin 600 run.tsv
+refused ss-features --stream --fmin .001 run.tsv
