@@ -377,7 +377,7 @@ describe(const cycle *c, size_t n, const double *x, size_t step, cycle *known, d
     else if ((double)(out->n - alike) > fmax(SPOILT, PART * (double)out->n) || n_known < 2
              || !(out->likeness >= CYCLES_ALIKE))
         out->why = "no cycle resembles the next one";
-    else if (n_known < ROBUST && 2 * sooner > n_known)
+    else if (n_known <= FEW && 2 * sooner > n_known)
         out->why = "what repeats may repeat sooner: in so few cycles, several may be alike by chance";
     else if (energy * energy < PART * squares || fades(c, n, ACTIVE * energy))
         out->why = "it rings once, or sounds in a small part of the record only";

@@ -66,7 +66,7 @@ ss_find_contact_slope(search *s)
     const double *values = s->signal->values;
     size_t x = (size_t)s->opts->displacement, f = (size_t)s->opts->force, n = 0;
     ss_value slope = unknown;
-    if (s->opts->displacement < 0 || s->opts->force < 0)
+    if (s->opts->displacement < 0 || s->opts->force < 0 || isnan(out->number[SS_TRANSITION_FREQUENCY].value))
         return SS_OK;
     if (out->reverses && isfinite(out->number[SS_FRICTION].value))
         return SS_OK;                   /* its loading gives the stiffness */
