@@ -243,7 +243,7 @@ names_dry_friction(void **unused)
     ss_motion_opts opts;
     (void)unused;
     for (int i = 0; i < ROWS; i++)
-        r.f[i] = (r.v[i] > 0 ? 1 : -1) * (2 + 1.5 / (1 + fabs(r.v[i]) / 2)) + 0.9 * sin(r.x[i]);
+        r.f[i] = (r.v[i] > 0 ? 1 : -1) * (2 + 1.5 * exp(-pow(fabs(r.v[i]) / 3, 1.5))) + 0.9 * sin(r.x[i]);
     add_noise(r.f, 0.02, 4);
     for (int i = 0; i < ROWS; i++)
         r.f[i] = fmin(r.f[i], 3);
@@ -253,6 +253,8 @@ names_dry_friction(void **unused)
     assert_named(k, "stribeck");
     assert_number(k, "friction", 2, "kN");
     assert_number(k, "static_friction", 3.5, "kN");
+    assert_number(k, "stribeck_velocity", 3, "mm/s");
+    assert_number(k, "stribeck_exponent", 1.5, "1");
     assert_number(k, "sine", 0.9, "kN");
     assert_true(k->clipped > 100);
     ss_motion_ranking_free(k);

@@ -17,6 +17,7 @@ enum { BLOCKS = 24, LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
 enum { LAW_NUMBERS = 8 };
 typedef struct driven_law {
     const char *name, *model;       /* model NULL: no law */
+    const char *word[2];            /* a key of its scene, and its word; or NULL */
     unsigned free;                  /* a bit for each unknown that is free */
     double held[UNKNOWNS];          /* the others, as a larger law has them that this one is a limit of */
     size_t parts;                   /* forces whose amplitudes are its own; 1: the sum of the model's parts */

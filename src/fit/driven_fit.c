@@ -23,10 +23,10 @@ enum { KEPT = 3 };                  /* starts that are improved */
 /* Where a fit may go, and where its starts lie. */
 static const ss_range ranges[UNKNOWNS] = {
     [LENGTH] = { -6.9, 1.1 }, [OTHER_LENGTH] = { -2, 2 }, [GAP] = { -6.9, 1.1 }, [EXPONENT] = { -0.69, 3 },
-    [BETA] = { 0.5, 1 }, [RISE] = { 0, 1.6 }, [SPEED] = { -6, 1.5 }, [SHAPE] = { -0.69, 1.4 } };
+    [BETA] = { 0.5, 1 }, [RISE] = { 0, 1.6 }, [SPEED] = { -6, 1.5 }, [SHAPE] = { 0, 1.4 } };
 static const ss_range starts[UNKNOWNS] = {
     [LENGTH] = { -5, 1 }, [OTHER_LENGTH] = { -0.7, 0.7 }, [GAP] = { -4, 0.7 }, [EXPONENT] = { -0.5, 2 },
-    [BETA] = { 0.5, 1 }, [RISE] = { 0.1, 1.2 }, [SPEED] = { -4, 0.7 }, [SHAPE] = { -0.5, 1.1 } };
+    [BETA] = { 0.5, 1 }, [RISE] = { 0.1, 1.2 }, [SPEED] = { -4, 0.7 }, [SHAPE] = { 0, 1.1 } };
 
 typedef struct problem {
     const driven_law *law;

@@ -21,6 +21,7 @@ stribeck(double number[], const double u[], const double c[])
     number[0] = c[0];
     number[1] = c[0] + c[1];
     number[2] = exp(u[SPEED]);
+    number[3] = exp(u[SHAPE]);
 }
 
 /* The amplitudes of an elastic contact are its stiffnesses. */
@@ -81,8 +82,9 @@ static const driven_law list[] = {
     [IS_COULOMB] = { .name = "coulomb", .model = "coulomb", .parts = 1, .numbers = coulomb, .number = { AMOUNT },
         .contains = BIT(IS_LINEAR), .held = { [LENGTH] = SMALL, [GAP] = SMALL } },
     [IS_STRIBECK] = { .name = "stribeck", .model = "stribeck", .parts = 2, .numbers = stribeck,
-        .number = { AMOUNT, { "static_friction", "N" }, { "stribeck_velocity", "m/s" } },
-        .contains = SIMPLE, .free = BIT(SPEED), .held = { [LENGTH] = SMALL } },
+        .number = { AMOUNT, { "static_friction", "N" }, { "stribeck_velocity", "m/s" },
+                    { "stribeck_exponent", "1" } }, .word = { "stribeck_shape", "exponential" },
+        .contains = SIMPLE, .free = BIT(SPEED) | BIT(SHAPE), .held = { [LENGTH] = SMALL } },
     [IS_COMPLIANT] = { .name = "compliant", .model = "compliant", .parts = 1, .numbers = compliant,
         .number = { AMOUNT, STIFFNESS }, .contains = SIMPLE, .free = BIT(LENGTH),
         .held = { [EXPONENT] = 2.5, [GAP] = SMALL, [BETA] = 0.5 } },
@@ -115,6 +117,8 @@ void
 ss_driven_scene(ss_scene *scene, const driven_law *law, const double number[])
 {
     scene->model = ss_model_named(law->model);
+    if (law->word[0] != NULL)
+        ss_scene_set_text(scene, law->word[0], law->word[1], NULL);
     for (size_t i = 0; i < LAW_NUMBERS && law->number[i].name != NULL; i++)
         if (ss_key_named(scene->model, law->number[i].name) != NULL)
             ss_scene_set(scene, law->number[i].name, number[i], NULL);
