@@ -390,6 +390,8 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_backbone_scene(NULL, &none_found, signal, 0, 1, NULL), NULL);
     assert_refused(ss_backbone_scene(&scene, NULL, signal, 0, 1, NULL), NULL);
     assert_refused(ss_backbone_scene(&scene, &none_found, NULL, 0, 1, NULL), NULL);
+    assert_refused(ss_ridge_write(NULL, &none, NULL, NULL, SS_TSV, NULL), NULL);
+    assert_refused(ss_ridge_write(stdout, NULL, NULL, NULL, SS_TSV, NULL), NULL);
     assert_refused(ss_plot_backbone(NULL, &none_found, signal, 0, NULL, NULL), NULL);
     assert_refused(ss_plot_backbone(stdout, NULL, signal, 0, NULL, NULL), NULL);
     assert_refused(ss_plot_backbone(stdout, &none_found, NULL, 0, NULL, NULL), NULL);

@@ -16,7 +16,8 @@ static const char usage[] =
 "      --fill           colours between the lines, too\n"
 "      --level=DB       0 dB is |W| of DB re 1, not the largest |W|\n"
 "      --palette=NAME   viridis, cividis, plasma, inferno, magma, grey; or NAME_r\n"
-"      --ridge          mark at each time the frequencies where |W| is largest\n"
+"      --ridge          mark at each time the frequencies where |W| is largest;\n"
+"                       with -o FILE.tsv or .csv write them, with amplitudes\n"
 "      --fmin=HZ, --fmax=HZ  draw these frequencies (all); for times see --from\n"
 "      --detrend=NAME   of a recording, subtract none, mean or linear first\n"
 "      --signal=FILE    the signal for panel (a)\n"
@@ -42,6 +43,7 @@ typedef struct drawing {
     ss_detrend detrend;
     int palette;                /* of ss_palettes, if it was given */
     tool_reading reading;
+    tool_kind kind;             /* of the output */
 } drawing;
 
 static ss_status
@@ -178,8 +180,9 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         d->opts.noise = 0;
     if (d->opts.fmin > 0 && d->opts.fmax > 0 && d->opts.fmin >= d->opts.fmax)
         tool_usage("--fmin does not lie below --fmax");
-    tool_output_kind(d->output, TOOL_PICTURES, TOOL_GP);
-    tool_script_to(d->output);
+    d->kind = tool_output_kind(d->output, d->opts.ridge ? TOOL_PICTURES | TOOL_WORDS : TOOL_PICTURES, TOOL_GP);
+    if (d->kind < TOOL_STREAM)
+        tool_script_to(d->output);
     tool_reading_end(&d->reading, d->column);
     tool_reading_needs(&d->reading, &d->column, d->column != NULL);
     if (is_stdin(d->path) + is_stdin(d->signal_path) + is_stdin(d->events) + is_stdin(d->features) > 1)
@@ -223,7 +226,11 @@ main(int argc, char *argv[])
     }
     d.opts.overlay = d.overlay = tool_read_overlay(d.features, SS_KIND_FEATURES);
     note_contents(&d);
-    tool_draw(d.output, &opts, write_script, &d);
+    ss_error err = { 0 };
+    if (d.kind < TOOL_STREAM)
+        tool_draw(d.output, &opts, write_script, &d);
+    else
+        tool_check(ss_ridge_write(tool_output(d.output), d.coefficients, &d.opts, &opts, tool_stream(d.kind), &err), &err);
     tool_reading_free(&d.reading);
     ss_overlay_free(d.times);
     ss_overlay_free(d.overlay);

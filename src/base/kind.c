@@ -14,6 +14,7 @@ static const struct {
     [SS_KIND_TRADE] = { "a trade of accuracy for time", "# stickslip trade 1" },
     [SS_KIND_SPECTRUM] = { "a spectrum", "# stickslip spectrum 1" },
     [SS_KIND_BACKBONE] = { "a backbone", "# stickslip backbone 1" },
+    [SS_KIND_RIDGE] = { "a ridge", "# stickslip ridge 1" },
     [SS_KIND_SUMMARIES] = { "a table of summaries", "# stickslip summaries 1" },
     [SS_KIND_SCENE] = { "a scene", NULL },
     [SS_KIND_TABLE] = { "a table of numbers or names", NULL },

@@ -7,9 +7,11 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 #include "base/options.h"
 #include "base/range.h"
+#include "io/record.h"
 #include "map/wavelet.h"
 
 const ss_range ss_contour_levels = { 1, CONTOUR_LEVELS }, ss_contour_spans = { 1e-3, 1000 },
@@ -164,6 +166,40 @@ write_signal(FILE *out, const trace *t)
     fputs(panel_a, out);
 }
 
+/* Where ridge points go: a datablock, or rows. */
+typedef struct ridge_of {
+    FILE *out;
+    const contour_map *map;
+    const ss_coefficients *c;
+    struct rows rows;
+} ridge_of;
+
+static void
+write_point(double t, double f, double level, void *user)
+{
+    const ridge_of *to = user;
+    (void)level;
+    ss_script_write(to->out, t, ss_script_decimals(to->map->to - to->map->from), " ");
+    ss_script_write(to->out, f, 4 - (int)floor(log10(f)), "\n");
+}
+
+/* A steady oscillation of amplitude A has |W| = A sqrt(a / 2) pi^(1/4) at its ridge, or with the norm 1/a that over
+ * sqrt(a). */
+static void
+write_row(double t, double f, double level, void *user)
+{
+    ridge_of *to = user;
+    const ss_coefficients *c = to->c;
+    const char *norm = ss_header_find_note(c->head, "norm"), *unit = ss_header_find_note(c->head, "unit");
+    int is_l1 = norm != NULL && strcmp(norm, "l1") == 0;
+    double w = to->map->top * pow(10, level / 20), a = is_l1 ? 1 : c->center / (2 * M_PI * f);
+    ss_rows_number(&to->rows, "t", "s", t);
+    ss_rows_number(&to->rows, "frequency", "Hz", f);
+    ss_rows_number(&to->rows, "amplitude", unit != NULL ? unit : "",
+                   w / sqrt(a / 2) / sqrt(sqrt(M_PI)));
+    ss_rows_end(&to->rows);
+}
+
 /* The cone is drawn first, over the colours if there are any, then events, contours and features,
  * so that events lie behind the contours.  Each level has one colour: gnuplot 6.0 loses some lines
  * that have a colour for each point. */
@@ -177,7 +213,9 @@ write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_
     contour_marks marks = ss_contour_write_marks(out, map, contour);
     if (contour->ridge) {
         fputs("ridge_colour = '" MARK_COLOUR "'\n", out);
-        ridge = ss_contour_write_ridge(out, map, c);
+        fputs("$ridge << EOD\n", out);
+        ridge = ss_contour_ridge(map, c, write_point, &(ridge_of){ .out = out, .map = map });
+        fputs("EOD\n", out);
     }
     st = ss_contour_write_lines(out, map, contour->levels, &lines);
     if (st != SS_OK)
@@ -250,6 +288,46 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
     return st == SS_OK ? ss_contour_check_marks(contour, err) : st;
 }
 
+/* Take the options and make the map, in a span of time that is the caller's. */
+static ss_status
+prepare(contour_map *map, script_span *span, ss_plot_opts *own, ss_contour_opts *own_contour, const ss_coefficients *c,
+        ss_error *err)
+{
+    ss_status st = check(c, own_contour, err);
+    if (st == SS_OK)
+        st = ss_script_find_span(span, c->head->start, c->head->rate, c->n, own, err);
+    return st == SS_OK ? ss_contour_map(map, c, own_contour, span, err) : st;
+}
+
+ss_status
+ss_ridge_write(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, const ss_plot_opts *opts,
+               ss_format format, ss_error *err)
+{
+    static const char *const own_notes[] = { "columns", NULL };
+    script_span span;
+    ss_plot_opts own;
+    ss_contour_opts own_contour;
+    contour_map map = { .rows = 0 };
+    if (out == NULL || c == NULL)
+        return SS_FAIL_NULL(err);
+    ridge_of to = { out, &map, c, { .out = NULL } };
+    ss_status st = ss_script_take(&own, opts, err);
+    if (st == SS_OK)
+        st = ss_options_take(&own_contour, sizeof own_contour, &defaults, contour, err);
+    if (st == SS_OK)
+        st = prepare(&map, &span, &own, &own_contour, c, err);
+    if (st == SS_OK)
+        st = ss_rows_begin(&to.rows, out, format, SS_KIND_RIDGE, err);
+    if (st == SS_OK) {
+        ss_rows_notes(&to.rows, c->head, own_notes);
+        write_row(NAN, NAN, NAN, &to);
+        ss_contour_ridge(&map, c, write_row, &to);
+        st = ss_rows_finish(&to.rows, err);
+    }
+    ss_contour_map_free(&map);
+    return st;
+}
+
 ss_status
 ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour,
                 const ss_plot_opts *opts, ss_error *err)
@@ -266,11 +344,7 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
     if (st == SS_OK)
         st = ss_options_take(&own_contour, sizeof own_contour, &defaults, contour, err);
     if (st == SS_OK)
-        st = check(c, &own_contour, err);
-    if (st == SS_OK)
-        st = ss_script_find_span(&span, c->head->start, c->head->rate, c->n, &own, err);
-    if (st == SS_OK)
-        st = ss_contour_map(&map, c, &own_contour, &span, err);
+        st = prepare(&map, &span, &own, &own_contour, c, err);
     const ss_signal *signal = st == SS_OK ? own_contour.signal : NULL;
     if (signal != NULL) {                       /* panel (a) shows the time of (b) */
         own.from = span.from;

@@ -31,8 +31,10 @@ void ss_contour_map_free(contour_map *map);
 ss_status ss_contour_write_lines(FILE *out, const contour_map *map, int levels, int *any);
 /* Write polygons that fill the areas between the lines. */
 ss_status ss_contour_write_fill(FILE *out, const contour_map *map, int levels);
-/* Write a datablock of time and frequency of the ridge points.  Returns their number. */
-size_t ss_contour_write_ridge(FILE *out, const contour_map *map, const ss_coefficients *c);
+/* Call visit for each ridge point, with its time, its frequency and its level, ascending in time.  Returns their
+ * number. */
+size_t ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
+                        void (*visit)(double t, double f, double level, void *user), void *user);
 
 /* Write a point of the map, given by column and row, as time and frequency, with the texts between
  * and behind them. */

@@ -48,25 +48,22 @@ in_cone(const ss_coefficients *c, double t, double f)
 }
 
 size_t
-ss_contour_write_ridge(FILE *out, const contour_map *map, const ss_coefficients *c)
+ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
+                 void (*visit)(double t, double f, double level, void *user), void *user)
 {
-    double range = map->to - map->from;
     size_t n = 0;
-    fputs("$ridge << EOD\n", out);
     for (size_t i = 0; i <= CONTOUR_COLUMNS; i++)
         for (size_t r = 1; r + 1 < map->rows; r++) {
             const double *level = map->level + i;
-            double t = map->from + (double)i / CONTOUR_COLUMNS * range, here = at(level, r);
+            double t = map->from + (double)i / CONTOUR_COLUMNS * (map->to - map->from), here = at(level, r);
             if (here < -map->span || here <= at(level, r - 1) || here < at(level, r + 1)
                 || !falls(level, map->rows, r, 1) || !falls(level, map->rows, r, (size_t)-1))
                 continue;
             double f = exp(top_of(map, level, r));
             if (in_cone(c, t, f))
                 continue;
-            ss_script_write(out, t, ss_script_decimals(range), " ");
-            ss_script_write(out, f, 4 - (int)floor(log10(f)), "\n");
+            visit(t, f, here, user);
             n++;
         }
-    fputs("EOD\n", out);
     return n;
 }
