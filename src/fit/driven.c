@@ -106,8 +106,8 @@ ss_driven_free(driven *d)
     free(d->row);
 }
 
-/* Leave out rows at an end of the range of a noisy force if more of them stand there than chance puts on one value:
- * ten times as many as on the values next to it.  Without noise, friction itself has one value in slip. */
+/* Leave out rows at an end of the range of a noisy force if more of them stand there than chance puts on one
+ * value: ten times as many as on the values next to it.  Without noise, friction itself has one value in slip. */
 static ss_status
 leave_out_clipped(driven *d)
 {

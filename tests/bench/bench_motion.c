@@ -212,13 +212,13 @@ count(counts *c, const truth *r, const ss_motion_ranking *k)
         c->right++;
         for (size_t i = 0; i < k->n_numbers; i++) {
             const ss_value v = k->number[i].value;
-            double truth;
-            if (known(r, k->number[i].name, &truth) && v.error > 0) {
+            double value;
+            if (known(r, k->number[i].name, &value) && v.error > 0) {
                 c->numbers++;
-                c->near += fabs(v.value - truth) <= 2 * v.error;
+                c->near += fabs(v.value - value) <= 2 * v.error;
                 if (getenv("SHOW") != NULL)
-                    printf("%s %s: %g, off by %g errors of %g\n", names[law], k->number[i].name, truth,
-                           (v.value - truth) / v.error, v.error);
+                    printf("%s %s: %g, off by %g errors of %g\n", names[law], k->number[i].name, value,
+                           (v.value - value) / v.error, v.error);
             }
         }
     }
