@@ -327,8 +327,6 @@ close_flow(flow *f, const char *path)
     tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
               f->samples, scales, ss_stream_grid(f->stream)->scale[0].f,
               ss_stream_grid(f->stream)->scale[scales - 1].f);
-    tool_note("each at most %zu to %zu samples behind b", ss_stream_window(f->stream, scales - 1) - 1,
-              ss_stream_window(f->stream, 0) - 1);
     ss_stream_free(f->stream);
 }
 
@@ -342,6 +340,11 @@ transform_stream(const request *req, const char *path)
     size_t column = tool_column(head, path, req->column);
     tool_end_at_rows(req->output);
     check(ss_stream_new(&f.stream, head->rate, &req->opts, write_coefficients, &f, &err), &err, path);
+    const ss_scale *scale = ss_stream_grid(f.stream)->scale;
+    size_t last = ss_stream_grid(f.stream)->n_scales - 1;
+    tool_note("coefficients come at most %.3g s (of %.4g Hz) to %.3g s (of %.4g Hz) behind b",
+              (double)(ss_stream_window(f.stream, last) - 1) / head->rate, scale[last].f,
+              (double)(ss_stream_window(f.stream, 0) - 1) / head->rate, scale[0].f);
     follow(&f, reader, column, req, path);
     close_flow(&f, path);
     ss_reader_free(reader);

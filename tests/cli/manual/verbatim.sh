@@ -15,6 +15,7 @@ case $all in *' ::: '*) printf '%s\n' ${all##*::: } ;; *) cat ;; esac | while re
 done
 EOF
 python3 -c 'import numpy' 2> /dev/null || printf '#!/bin/sh\n' > bin/python3
+command -v Rscript > /dev/null || printf '#!/bin/sh\n' > bin/Rscript
 command -v h5dump > /dev/null || printf '#!/bin/sh\n' > bin/h5dump
 # shellcheck disable=SC2016  # for the script written
 command -v sox > /dev/null ||
