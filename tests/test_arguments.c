@@ -309,8 +309,6 @@ transforms_refuse_null(void **state)
     assert_refused(ss_morlet_compare(plan, x, NULL, 1, &difference, &e), &e);
     assert_refused(ss_morlet_compare(plan, x, w, 1, NULL, &e), &e);
     ss_morlet_free(plan);
-    assert_refused(ss_morlet_point(NULL, 64, 1, opts, (ss_point){ 1, 1 }, w, &e), &e);
-    assert_refused(ss_morlet_point(x, 64, 1, opts, (ss_point){ 1, 1 }, NULL, &e), &e);
     assert_true(isnan(ss_scale_b(NULL, 1)));
     assert_int_equal(ss_scale_edge(NULL, 1, 1, 1), 1);
 

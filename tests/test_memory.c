@@ -24,6 +24,7 @@
 #include "signal/noise.h"
 #include "signal/header.h"
 #include "scene/scene.h"
+#include "morlet_point.h"
 
 /* --- the allocator ------------------------------------------------------------------------- */
 
@@ -409,7 +410,7 @@ comparisons(int variant)
     if (st == SS_OK)
         st = ss_morlet_compare(plan, x, w, 3, &difference, &err);
     if (st == SS_OK)
-        st = ss_morlet_point(x, signal->n, signal->head->rate, &opts, (ss_point){ 0.01, 0.01 },
+        st = point_at(x, signal->n, signal->head->rate, &opts, 0.01, 0.01,
                              point, &err);
     ss_morlet_free(plan);
     free(w);
@@ -725,9 +726,9 @@ stores(int variant)
 {
     static const ss_event event = { 0.1, 0, 0, SS_SLIP, 1 };
     char other[80];
-    ss_record record = { signal, &event, 1, 1, variant == 0 ? coefficients : NULL };
+    ss_record whole = { signal, &event, 1, 1, variant == 0 ? coefficients : NULL };
     snprintf(other, sizeof other, "%s.new", path);
-    ss_status st = ss_record_write(&record, NULL, other, SS_H5, &err);
+    ss_status st = ss_record_write(&whole, NULL, other, SS_H5, &err);
     if (st != SS_OK)
         assert_int_not_equal(access(other, F_OK), 0);
     unlink(other);
@@ -872,8 +873,8 @@ set_up(void **state)
     if (ss_wisdom_write(out, NULL) != SS_OK)
         return -1;
     fclose(out);
-    ss_record record = { .signal = signal, .coefficients = coefficients };
-    return ss_record_write(&record, NULL, path, SS_H5, NULL) == SS_OK ? 0 : -1;
+    ss_record whole = { .signal = signal, .coefficients = coefficients };
+    return ss_record_write(&whole, NULL, path, SS_H5, NULL) == SS_OK ? 0 : -1;
 }
 
 static int

@@ -7,6 +7,7 @@
 #include "map/fft/blocks.h"
 #include "morlet_plan.h"
 #include "unit.h"
+#include "morlet_point.h"
 
 /* --- the sum ------------------------------------------------------------------------------- */
 
@@ -421,7 +422,7 @@ error_of_one_point_is_rounding(void **state)
                 double a = (center[i] + 2) / (M_PI * rate) * pow(1.13, j % 12), b = j / 61., w[2];
                 long double want[2];
                 make(which, x, N);
-                assert_int_equal(ss_morlet_point(x, N, rate, &opts, (ss_point){ a, b }, w, NULL), SS_OK);
+                assert_int_equal(point_at(x, N, rate, &opts, a, b, w, NULL), SS_OK);
                 oracle(x, N, rate, &opts, a, b, want);
                 double x_max = which == OFFSET ? 1001 : which == WEAK_BURST ? 1.00001 : 1;
                 double unit = sqrt(a) * x_max * (16 * DBL_EPSILON + oracle_error(&opts));

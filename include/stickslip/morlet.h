@@ -141,15 +141,6 @@ ss_status ss_morlet_compare(const ss_morlet *plan, const double *x, const double
                             double *difference, ss_error *err);
 void ss_morlet_free(ss_morlet *plan);                               /* NULL is allowed */
 
-typedef struct ss_point {
-    double a, b;                /* scale and translation [s] */
-} ss_point;
-
-/* W at one point by the definition, as accurately as double precision allows, with a > 0 and b
- * within the record.  Of opts only center, norm, admissible and detrend count. */
-ss_status ss_morlet_point(const double *x, size_t n, double rate, const ss_morlet_opts *opts,
-                          ss_point at, double w[2], ss_error *err);
-
 /* The time b of translation k [s] from the first sample.  If B is a fraction of samples, W is
  * computed at k B exactly, and this double lies within two roundings of it.  Else W is computed at
  * this double; but if this double is the rounded time n / rate of a sample, W is computed at that

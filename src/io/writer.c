@@ -60,14 +60,22 @@ write_samples(ss_writer *w, double *const column[], size_t n, ss_error *err)
     struct stream *s = (struct stream *)w;
     size_t (*number)(char *, double, int) = s->format->number;
     const size_t time = s->has_time, cells = s->columns + time;
-    ss_status st = SS_OK;
-    for (size_t i = 0; s->holds == SAMPLES && st == SS_OK && i < n; i++, s->row++)
-        for (size_t k = 0; st == SS_OK && k < cells; k++) {
-            st = name_cell(s, k < time ? "t" : s->names != NULL ? s->names->column[k - time].name : "", k == 0, err);
+    char *to = s->out.buffer + s->out.used, *const last = s->out.buffer + OUTPUT_ROOM - SS_NUMBER_MAX;
+    for (size_t i = 0; s->holds == SAMPLES && i < n; i++, s->row++)
+        for (size_t k = 0; k < cells; k++) {
+            if (to > last || s->names != NULL) {
+                s->out.used = (size_t)(to - s->out.buffer);
+                ss_status st = name_cell(s, k < time ? "t" : s->names != NULL ? s->names->column[k - time].name : "",
+                                         k == 0, err);
+                if (st != SS_OK)
+                    return st;
+                to = s->out.buffer;
+            }
             double x = k < time ? s->start + (double)s->row / s->rate : column[k - time][i];
-            s->out.used += number(s->out.buffer + s->out.used, x, k + 1 == cells);
+            to += number(to, x, k + 1 == cells);
         }
-    return st == SS_OK ? drain(s, err) : st;
+    s->out.used = (size_t)(to - s->out.buffer);
+    return drain(s, err);
 }
 
 static ss_status

@@ -185,8 +185,9 @@ ss_scale_b(const ss_scale *scale, size_t k)
     return (double)k * scale->b_num / scale->b_den;
 }
 
-spot
-ss_spot_of(double b, double rate)
+/* The place of time b [s] from the first sample. */
+static spot
+spot_of(double b, double rate)
 {
     double c = rint(b * rate);
     return (spot){ c, c / rate == b ? 0 : fma(b, rate, -c) };
@@ -213,7 +214,7 @@ ss_scale_spot(const ss_scale *scale, size_t k, double rate)
 {
     double parts = ss_scale_parts(scale, rate), all = (double)k * scale->b_num;
     if (parts == 0)
-        return ss_spot_of(ss_scale_b(scale, k), rate);
+        return spot_of(ss_scale_b(scale, k), rate);
     double c = rint(all / parts);
     return (spot){ c, fma(-c, parts, all) / parts };
 }

@@ -89,9 +89,8 @@ ss_status ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size
                             const ss_morlet *plan, const ss_morlet_opts *opts);
 /* m, if translation k of a scale lies at sample k 2^p/m exactly, 2^p being b_num, else 0. */
 double ss_scale_parts(const ss_scale *scale, double rate);
-/* The place of translation k, and of time b [s] from the first sample. */
+/* The place of translation k. */
 spot ss_scale_spot(const ss_scale *scale, size_t k, double rate);
-spot ss_spot_of(double b, double rate);
 /* Translations up to time t >= 0. */
 size_t ss_scale_count(const ss_scale *scale, double t);
 

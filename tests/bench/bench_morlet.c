@@ -11,6 +11,7 @@
 #include "map/map.h"
 #include "../morlet_oracle.h"
 #include "bench.h"
+#include "../morlet_point.h"
 
 /* Seconds for one transform of n samples at 2 kHz, the best of three; its largest error over the bound into *worst. */
 static double
@@ -55,7 +56,7 @@ rounding(double center)
             x_max = fmax(x_max, fabs(x[i]));
         for (int j = 0; j < 300; j++) {
             double a = (center + 5) / (M_PI * rate) * pow(1.07, j % 70), b = j / 151.;
-            if (ss_morlet_point(x, N, rate, &opts, (ss_point){ a, b }, w, NULL) != SS_OK)
+            if (point_at(x, N, rate, &opts, a, b, w, NULL) != SS_OK)
                 exit(2);
             oracle(x, N, rate, &opts, a, b, want);
             double error = (double)hypotl(w[0] - want[0], w[1] - want[1]);
