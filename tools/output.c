@@ -112,8 +112,38 @@ tool_write_end(ss_writer *writer, size_t samples)
     ss_writer_free(writer);
 }
 
+/* Replace a header by one whose columns have the names of "OLD=NEW". */
+static void
+rename_columns(ss_header **head, const char *path, const tool_texts *names)
+{
+    ss_header *made;
+    size_t columns = (*head)->n_columns;
+    const char **is = tool_room(NULL, columns, sizeof *is);
+    for (size_t c = 0; c < columns; c++)
+        is[c] = (*head)->column[c].name;
+    for (size_t i = 0; i < names->n; i++) {
+        size_t length = strcspn(names->text[i], "=");
+        const char *name = names->text[i] + length + 1;
+        char *old = strndup(names->text[i], length);
+        if (old == NULL)
+            tool_die("%s", ss_strerror(SS_ENOMEM));
+        if (length == 0 || name[-1] != '=' || *name == '\0')
+            tool_usage("--name: '%s' is not OLD=NEW", names->text[i]);
+        is[tool_column(*head, path, old)] = name;
+        free(old);
+    }
+    tool_check(ss_header_select(&made, *head, NULL, 0, 0, NULL), NULL);
+    for (size_t c = 0; c < columns; c++)
+        tool_check(ss_header_add_column(made, is[c], (*head)->column[c].unit, NULL), NULL);
+    made->has_time = (*head)->has_time;
+    ss_header_free(*head);
+    *head = made;
+    free(is);
+}
+
 void
-tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const char *to, tool_kind kind)
+tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const tool_texts *names, const char *to,
+          tool_kind kind)
 {
     const ss_header *head = ss_reader_header(reader);
     ss_header *chosen;
@@ -126,6 +156,8 @@ tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const c
         some[i] = all[column[i]];
     }
     tool_check(ss_header_select(&chosen, head, column, n, 0, NULL), NULL);
+    if (names->n > 0)
+        rename_columns(&chosen, from, names);
     got = tool_rows(reader, all, piece);        /* if this fails, nothing is written */
     ss_writer *out = tool_writer(to, kind, &(ss_contents){ .signal = chosen });
     for (; got > 0; rows += got, got = tool_rows(reader, all, piece))

@@ -7,6 +7,7 @@ static const char usage[] =
 "usage: ss-cat [options] [FILE[:/dataset]]\n"
 "Read a signal in any supported form, write it as a signal stream.\n"
 "  -c, --column=NAME|N  write this column (repeatable, in order), default all\n"
+"      --name=OLD=NEW   give a column this name (repeatable)\n"
 "  -t, --time=NAME|N    the column of time\n"
 "      --time-unit=UNIT what it counts: s, ms, us, ns, min, h or d\n"
 "  -r, --rate=HZ        the sample rate of input without a clock\n"
@@ -26,7 +27,7 @@ static const char usage[] =
 "      --version        show the version and exit\n";
 
 static const char *path, *output;
-static tool_texts wanted;               /* names of columns */
+static tool_texts wanted, names;        /* of columns; OLD=NEW */
 
 static void
 say_header(const ss_header *head)
@@ -44,7 +45,7 @@ main(int argc, char *argv[])
     tool_reading reading = { .time_letter = 't', .rate_letter = 'r' };
     tool_kind kind = TOOL_TSV;
     const tool_option options[] = {
-        TOOL_TEXTS('c', "column", &wanted), TOOL_OUTPUT(&output), TOOL_FORMAT(&kind) };
+        TOOL_TEXTS('c', "column", &wanted), TOOL_TEXTS(0, "name", &names), TOOL_OUTPUT(&output), TOOL_FORMAT(&kind) };
 
     tool_begin(argv, "ss-cat", usage);
     path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
@@ -54,9 +55,10 @@ main(int argc, char *argv[])
     reading.opts.progress = (ss_progress){ tool_progress, output != NULL ? &reading : NULL };
     ss_reader *reader = tool_read_rows(path, &reading.opts);
     say_header(ss_reader_header(reader));
-    tool_copy(reader, path, &wanted, output, kind);
+    tool_copy(reader, path, &wanted, &names, output, kind);
     tool_reading_free(&reading);
     free(wanted.text);
+    free(names.text);
     tool_end();
     return 0;
 }

@@ -14,6 +14,7 @@ static const char usage[] =
 "      --integral=N     the N-fold integral in time, 1 or 2\n"
 "      --stop=DB        what the stop bands are below the pass band (80)\n"
 "  -c, --column=NAME|N  filter and write only this column (repeatable)\n"
+"      --name=OLD=NEW   give a column this name (repeatable)\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE    write to FILE.tsv, .au, .csv, .json or .h5\n"
 "      --format=FORM    on standard output: tsv (default), au, csv, json\n"
@@ -23,7 +24,7 @@ TOOL_READING_USAGE
 "      --version        show the version and exit\n";
 
 static const char *path, *output;
-static tool_texts wanted;               /* names of columns */
+static tool_texts wanted, names;        /* of columns; OLD=NEW */
 static ss_filter_opts opts;
 
 static void
@@ -38,7 +39,7 @@ filter_rows(tool_kind kind, const ss_read_opts *reading)
     tool_note("%s", ss_header_find_note(ss_reader_header(reader), "filter"));
     if (opts.order < 0 && !(opts.high_pass > 0))
         tool_warn("%s: an integral without --high-pass drifts with the mean of the signal", tool_input_name(path));
-    tool_copy(reader, path, &wanted, output, kind);
+    tool_copy(reader, path, &wanted, &names, output, kind);
 }
 
 int
@@ -53,7 +54,7 @@ main(int argc, char *argv[])
     const tool_option options[] = {
         TOOL_NUMBER(0, "low-pass", &opts.low_pass, edges), TOOL_NUMBER(0, "high-pass", &opts.high_pass, edges),
         TOOL_WHOLE(0, "derivative", &derivative, derivatives), TOOL_WHOLE(0, "integral", &integral, integrals),
-        TOOL_NUMBER(0, "stop", &opts.stop, stops), TOOL_TEXTS('c', "column", &wanted), TOOL_OUTPUT(&output),
+        TOOL_NUMBER(0, "stop", &opts.stop, stops), TOOL_TEXTS('c', "column", &wanted), TOOL_TEXTS(0, "name", &names), TOOL_OUTPUT(&output),
         TOOL_FORMAT(&kind) };
 
     tool_begin(argv, "ss-filter", usage);
@@ -70,6 +71,7 @@ main(int argc, char *argv[])
     filter_rows(kind, &reading.opts);
     tool_reading_free(&reading);
     free(wanted.text);
+    free(names.text);
     tool_end();
     return 0;
 }
