@@ -8,6 +8,7 @@
  * rows whose position, speed and last two turns of the motion are nearly those of another row.  A law's memory is
  * no longer than that. */
 #include "fit/driven.h"
+#include "fit/column.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -83,7 +84,9 @@ find_doubt(char *why, size_t room, const driven *d, size_t turns)
     size_t moving = 0;
     double most = 0, range[BLOCKS][2];
     why[0] = '\0';
-    if (!(d->length > 0 && d->speed > 0 && d->force > 0))
+    if (!isfinite(d->length + d->speed + d->force))
+        snprintf(why, room, "its numbers are too large");
+    else if (!(d->length > 0 && d->speed > 0 && d->force > 0))
         snprintf(why, room, "%s is constant", d->length > 0 && d->speed > 0 ? "the force" : "the motion");
     else if (d->n < FEWEST)
         snprintf(why, room, "it has %zu rows, fewer than %d", d->n, FEWEST);
@@ -293,7 +296,7 @@ decide(ss_motion_ranking *out, const driven_result *r, size_t n, double noise, d
             *best = i;
     for (size_t i = 0; i < n; i++) {
         double most = r[*best].loss, error = 2 * block_error(r[i].block, r[*best].block);
-        tied[i] = r[i].loss - most <= fmax(fmin(error, most), AS_GOOD * most);
+        tied[i] = r[i].loss - most <= fmax(fmin(error, most), fmax(AS_GOOD * most, RESIDUE_QUIET * power));
     }
     for (size_t i = 0; i < n; i++) {
         out->row[i].tied = tied[i];
@@ -489,7 +492,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
 {
     driven_result *r = calloc(LAWS_MOST, sizeof *r);
     size_t *partner = malloc(rows->n * sizeof *partner), n = 0, best = 0;
-    double noise = INFINITY, power = power_of(rows);
+    double noise = INFINITY, power = power_of(rows), quiet = RESIDUE_QUIET * power;
     ss_status st = r != NULL && partner != NULL ? find_partners(rows, partner) : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && ss_driven_law(i) != NULL; i++) {
         const driven_law *law = ss_driven_law(i);
@@ -506,7 +509,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
             .repeat = find_repeat(rows, partner, r[n].left, &unshared) };
         if ((st = find_unexplained(rows, fold, r[n].left, &unexplained)) != SS_OK)
             break;
-        noise = fmin(noise, fmin(unshared, unexplained));
+        noise = fmax(quiet, fmin(noise, fmin(unshared, unexplained)));
         n++;
     }
     out->n = n;
