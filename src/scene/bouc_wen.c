@@ -53,11 +53,7 @@ yield(const ss_scene *s, int side, int way, double z, double *slope)
 static double
 fastest(const state *m, const char **what)
 {
-    const ss_scene *s = m->scene;
-    double contact = sqrt((s->stiffness + s->own[STIFFNESS]) / s->mass), decay = s->damping / s->mass;
-    if (what != NULL)
-        *what = m->omega >= fmax(contact, decay) ? "the base" : decay > contact ? "the damper" : "the contact";
-    return fmax(fmax(contact, decay), m->omega);
+    return ss_kink_fastest(m, m->scene->own[STIFFNESS], 0, what);
 }
 
 static void
@@ -81,10 +77,7 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
         -s->stiffness / s->mass, -s->damping / s->mass, -s->friction * z_by_y / s->mass,
         0, part, q[1] * slope * z_by_y
     };
-    for (int i = 0; i < 9; i++)
-        dfdq[i] = row[i];
-    dfdt[0] = dfdt[2] = 0;
-    dfdt[1] = base_force_rate(m, u) / s->mass;
+    ss_kink_jacobian(m, u, row, dfdq, dfdt);
 }
 
 /* |z|^n is a product of series if n is a whole number. */
@@ -162,12 +155,8 @@ static void
 sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
     (void)drive;
-    s->x = q[0];
-    s->v = q[1];
-    s->a = dqdt[1];
+    ss_kink_sample(q, dqdt, s);
     s->f = m->scene->friction * z_of(m->scene, m->side, q[2]);
-    s->y = q[2];
-    s->mode = sign(q[1]);
 }
 
 static double

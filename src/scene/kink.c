@@ -43,6 +43,35 @@ ss_kink_next(state *m, ss_event *e)
     return 0;
 }
 
+double
+ss_kink_fastest(const state *m, double stiffness, double viscous, const char **what)
+{
+    const ss_scene *s = m->scene;
+    double contact = sqrt((s->stiffness + stiffness) / s->mass), decay = (s->damping + viscous) / s->mass;
+    if (what != NULL)
+        *what = m->omega >= fmax(contact, decay) ? "the base" : decay > contact ? "the damper" : "the contact";
+    return fmax(fmax(contact, decay), m->omega);
+}
+
+void
+ss_kink_jacobian(const state *m, double u, const double row[9], double *dfdq, double dfdt[])
+{
+    for (int i = 0; i < 9; i++)
+        dfdq[i] = row[i];
+    dfdt[0] = dfdt[2] = 0;
+    dfdt[1] = base_force_rate(m, u) / m->scene->mass;
+}
+
+void
+ss_kink_sample(const double q[], const double dqdt[], ss_sample *s)
+{
+    s->x = q[0];
+    s->v = q[1];
+    s->a = dqdt[1];
+    s->y = q[2];
+    s->mode = sign(q[1]);
+}
+
 static void
 all_free(const state *m, int is_free[D_MOST])
 {

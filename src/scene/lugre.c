@@ -66,12 +66,7 @@ force(const ss_scene *s, double v, double z, double z_rate)
 static double
 fastest(const state *m, const char **what)
 {
-    const ss_scene *s = m->scene;
-    double contact = sqrt((s->stiffness + s->own[STIFFNESS]) / s->mass);
-    double decay = (s->damping + s->own[VISCOUS]) / s->mass;
-    if (what != NULL)
-        *what = m->omega >= fmax(contact, decay) ? "the base" : decay > contact ? "the damper" : "the contact";
-    return fmax(fmax(contact, decay), m->omega);
+    return ss_kink_fastest(m, m->scene->own[STIFFNESS], m->scene->own[VISCOUS], what);
 }
 
 static void
@@ -97,10 +92,7 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
         -s->stiffness / s->mass, -(s->damping + force(s, 1, 0, by_v)) / s->mass, -force(s, 0, 1, by_z) / s->mass,
         0, by_v, by_z
     };
-    for (int i = 0; i < 9; i++)
-        dfdq[i] = row[i];
-    dfdt[0] = dfdt[2] = 0;
-    dfdt[1] = base_force_rate(m, u) / s->mass;
+    ss_kink_jacobian(m, u, row, dfdq, dfdt);
 }
 
 static void
@@ -154,12 +146,8 @@ static void
 sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
     (void)drive;
-    s->x = q[0];
-    s->v = q[1];
-    s->a = dqdt[1];
+    ss_kink_sample(q, dqdt, s);
     s->f = force(m->scene, q[1], q[2], bristle_rate(m->scene, m->mode, q[1], q[2]));
-    s->y = q[2];
-    s->mode = sign(q[1]);
 }
 
 static double

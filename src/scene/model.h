@@ -456,6 +456,12 @@ extern const struct variation ss_stick_variation;
 int ss_kink_start(state *m);
 int ss_kink_next(state *m, ss_event *e);
 void ss_kink_turn(state *m);                        /* the mode of v, or of v', begins */
+/* The rates of a spring with such a contact, with viscous friction; what names them, as in `fastest`. */
+double ss_kink_fastest(const state *m, double stiffness, double viscous, const char **what);
+/* row: the derivatives of all rates by the state. */
+void ss_kink_jacobian(const state *m, double u, const double row[9], double *dfdq, double dfdt[]);
+/* All but f; y is the third number. */
+void ss_kink_sample(const double q[], const double dqdt[], ss_sample *s);
 extern const struct variation ss_kink_variation;
 
 #endif

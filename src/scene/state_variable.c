@@ -152,10 +152,7 @@ jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]
         -s->stiffness / s->mass, -s->damping / s->mass, -1 / s->mass,
         0, rate * goal * s->own[ALPHA] * sech * sech, -rate
     };
-    for (int i = 0; i < 9; i++)
-        dfdq[i] = row[i];
-    dfdt[0] = dfdt[2] = 0;
-    dfdt[1] = base_force_rate(m, u) / s->mass;
+    ss_kink_jacobian(m, u, row, dfdq, dfdt);
 }
 
 /* Beyond this |alpha v| tanh is 1 to rounding over a whole step within reach: 4 exp(-1.2 x 35) =
@@ -250,12 +247,9 @@ static void
 sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *s)
 {
     (void)m, (void)drive;
-    s->x = q[0];
-    s->v = q[1];
-    s->a = dqdt[1];
+    ss_kink_sample(q, dqdt, s);
     s->f = q[2];
     s->y = 0;
-    s->mode = sign(q[1]);
 }
 
 static double
