@@ -510,6 +510,26 @@ features(int variant)
 }
 
 static ss_status
+feature_streams(int variant)
+{
+    ss_features_stream *stream = NULL;
+    ss_features_opts opts;
+    double *column[8];
+    ss_features_opts_init(&opts, sizeof opts);
+    opts.fmin = 20;
+    rewind(scrap);
+    for (size_t c = 0; c < cycles->head->n_columns; c++)
+        column[c] = cycles->values + c * cycles->n;
+    ss_status st = ss_features_stream_new(&stream, cycles->head, 2, &opts, scrap, variant ? SS_JSON : SS_TSV, &err);
+    if (st == SS_OK)
+        st = ss_features_stream_push(stream, column, cycles->n, &err);
+    if (st == SS_OK)
+        st = ss_features_stream_end(stream, &err);
+    ss_features_stream_free(stream);
+    return st;
+}
+
+static ss_status
 searches(int variant)
 {
     ss_spikes *spikes = NULL;
@@ -804,6 +824,7 @@ static const struct row {
     { "inverses", inverses, 1, 30 }, { "comparisons", comparisons, 2, 30 },
     { "reading coefficients", read_coefficients, 1, 30 },
     { "reading wisdom", read_wisdom, 1, 30 }, { "features", features, 2, 30 },
+    { "streams of features", feature_streams, 2, 10 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
     { "rankings", rankings, 1, 4 }, { "motions", motions, 1, 10 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
     { "reading tables", read_tables, 2, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 6, 30 },

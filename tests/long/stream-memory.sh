@@ -30,7 +30,8 @@ for command in ss-cat 'ss-noise --rms 1'; do
     below 50000 $command -o long.h5 long.csv
 done
 for file in long.csv comma.csv long.h5 long.h5:/signal/a; do
-    for command in 'ss-cat --format au' 'ss-noise --rms 1 --format au' 'ss-noise --snr 9 --format au' \
+    for command in 'ss-cat --format au' 'ss-filter --high-pass 10 --format au' 'ss-noise --rms 1 --format au' \
+            'ss-noise --snr 9 --format au' \
             'ss-morlet --stream --voices 2 --octaves=-8:1.5 --format au'; do
         below 50000 $command $file
     done
