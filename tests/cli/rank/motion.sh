@@ -19,6 +19,15 @@ ss-rank --motion x --column f --fit -s mass=2.42 -s stiffness=2310 -s x0=1e-3 al
 sed -n '1s/ explains.*//p; /^model/p; /^mass/p' law.scene
 ss-sim law.scene | tail -n 1 | awk '{ print NF }'
 ss-rank --motion x --column f -o loop.gp all.tsv && grep -c -e 'set tmargin' -e 'compliant' loop.gp
+# ss-sim's own laws, without noise
+for law in "lugre bristle_stiffness=2e4 bristle_damping=30 static_friction=1.6 stribeck_velocity=.002" \
+    "bouc-wen contact_stiffness=2e4 exponent=1 beta_fraction=1" \
+    "compliant contact_stiffness=209900 contact_damping=0 gap=1e-5 contact_stiffness_negative=150000"; do
+    # shellcheck disable=SC2086  # keys
+    printf '%s\n' model=$law mass=2.42 stiffness=2310 friction=1.28 base_frequency=2.5 base_amplitude=8e-4 settle=2 \
+        duration=4 rate=1000 > own.scene
+    ss-sim -c t,x,f own.scene | ss-rank --motion x --column f | sed -n 's/ explains.*//p'
+done
 # an arm
 ss-signal sine --rate 500 --frequency 1 --duration 12 | awk '/^# col/ { print "# columns: t/s q/rad f/(N m)" } /^# / { if (!/col/) print }
     !/^#/ { f = ($2 > p ? 1 : -1) * 2 + 3 * sin($2); p = $2; print $1 "\t" $2 "\t" f }' | ss-noise --snr 60 > arm.tsv
