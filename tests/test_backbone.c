@@ -64,11 +64,12 @@ number(const ss_backbone *b, const char *name, double *error)
 
 /* Over eight records of each rig at 40 dB: of the damping ratios of the turns, which rows of a sine have in closed form,
  * at least the share of a normal error within 2 errors less two binomial deviations (rows of a record count as
- * three, as neighbours share what they know): .95 - 2 sqrt(.95 .05 / (5 8 3)) = .91.  Every mechanism is right. */
+ * three, as neighbours share what they know): .95 - 2 sqrt(.95 .05 / (5 8 3)) = .91.  Every mechanism is right, and all are named
+ * alone but those for which one more unknown gains 1 of chi^2 by chance (.16 of 40, and two deviations: 11). */
 static void
 bands_hold_and_mechanisms_are_named(void **state)
 {
-    size_t rows = 0, within = 0;
+    size_t rows = 0, within = 0, named = 0;
     (void)state;
     seed = 3;
     for (size_t k = 0; k < RIGS; k++)
@@ -85,14 +86,16 @@ bands_hold_and_mechanisms_are_named(void **state)
                 within += fabs(b->row[r].damping_ratio.value - zeta) <= 2 * b->row[r].damping_ratio.error;
                 assert_true(fabs(b->row[r].amplitude - a) < .02 * a + .005);
             }
-            if (b->n_mechanisms != 1 || b->mechanism[0] != mechanisms[k])
+            named += b->n_mechanisms == 1;
+            if (b->n_mechanisms == 0 || b->mechanism[0] != mechanisms[k])
                 fail_msg("rig %zu, record %d: %zu mechanisms, the first %s, chi^2 %g", k, i, b->n_mechanisms,
                          ss_mechanism_names[b->mechanism[0]], b->chi2_dof);
             ss_backbone_free(b);
             ss_signal_free(signal);
             free(turn);
         }
-    print_message("%zu of %zu rows within 2 errors\n", within, rows);
+    print_message("%zu of %zu rows within 2 errors, %zu of 40 named\n", within, rows, named);
+    assert_true(named >= 29);
     assert_true((double)within >= .91 * (double)rows);
 }
 

@@ -65,9 +65,10 @@ typedef struct ss_backbone {
     ss_backbone_number number[SS_BACKBONE_NUMBERS];
 } ss_backbone;
 
-/* Follow the largest free decay in a column of a signal.  That there is none, and that its mechanism cannot be told,
- * are answers, with SS_OK.  SS_EDATA: a value is not finite; SS_EINVAL: an option is out of its range, or the mass is
- * given and the column is in another unit.  opts may be NULL.  The caller frees *out with ss_backbone_free. */
+/* Follow the largest free decay in a column of a signal.  That there is none, and that its mechanism cannot be
+ * told, are answers, with SS_OK.  SS_EDATA: a value is not finite; SS_EINVAL: an option is out of its range, or
+ * the mass is given and the column is in another unit.  opts may be NULL.  The caller frees *out with
+ * ss_backbone_free. */
 ss_status ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, const ss_backbone_opts *opts,
                            ss_error *err);
 void ss_backbone_free(ss_backbone *backbone);           /* NULL is allowed */
@@ -76,9 +77,9 @@ void ss_backbone_free(ss_backbone *backbone);           /* NULL is allowed */
  * ss_table_read reads them (SS_KIND_BACKBONE).  SS_EINVAL: the format holds numbers only; SS_EIO. */
 ss_status ss_backbone_write(const ss_backbone *backbone, const ss_signal *signal, size_t column, FILE *out,
                             ss_format format, ss_error *err);
-/* The scene of a rig of this mass [kg] that decays as the first mechanism does, from the amplitude of the first row on,
- * where x = 0 and v > 0.  SS_EDATA: no mechanism is named, or none that has a scene, or the column is no motion in SI
- * units; err says which. */
+/* The scene of a rig of this mass [kg] that decays as the first mechanism does, from the amplitude of the first
+ * row on, where x = 0 and v > 0.  SS_EDATA: no mechanism is named, or none that has a scene, or the column is no
+ * motion in SI units; err says which. */
 ss_status ss_backbone_scene(ss_scene *scene, const ss_backbone *backbone, const ss_signal *signal, size_t column,
                             double mass, ss_error *err);
 

@@ -1,8 +1,8 @@
 /* backbone.c -- follow a free decay block by block.
  *
  * The record is averaged over groups of samples, to some 32 a period at most.  Blocks of a few periods follow each
- * other without gap or overlap (backbone_block.c), each started by what the blocks before tell of s and w.  What is
- * smooth through them (backbone_smooth.c) is where they are fitted again: about a curve that bends as the decay
+ * other without gap or overlap (backbone_block.c), each started by what the blocks before tell of s and w.  What
+ * is smooth through them (backbone_smooth.c) is where they are fitted again: about a curve that bends as the decay
  * does.  What it leaves of the record shows lines, which then stand beside the decay in all blocks. */
 #include "fit/backbone.h"
 
@@ -15,8 +15,15 @@
 #include "base/list.h"
 #include "base/options.h"
 
-enum { RICH = 32, PARTS = 8, FEW = 3, LEVELS = 20, REFITS = 3, SOME = 1024, HARMONICS = 9 };         /* samples a period that are enough; parts in which a line is looked
-                                                   at; blocks that are a decay */
+enum {
+    RICH = 32,                  /* samples a period that are enough */
+    FEW = 3,                    /* blocks that are a decay */
+    REFITS = 3,                 /* smooth curves, each through blocks fitted about the last */
+    PARTS = 8,                  /* in which a line is looked at */
+    SOME = 1024,                /* terms of a spectrum that tell what is usual */
+    HARMONICS = 9,              /* of the decay, which are no lines */
+    LEVELS = 20                 /* blocks of a level */
+};
 #define LONG 12.0               /* periods of a block, where noise wants it long */
 #define HIT 3.0                 /* times what the blocks behind it leave: a blow is in the first
                                    block */
@@ -48,8 +55,9 @@ ascending(const void *a, const void *b)
 
 /* --- where it is ----------------------------------------------------------------------------- */
 
-/* The frequency of the strongest line in n samples, per sample, weighed by frequency, as slow changes have more power
- * than they matter (and an offset has none in differences); or of the one nearest to near > 0 that has a hundredth of its power.  0: there is none. */
+/* The frequency of the strongest line in n samples, per sample, weighed by frequency, as slow changes have more
+ * power than they matter (and an offset has none in differences); or of the one nearest to near > 0 that has a
+ * hundredth of its power.  0: there is none. */
 static ss_status
 find_line(double *w, const double *x, size_t n, double near)
 {
@@ -138,12 +146,13 @@ find_extent(decay *d)
 
 /* --- block by block -------------------------------------------------------------------------- */
 
-/* The length of a block at an amplitude and a bend: three periods, more beside a line that is near; less where ln A
- * would fall by more than FALL; more where noise asks for it, or where there would be over 400 blocks. */
+/* The length of a block at an amplitude and a bend: three periods, more beside a line that is near; less where ln
+ * A would fall by more than FALL; more where noise asks for it, or where there would be over 400 blocks. */
 static size_t
 block_length(const decay *d, bend at, double amplitude, double noise)
 {
-    double period = 2 * M_PI / at.w, length = 3 * period, samples = 2 * noise / (amplitude * amplitude) / (.05 * .05);
+    double period = 2 * M_PI / at.w, length = 3 * period;
+    double samples = 2 * noise / (amplitude * amplitude) / (.05 * .05);      /* for an error of .05 of ln A */
     if (d->opts->periods > 0)
         return (size_t)ceil(d->opts->periods * period);
     for (size_t i = 0; i < d->beside.n; i++)
@@ -171,8 +180,8 @@ first_block(const decay *d, block *b, size_t length, double s)
     return found;
 }
 
-/* Follow the decay, from first on, as far as it is seen.  Each block starts from s and w of those before, weighed so
- * that older ones count less by each e-fold lost. */
+/* Follow the decay, from first on, as far as it is seen.  Each block starts from s and w of those before, weighed
+ * so that older ones count less by each e-fold lost. */
 static ss_status
 follow(decay *d)
 {
@@ -218,7 +227,7 @@ follow(decay *d)
         else {
             for (int k = 0; k < TRACKS; k++) {
                 double r = b->cov[k][2] * noise, *to = k == LEVEL ? &at.s : &at.w;
-                double gain = last != NULL ? (sure[k] + at.s * at.s * lost) / (sure[k] + at.s * at.s * lost + r) : 1;
+                double moved = sure[k] + at.s * at.s * lost, gain = last != NULL ? moved / (moved + r) : 1;
                 *to += gain * ((k == LEVEL ? -b->rate[k] : b->rate[k]) - *to);
                 sure[k] = gain * r;
             }
@@ -252,8 +261,8 @@ share_noise(decay *d)
     }
 }
 
-/* Draw a smooth curve through the blocks, and fit them again about it: where noise is large, what a block alone finds is
- * biased. */
+/* Draw a smooth curve through the blocks, and fit them again about it: where noise is large, what a block alone
+ * finds is biased. */
 static ss_status
 settle(decay *d)
 {
@@ -305,7 +314,8 @@ is_known(const decay *d, double w, size_t n)
         hi = fmax(hi, d->block[i].at.w);
     }
     for (int h = 1; h <= HARMONICS; h++)
-        known |= w > h * lo * (1 - (h == 1 ? NEAR : NEAR / 5)) - width && w < h * hi * (1 + (h == 1 ? NEAR : NEAR / 5)) + width;
+        known |= w > h * lo * (1 - (h == 1 ? NEAR : NEAR / 5)) - width
+            && w < h * hi * (1 + (h == 1 ? NEAR : NEAR / 5)) + width;
     for (size_t i = 0; i < d->beside.n; i++)
         known |= fabs(w - d->beside.w[i]) < 4 * d->beside.s[i] + width;
     return known;
@@ -355,7 +365,8 @@ add_line(decay *d, int *found)
     for (size_t k = 0; k <= size / 2; k++)
         power[k] = f.x[2 * k] * f.x[2 * k] + f.x[2 * k + 1] * f.x[2 * k + 1];
     for (size_t k = (size_t)(3 * (double)size / (double)n); k < size / 2; k++)
-        if (power[k] > power[k - 1] && power[k] > power[k + 1] && power[k] > power[best] && !is_known(d, (double)k * unit, n))
+        if (power[k] > power[k - 1] && power[k] > power[k + 1] && power[k] > power[best]
+            && !is_known(d, (double)k * unit, n))
             best = k;
     double w = (double)best * unit, peak = power[best];
     size_t some = size / 2 < SOME ? size / 2 : SOME;        /* of the terms tell what is usual */
@@ -379,7 +390,8 @@ add_line(decay *d, int *found)
 static block
 fit_level(const double *x, size_t first, size_t end, double w)
 {
-    double n = (double)(end - first), t = (double)(first + end - 1) / 2, sum = 0, slope = 0, tt = n * (n * n - 1) / 12;
+    double n = (double)(end - first), t = (double)(first + end - 1) / 2, tt = n * (n * n - 1) / 12;
+    double sum = 0, slope = 0;
     block b = { .first = first, .end = end, .t = t, .free = n - 2, .at = { 0, w, 0, 0 } };
     for (size_t i = first; i < end; i++) {
         sum += x[i];
@@ -419,7 +431,8 @@ find_levels(decay *d, const double *x, size_t n, double rate)
     if (tail < most + 4 * LEVELS)
         return SS_OK;
     for (size_t i = 0; i < LEVELS; i++)
-        d->block[d->n_blocks++] = fit_level(x, most + (tail - most) * i / LEVELS, most + (tail - most) * (i + 1) / LEVELS, w);
+        d->block[d->n_blocks++] = fit_level(x, most + (tail - most) * i / LEVELS,
+                                            most + (tail - most) * (i + 1) / LEVELS, w);
     share_noise(d);
     return ss_blocks_smooth(d->block, d->n_blocks, 0);
 }
@@ -444,12 +457,13 @@ make_rows(ss_backbone *out, const decay *d, const decay_source *source)
         const block *b = &d->block[out->n];
         double whole = hypot(b->at.s, b->at.w), w0 = sqrt(whole * whole + b->at.ds);
         double uneven = fmax(b->at.ds, 0) / b->at.w / 2;    /* friction acts by half periods, not smoothly */
-        double es = hypot(b->error[LEVEL], uneven * M_PI * M_PI * b->at.s / b->at.w), ew = hypot(b->error[PHASE], uneven);
+        double es = hypot(b->error[LEVEL], uneven * M_PI * M_PI * b->at.s / b->at.w);
+        double ew = hypot(b->error[PHASE], uneven);
         double ew0 = hypot(hypot(b->at.w * ew, b->at.s * es), b->bend_error / 2) / w0;
         out->row[out->n] = (ss_backbone_row){
             .t = (b->t + .5 - .5 / (double)d->group) / unit, .amplitude = exp(b->level),
             .frequency = { w0 * unit / (2 * M_PI), ew0 * unit / (2 * M_PI) },
-            .damping_ratio = { b->at.s / whole, b->at.w * hypot(b->at.w * es, b->at.s * ew) / (whole * whole * whole) },
+            .damping_ratio = { b->at.s / whole, b->at.w * hypot(b->at.w * es, b->at.s * ew) / pow(whole, 3) },
             .periods = (double)(b->end - b->first) * b->at.w / (2 * M_PI) };
         if (!source->has_phase) {
             out->row[out->n].frequency = (ss_value){ d->opts->level_frequency, NAN };
@@ -466,10 +480,12 @@ no_decay(const decay *d)
     if (!(d->w > 0))
         return "nothing oscillates";
     if (d->n_blocks < FEW)
-        return d->n_blocks > 0 && strcmp(d->stop, "end of the record") == 0 ? "it has under three blocks of periods"
+        return d->n_blocks > 0 && strcmp(d->stop, "end of the record") == 0
+            ? "it has under three blocks of periods"
             : "nothing stands above the noise for three blocks of periods";
     const block *b = d->block, *last = b + d->n_blocks - 1;
-    double lost = b->y[LEVEL] - last->y[LEVEL], error = sqrt(b->cov[LEVEL][0] * b->noise + last->cov[LEVEL][0] * last->noise);
+    double lost = b->y[LEVEL] - last->y[LEVEL];
+    double error = sqrt(b->cov[LEVEL][0] * b->noise + last->cov[LEVEL][0] * last->noise);
     return lost > 5 * error && lost > .05 ? NULL : "the oscillation does not decay";
 }
 
@@ -514,20 +530,25 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
         return st;
     if (column >= signal->head->n_columns)
         return ss_fail_column(err, column, signal->head->n_columns);
-    if (!(own.mode >= 0 && own.level_frequency >= 0 && own.mass >= 0) || (own.periods != 0 && !(own.periods >= 1.5)))
+    if (!(own.mode >= 0 && own.level_frequency >= 0 && own.mass >= 0)
+        || (own.periods != 0 && !(own.periods >= 1.5)))
         return ss_fail(err, SS_EINVAL, "an option is out of its range");
     const ss_column *of = &signal->head->column[column];
-    decay_source source = { signal->head->rate, !(own.level_frequency > 0), of->unit, ss_motion_order(of->unit), own.mass };
+    decay_source source = { signal->head->rate, !(own.level_frequency > 0), of->unit, ss_motion_order(of->unit),
+                            own.mass };
     if (own.mass > 0 && source.order < 0)
-        return ss_fail(err, SS_EINVAL, "a mass needs a column in m, m/s or m/s^2, and %s is in '%s'", of->name, of->unit);
+        return ss_fail(err, SS_EINVAL, "a mass needs a column in m, m/s or m/s^2, and %s is in '%s'", of->name,
+                       of->unit);
     const double *x = signal->values + column * signal->n;
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EDATA, "column %s has a value that is not finite", of->name);
     decay d = { .opts = &own, .start = "the largest amplitude", .stop = "end of the record" };
     ss_backbone *b = calloc(1, sizeof *b);
-    st = b != NULL ? source.has_phase ? find(&d, x, signal->n, &source) : find_levels(&d, x, signal->n, source.rate)
-        : SS_ENOMEM;
+    if (b == NULL)
+        st = SS_ENOMEM;
+    else
+        st = source.has_phase ? find(&d, x, signal->n, &source) : find_levels(&d, x, signal->n, source.rate);
     if (st == SS_OK) {
         b->why = no_decay(&d);
         b->start = d.start;

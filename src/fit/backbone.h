@@ -25,7 +25,7 @@ typedef struct block {
     size_t first, end;          /* samples */
     double t;                   /* its middle, in samples */
     double y[TRACKS], rate[TRACKS];
-    double cov[TRACKS][3];      /* variance of y, covariance, variance of the rate; for white noise of variance 1 */
+    double cov[TRACKS][3];      /* variance of y, covariance, that of the rate; for white noise of variance 1 */
     double left, free;          /* sum of squares of the residuals, and degrees of freedom */
     double noise;               /* variance of the residuals here */
     bend at;                    /* what is smooth through the blocks, at t */
@@ -33,10 +33,11 @@ typedef struct block {
     double level, phase;        /* ln A of it, and the phase, at t */
 } block;
 
-/* Fit samples first ... end - 1 of x, NaN where they are missing, starting from a bend, beside a line, the
- * second and third harmonic and the lines; is_near: in one step.  0: there are too few samples, or no oscillation is
+/* Fit samples first ... end - 1 of x, NaN where they are missing, starting from a bend, beside a line, the second
+ * and third harmonic and the lines; is_near: in one step.  0: there are too few samples, or no oscillation is
  * found. */
-int ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, const lines *beside, int is_near);
+int ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, const lines *beside,
+                 int is_near);
 
 /* Draw smooth s and w, with errors, through n blocks whose noise is known: at, error and level; at.s and at.w
  * must be near.  has_phase 0: there is no w. */

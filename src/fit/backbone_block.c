@@ -1,9 +1,9 @@
 /* backbone_block.c -- amplitude, phase and their rates in a block of a few periods.
  *
- * About a bend that is nearly right, g = exp(-(s t + ds t^2/2) + i (w t + dw t^2/2)), the signal is
- * Re (C g + D t g), beside a straight line, two harmonics of constant amplitude, as friction makes them, and the
- * lines.  All are linear; D / C is what s and w lack, so repetition is Gauss's and Newton's method.  No taper: with
- * white noise none gives smaller errors. */
+ * About a bend that is nearly right, g = exp(-(s t + ds t^2/2) + i (w t + dw t^2/2)), the signal is Re (C g + D t
+ * g), beside a straight line, two harmonics of constant amplitude, as friction makes them, and the lines.  All are
+ * linear; D / C is what s and w lack, so repetition is Gauss's and Newton's method.  No taper: with white noise
+ * none gives smaller errors. */
 #include "fit/backbone.h"
 
 #include <complex.h>
@@ -41,8 +41,8 @@ turned(turner *g)
     return now;
 }
 
-/* Add the products of AT_ONCE samples of the columns to the lower half of the normal matrix.  Lanes let the machine
- * multiply several at a time. */
+/* Add the products of AT_ONCE samples of the columns to the lower half of the normal matrix.  Lanes let the
+ * machine multiply several at a time. */
 VERSIONS static void
 add_products(double sum[ROOM][ROOM], double column[ROOM][AT_ONCE], size_t m)
 {

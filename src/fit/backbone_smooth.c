@@ -1,11 +1,11 @@
 /* backbone_smooth.c -- what is smooth through the blocks: damping and frequency over amplitude, with bands.
  *
- * Friction makes damping a power of the amplitude A, or a sum of such powers: viscous friction A^0, Coulomb's A^-1,
- * drag A^1.  So per e-fold of A lost, ln s grows by p, nearly constant; the state is (ln A, ln s, p), and p is a
- * random walk of variance q an e-fold.  s may be 0 or less: ln s is asinh(s / (2 small)), in fact.  The frequency is
- * (phase, w, p) in the same way, w in units of the mean of s, since friction's stiffness and its losses are of one
- * size.  Kalman's filter and smoother, about the last smooth curve, give mean
- * and variance for each q; both are averaged over q by likelihood, which is the band. */
+ * Friction makes damping a power of the amplitude A, or a sum of such powers: viscous friction A^0, Coulomb's
+ * A^-1, drag A^1.  So per e-fold of A lost, ln s grows by p, nearly constant; the state is (ln A, ln s, p), and p
+ * is a random walk of variance q an e-fold.  s may be 0 or less: ln s is asinh(s / (2 small)), in fact.  The
+ * frequency is (phase, w, p) in the same way, w in units of the mean of s, since friction's stiffness and its
+ * losses are of one size.  Kalman's filter and smoother, about the last smooth curve, give mean and variance for
+ * each q; both are averaged over q by likelihood, which is the band. */
 #include "fit/backbone.h"
 
 #include <math.h>
@@ -157,8 +157,8 @@ take_in(moment *m, place *b)
     return -(log(det) + e[0] * b->news[0] + e[1] * b->news[1]) / 2;
 }
 
-/* Set mean and square of each place, over the walks: Kalman's filter forward, and backward the form of the smoother
- * without inverses (Bierman 1973). */
+/* Set mean and square of each place, over the walks: Kalman's filter forward, and backward the form of the
+ * smoother without inverses (Bierman 1973). */
 static void
 smooth(place *p, size_t n, const moment *start)
 {

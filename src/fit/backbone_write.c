@@ -30,10 +30,11 @@ write_row(struct rows *rows, const ss_backbone_row *r, const char *unit, double 
 static void
 write_mechanism(struct rows *rows, const ss_backbone *b)
 {
-    char text[256] = "other";
+    char text[256] = "other";       /* longer than all names */
+    size_t length = 0;
     for (size_t i = 0; i < b->n_mechanisms; i++)
-        snprintf(i == 0 ? text : text + strlen(text), sizeof text - (i == 0 ? 0 : strlen(text)), "%s%s", i > 0 ? ", " : "",
-                 ss_mechanism_names[b->mechanism[i]]);
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i > 0 ? ", " : "",
+                                   ss_mechanism_names[b->mechanism[i]]);
     ss_rows_note(rows, "mechanism: %s%s", b->n_mechanisms > 1 ? "cannot tell: " : "", text);
     for (size_t i = 0; i < b->n_numbers; i++) {
         const ss_backbone_number *k = &b->number[i];
@@ -103,11 +104,14 @@ ss_backbone_scene(ss_scene *scene, const ss_backbone *b, const ss_signal *signal
         return ss_fail(err, SS_EDATA, "no scene: no model has %s friction", ss_mechanism_names[b->mechanism[0]]);
     if (order < 0 || !(mass > 0) || number_of(b, "frequency") == 0)
         return ss_fail(err, SS_EDATA, "no scene: it needs a column in m, m/s or m/s^2, and a mass > 0");
-    double w = 2 * M_PI * number_of(b, "frequency"), metres = pow(w, -order), amplitude = b->row[0].amplitude * metres;
-    double slip = number_of(b, "slip_amplitude") * metres, contact = mass * w * w * number_of(b, "contact_stiffness_ratio");
-    *scene = (ss_scene){ .model = ss_model_named(contact > 0 ? "compliant" : "coulomb"), .mass = mass, .stiffness = mass * w * w,
-        .damping = 2 * mass * w * number_of(b, "damping_ratio"), .v0 = amplitude * 2 * M_PI * b->row[0].frequency.value,
-        .friction = contact > 0 ? contact * slip : mass * w * w * number_of(b, "friction_over_stiffness") * metres,
+    double w = 2 * M_PI * number_of(b, "frequency"), metres = pow(w, -order), stiffness = mass * w * w;
+    double slip = number_of(b, "slip_amplitude") * metres;
+    double contact = stiffness * number_of(b, "contact_stiffness_ratio");
+    *scene = (ss_scene){
+        .model = ss_model_named(contact > 0 ? "compliant" : "coulomb"), .mass = mass, .stiffness = stiffness,
+        .damping = 2 * mass * w * number_of(b, "damping_ratio"),
+        .v0 = b->row[0].amplitude * metres * 2 * M_PI * b->row[0].frequency.value,
+        .friction = contact > 0 ? contact * slip : stiffness * number_of(b, "friction_over_stiffness") * metres,
         .duration = b->row[b->n - 1].t - b->row[0].t, .rate = signal->head->rate };
     if (contact > 0) {
         ss_status st = ss_scene_set(scene, "contact_stiffness", contact, err);

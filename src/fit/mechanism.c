@@ -1,14 +1,14 @@
 /* mechanism.c -- which friction makes a decay, and its parameters.
  *
- * A mechanism says how the losses s and the frequency w depend on the amplitude A.  The fundamental z of the motion
- * then has z'' + 2 s(A) z' + w(A)^2 z = 0, so that its amplitude falls by s / (1 + A w_A / (2 w)), which is the
- * damping that rows show, and its phase grows by sqrt(w^2 - s^2 - s').  These are integrated through the blocks, and the
- * parameters are fitted to the blocks' amplitudes, phases and rates.
+ * A mechanism says how the losses s and the frequency w depend on the amplitude A.  The fundamental z of the
+ * motion then has z'' + 2 s(A) z' + w(A)^2 z = 0, so that its amplitude falls by s / (1 + A w_A / (2 w)), which is
+ * the damping that rows show, and its phase grows by sqrt(w^2 - s^2 - s').  These are integrated through the
+ * blocks, and the parameters are fitted to the blocks' amplitudes, phases and rates.
  *
- * All this is good to some percent of s, as the motion is no sine: that is a random walk of ln A and of the phase beside
- * the errors of the blocks, and the filter that knows both makes residuals of variance 1.  The mechanism with the
- * lowest BIC is named if chi^2 allows it; it cannot be told from a rival that is nearly as good, unless the rival contains
- * it. */
+ * All this is good to some percent of s, as the motion is no sine: that is a random walk of ln A and of the phase
+ * beside the errors of the blocks, and the filter that knows both makes residuals of variance 1.  The mechanism
+ * with the lowest BIC is named if chi^2 allows it; it cannot be told from a rival that is nearly as good, unless
+ * the rival contains it. */
 #include "fit/backbone.h"
 
 #include <gsl/gsl_cdf.h>
@@ -18,10 +18,11 @@
 #include <string.h>
 #include "base/least.h"
 
-enum { LN_A, TURN, W, S, C, SHAPE, BEND, UNKNOWNS };    /* at the start; w; viscous s; the rest: of the mechanism */
+enum { LN_A, TURN, W, S, C, SHAPE, BEND, UNKNOWNS };    /* at the start; w; viscous s; of the mechanism */
 #define TRUST .05               /* of s: the error of what is said of it */
-#define HARMONIC .15            /* times a contact's stiffness re the spring's: what a sine is wrong by, for its numbers */
+#define HARMONIC .15            /* times a contact's stiffness re the spring's: the error of its numbers, by the sine */
 #define NEARLY 6.0              /* of BIC: the better one cannot be told */
+#define GAIN 1.0                /* of chi^2 an unknown: one that contains the better one is a rival then */
 #define REJECT 1e-3             /* probability of so large a chi^2 */
 
 const char *const ss_mechanism_names[SS_MECHANISMS + 1] = {
@@ -55,7 +56,8 @@ typedef struct trial {
     double w;                   /* about which w is counted, in units of the mean damping */
 } trial;
 
-/* s = u[S] + u[C] g(A), with a factor near 1 for Jenkins, whose spring of stiffness u[C] of->w re the mass makes both. */
+/* s = u[S] + u[C] g(A), with a factor near 1 for Jenkins, whose spring of stiffness u[C] of->w re the mass makes
+ * both. */
 static double
 shape_of(ss_mechanism kind, double shape, double a)
 {
@@ -139,7 +141,8 @@ make_points(point *p, const block *b, size_t n, double unit, double ln_a, double
     double walked[TRACKS] = { 0 };
     for (size_t i = 0; i < n; i++) {
         double before_it = i > 0 ? b[i - 1].at.s : 0, behind = i + 1 < n ? b[i + 1].at.s : 0;
-        double s = fmax(b[i].at.s, fmax(before_it, behind)) / unit, step = i > 0 ? (b[i].t - b[i - 1].t) * unit : 0;
+        double s = fmax(b[i].at.s, fmax(before_it, behind)) / unit;
+        double step = i > 0 ? (b[i].t - b[i - 1].t) * unit : 0;
         double uneven = fabs(b[i].at.ds) / b[i].at.w / 2 / unit;
         p[i].t = b[i].t * unit;
         p[i].y[LEVEL] = b[i].y[LEVEL] - ln_a;
@@ -150,12 +153,13 @@ make_points(point *p, const block *b, size_t n, double unit, double ln_a, double
         for (int c = 0; c < TRACKS; c++) {
             const double *cov = b[i].cov[c];
             double trust = hypot(TRUST * s, c == PHASE ? uneven : uneven * M_PI * M_PI * b[i].at.s / b[i].at.w);
-            double sigma = b[i].noise * cov[0], before = walked[c] + trust * trust * step * step, whole = before + sigma;
+            double before = walked[c] + trust * trust * step * step, whole = before + b[i].noise * cov[0];
             p[i].whole[c] = sqrt(whole);
             p[i].gain[c] = before / whole;
             walked[c] = before * (1 - p[i].gain[c]);
             p[i].tie[c] = cov[1] / cov[0] / unit;
-            p[i].rate_sigma[c] = hypot(sqrt(b[i].noise * fmax(cov[2] - cov[1] * cov[1] / cov[0], 0)) / unit, trust);
+            double alone = b[i].noise * fmax(cov[2] - cov[1] * cov[1] / cov[0], 0);
+            p[i].rate_sigma[c] = hypot(sqrt(alone) / unit, trust);
         }
     }
 }
@@ -171,7 +175,8 @@ begin(const trial *of, const block *b, double unit, double ln_a, double u[UNKNOW
             double a = exp(b[i].level - ln_a), s = b[i].at.s / unit, g = shape_of(of->kind, u[SHAPE], a);
             double weight = 1 / (pow(b[i].error[LEVEL] / unit, 2) + pow(TRUST * s, 2)), off = s - u[S] - u[C] * g;
             left += pass * weight * off * off;
-            sum[0] += weight, sum[1] += weight * g, sum[2] += weight * g * g, sum[3] += weight * s, sum[4] += weight * s * g;
+            sum[0] += weight, sum[1] += weight * g, sum[2] += weight * g * g;
+            sum[3] += weight * s, sum[4] += weight * s * g;
         }
         if (pass > 0)
             break;
@@ -214,12 +219,13 @@ fit(fitted *f, trial *of, const block *b, double unit, double ln_a)
     }
     for (int k = 0; k < UNKNOWNS; k++) {
         int is_free = law->free[k] && (of->tracks == TRACKS || (k != TURN && k != W && k != BEND));
-        range[k] = k == SHAPE ? law->shapes : k == LN_A || k == TURN || k == W ? (ss_range){ -1e9, 1e9 } : (ss_range){ 0, 1e3 };
-        range[k] = is_free ? range[k] : (ss_range){ f->u[k], f->u[k] };
+        int has_sign = k == LN_A || k == TURN || k == W;
+        range[k] = !is_free ? (ss_range){ f->u[k], f->u[k] } : k == SHAPE ? law->shapes
+            : has_sign ? (ss_range){ -1e9, 1e9 } : (ss_range){ 0, 1e3 };
         unknowns += is_free;
     }
-    least of_fit = { .rows = 2 * of->tracks * of->n, .unknowns = UNKNOWNS, .model = leave, .user = of, .range = range,
-                     .difference = difference, .steps = 60, .tol = 1e-7, .noise = 1 };
+    least of_fit = { .rows = 2 * of->tracks * of->n, .unknowns = UNKNOWNS, .model = leave, .user = of,
+                     .range = range, .difference = difference, .steps = 60, .tol = 1e-7, .noise = 1 };
     ss_status st = ss_least_fit(&end, &of_fit, f->u, NULL, f->covariance);
     f->squares = end.squares;
     f->free = (double)of_fit.rows - unknowns;
@@ -245,7 +251,8 @@ add(ss_backbone *out, const fitted *f, const char *name, const char *unit, int k
     to->value = (ss_value){ constant * f->u[k], constant * sqrt(f->covariance[k * UNKNOWNS + k]) };
 }
 
-/* The numbers of a mechanism.  It was fitted with frequencies about w, in units of 1/s, and amplitudes in units of a. */
+/* The numbers of a mechanism.  It was fitted with frequencies about w, in units of 1/s, and amplitudes in units of
+ * a. */
 static void
 add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double about, double unit, double a)
 {
@@ -275,8 +282,8 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
             double c = f->u[C], d = f->u[SHAPE], slip = of->mass * contact * a * metres;
             add(out, f, "contact_stiffness", "N/m", C, of->mass * contact);
             add(out, f, "friction", "N", C, slip * d);
-            out->number[out->n_numbers - 1].value.error = slip * sqrt(fmax(
-                d * d * cov[C * UNKNOWNS + C] + 2 * c * d * cov[C * UNKNOWNS + SHAPE] + c * c * cov[SHAPE * UNKNOWNS + SHAPE], 0));
+            double both = 2 * c * d * cov[C * UNKNOWNS + SHAPE] + c * c * cov[SHAPE * UNKNOWNS + SHAPE];
+            out->number[out->n_numbers - 1].value.error = slip * sqrt(fmax(d * d * cov[C * UNKNOWNS + C] + both, 0));
         }
         for (size_t i = out->n_numbers; i-- > 2;)
             out->number[i].value.error = hypot(out->number[i].value.error, more * out->number[i].value.value);
@@ -311,9 +318,11 @@ ss_mechanism_find(ss_backbone *out, const block *b, size_t n, const decay_source
         best++;
     best = best->p < REJECT ? f : best;
     out->chi2_dof = best->squares / best->free;
-    for (const fitted *x = best; best->p >= REJECT && x < f + SS_MECHANISMS; x++)
-        if (x == best || (x->p >= REJECT && x->bic < best->bic + NEARLY && !(laws[x->kind].contains & 1u << best->kind)))
+    for (const fitted *x = best; best->p >= REJECT && x < f + SS_MECHANISMS; x++) {
+        int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY, is_more = laws[x->kind].contains >> best->kind & 1;
+        if (x == best || (is_near && (!is_more || best->squares - x->squares > GAIN * (best->free - x->free))))
             out->mechanism[out->n_mechanisms++] = x->kind;
+    }
     for (size_t i = 0; i < n; i++) {
         trial of = { best->kind, NULL, 0, 0, w / unit };
         double rate[TRACKS], at = frequency(&of, best->u, exp(b[i].level - b->level));

@@ -1,5 +1,5 @@
-/* backbone.c -- draw a free decay: amplitude in decibels over time, and below it frequency and damping ratio over the
- * amplitude, which is logarithmic; errors are bars, and the mechanism that is named is dashed. */
+/* backbone.c -- draw a free decay: amplitude in decibels over time, and below it frequency and damping ratio over
+ * the amplitude, which is logarithmic; errors are bars, and the mechanism that is named is dashed. */
 #include <stickslip/backbone.h>
 
 #include "plot/script.h"
@@ -9,12 +9,12 @@
 #include "base/error.h"
 
 enum { PANELS = 3 };
-static const double heights[PANELS] = { 3.4, 2.6, 2.6 }, gaps[PANELS] = { 1.1, .2, 1 };        /* [cm]; below them */
+static const double heights[PANELS] = { 3.4, 2.6, 2.6 }, gaps[PANELS] = { 1.1, .2, 1 };    /* [cm]; below them */
 #define ROOM 9.0                /* for a label [ems] */
 #define MARGIN .06              /* above and below what is drawn, of it */
 
-/* Half of what the samples span in each period, or in a column of pixels if that is more, in decibels re the first row;
- * of levels the samples. */
+/* Half of what the samples span in each period, or in a column of pixels if that is more, in decibels re the first
+ * row; of levels the samples. */
 static void
 write_decay(FILE *out, const ss_backbone *b, const double *x, size_t n, double rate, double start)
 {
@@ -32,7 +32,8 @@ write_decay(FILE *out, const ss_backbone *b, const double *x, size_t n, double r
     fputs("EOD\n", out);
 }
 
-/* $rows: t, half the block, level, amplitude, frequency, its error, damping ratio, its error, and by the mechanism. */
+/* $rows: t, half the block, level, amplitude, frequency, its error, damping ratio, its error, and by the
+ * mechanism. */
 static void
 write_rows(FILE *out, const ss_backbone *b, double start)
 {
@@ -64,7 +65,8 @@ ss_status
 ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_t column, const ss_plot_opts *opts,
                  ss_error *err)
 {
-    static const ss_column names[PANELS] = { { "amplitude", "dB" }, { "frequency", "Hz" }, { "damping ratio", "" } };
+    static const ss_column names[PANELS] = {
+        { "amplitude", "dB" }, { "frequency", "Hz" }, { "damping ratio", "" } };
     ss_plot_opts own;
     script_stack stack;
     script_label label;
@@ -93,8 +95,10 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
         if (i == 0) {
             ss_script_make_label(&label, &(ss_column){ "time", "s" }, ss_script_power(0), INFINITY);
             ss_script_write_x_label(out, &label, "0,0.4");
-            fputs("plot $decay using 1:2 with lines lw 0.7 lc rgb '" ZERO_COLOUR "', $rows using 1:3:2 with xerrorbars "
-                  "pt 7 ps 0.3*mark lw 1 lc rgb colour\n", out);
+            ss_print(out, "set xrange [%.9g:%.9g]\n", signal->head->start,
+                     signal->head->start + (double)signal->n / signal->head->rate);
+            fputs("plot $decay using 1:2 with lines lw 0.7 lc rgb '" ZERO_COLOUR "', "
+                  "$rows using 1:3:2 with xerrorbars pt 7 ps 0.3*mark lw 1 lc rgb colour\n", out);
             continue;
         }
         ss_script_make_label(&label, &(ss_column){ "amplitude", of->unit }, ss_script_power(0), INFINITY);
@@ -102,17 +106,17 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
             ss_script_write_x_label(out, &label, "0,0.4");
         else
             fputs("unset xlabel\n", out);
-        ss_print(out, "set logscale x; set xtics format '%s'\nset xrange [%.6g:%.6g]\n", i + 1 < PANELS ? "" : "%g",
-                 b->row[b->n - 1].amplitude / 1.1, b->row[0].amplitude * 1.1);
+        ss_print(out, "set logscale x; set xtics format '%s'\nset xrange [%.6g:%.6g]\n",
+                 i + 1 < PANELS ? "" : "%g", b->row[b->n - 1].amplitude / 1.1, b->row[0].amplitude * 1.1);
         ss_script_write_decades(out, "x", i + 1 < PANELS ? 1 : b->row[b->n - 1].amplitude, b->row[0].amplitude);
         ss_script_write_tics(out, "ytics", ss_script_scaled_extent(e, scale), 5);
         script_extent drawn = ss_script_scaled_extent(e, scale);
         double rim = e.hi > e.lo ? MARGIN * (drawn.hi - drawn.lo) : 1;
         ss_print(out, "set yrange [%.9g:%.9g]\n", drawn.lo - rim, drawn.hi + rim);
         ss_print(out, "unit = %.9g; offset = %.17g\n", scale.unit, scale.offset);
-        ss_print(out, "plot $rows using 4:(($%d - offset)/unit):($%d/unit) with yerrorbars pt 7 ps 0.3*mark lw 0.8 lc rgb "
-                 "colour, $rows using 4:(($%d - offset)/unit) with lines lw 1.2 dt 2 lc rgb law\n", 3 + 2 * i, 4 + 2 * i,
-                 8 + i);
+        ss_print(out, "plot $rows using 4:(($%d - offset)/unit):($%d/unit) with yerrorbars pt 7 ps 0.3*mark lw 0.8 "
+                 "lc rgb colour, $rows using 4:(($%d - offset)/unit) with lines lw 1.2 dt 2 lc rgb law\n",
+                 3 + 2 * i, 4 + 2 * i, 8 + i);
     }
     return ss_script_end(out);
 }

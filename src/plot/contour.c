@@ -183,8 +183,8 @@ write_point(double t, double f, double level, void *user)
     ss_script_write(to->out, f, 4 - (int)floor(log10(f)), "\n");
 }
 
-/* A steady oscillation of amplitude A has |W| = A sqrt(a / 2) pi^(1/4) at its ridge, or with the norm 1/a that over
- * sqrt(a). */
+/* A steady oscillation of amplitude A has |W| = A sqrt(a / 2) pi^(1/4) at its ridge, or with the norm 1/a that
+ * over sqrt(a). */
 static void
 write_row(double t, double f, double level, void *user)
 {
@@ -290,8 +290,8 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
 
 /* Take the options and make the map, in a span of time that is the caller's. */
 static ss_status
-prepare(contour_map *map, script_span *span, ss_plot_opts *own, ss_contour_opts *own_contour, const ss_coefficients *c,
-        ss_error *err)
+prepare(contour_map *map, script_span *span, ss_plot_opts *own, ss_contour_opts *own_contour,
+        const ss_coefficients *c, ss_error *err)
 {
     ss_status st = check(c, own_contour, err);
     if (st == SS_OK)
