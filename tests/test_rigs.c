@@ -434,7 +434,8 @@ touches(const ss_scene *s)
     return s->damping == 0 && s->base_amplitude == 0 && !(s->static_friction > s->friction);
 }
 
-static void
+/* Returns the largest error of an event's time, of the record. */
+static double
 agrees_with_the_oracle(const trial *t, const char *method, double tol)
 {
     const ss_scene *s = &t->scene;
@@ -469,6 +470,7 @@ agrees_with_the_oracle(const trial *t, const char *method, double tol)
                  sqrt(allowed / t->scale));
     free(event);
     run_free(&r);
+    return late / s->duration;
 }
 
 static size_t
@@ -481,15 +483,17 @@ from_environment(const char *name, size_t otherwise)
 static void
 agree_with_the_oracle(ss_scene draw(uint64_t number))
 {
-    size_t n = from_environment("SCENES", 200), first = from_environment("FIRST", 0);
+    size_t n = from_environment("SCENES", 200), first = from_environment("FIRST", 0), grazes = 0;
     for (size_t i = first; i < first + n; i++) {
         ss_scene scene = draw(i);
         trial t = trial_of(i, &scene);
-        agrees_with_the_oracle(&t, "exact", DBL_EPSILON);
+        grazes += agrees_with_the_oracle(&t, "exact", DBL_EPSILON) > 1e-12;
         agrees_with_the_oracle(&t, "rk8pd", 1e-12);
         free(t.x);
         oracle_free(t.o);
     }
+    print_message("%zu of %zu scenes have an event that is known to less than 1e-12 of the record\n", grazes, n);
+    assert_true(grazes <= n / 100);
 }
 
 static void
