@@ -95,3 +95,10 @@ awk 'BEGIN { print "t,a"; for (i = 0; i < 12000; i++) { u = i * .01103947; print
 awk 'BEGIN { print "t,a"; for (i = 0; i < 17463; i++) { t = i / 5000; x = sin(222.761 * t)
     print t "," (x > 0 ? x : 0) + .28 * sin(4600.85 * t) } }' | ss-features > found
 awk '$2 == "repetition_frequency:" { print ($3 == "-" || ($3 - 35.4534) ^ 2 <= 9 * $4 ^ 2 ? "covered" : $0) }' found
+# a motion that is not mirrored: as many slips as begin from rest, 1 of 3 reversals a cycle in noise
+awk 'BEGIN { print "t\tz"; w = 15.70796327; for (i = 0; i <= 12000; i++) { t = i / 1000
+    printf "%.9f\t%.12g\n", t, .0008 * (sin(w * t) + .6 * sin(2 * w * t + 1)) } }' > uneven.tsv
+ss-sim --events -b uneven.tsv:z -s settle=4 -s duration=6 coulomb | awk '$2 == "slip"' | wc -l > begun
+ss-sim -b uneven.tsv:z -s settle=4 -s duration=6 coulomb | ss-noise --snr 60 | ss-features -c a > found
+covers slip_rate 2.5 < found
+awk -v n="$(cat begun)" '$2 == "slips:" { print "slips:", ($3 >= n - 1 && $3 <= n + 1 ? "as many" : $3 " of " n) }' found
