@@ -29,7 +29,7 @@ typedef struct ss_backbone_opts {
     double periods;             /* of a block, 1.5 ... 1e6; 0: chosen */
     double level_frequency;     /* [Hz] > 0: the column is the level [dB] of a decay of this frequency, without
                                    phase; 0: it is the signal itself */
-    double mass;                /* [kg] > 0: forces are wanted, too, of a column in m, m/s or m/s^2; 0: not known */
+    double mass;                /* [kg] > 0: forces are wanted, too, of a column in m, m/s or m/s^2; 0: none */
 } ss_backbone_opts;
 void ss_backbone_opts_init(ss_backbone_opts *opts, size_t size);    /* all 0 */
 

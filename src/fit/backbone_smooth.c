@@ -127,7 +127,7 @@ apply(double to[N], double f[N][N], const double x[N], int backward)
     }
 }
 
-/* Take in y and rate of a block, in Joseph's form, which keeps variances positive.  Returns their log likelihood. */
+/* Take in y and rate, in Joseph's form, which keeps variances positive.  Returns their ln likelihood. */
 static double
 take_in(moment *m, place *b)
 {

@@ -20,7 +20,7 @@
 
 enum { LN_A, TURN, W, S, C, SHAPE, BEND, UNKNOWNS };    /* at the start; w; viscous s; of the mechanism */
 #define TRUST .05               /* of s: the error of what is said of it */
-#define HARMONIC .15            /* times a contact's stiffness re the spring's: the error of its numbers, by the sine */
+#define HARMONIC .15            /* times a contact's stiffness re the spring's: the error that a sine makes */
 #define NEARLY 6.0              /* of BIC: the better one cannot be told */
 #define GAIN 1.0                /* of chi^2 an unknown: one that contains the better one is a rival then */
 #define REJECT 1e-3             /* probability of so large a chi^2 */
@@ -105,7 +105,7 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
     rate[PHASE] = sqrt(fmax(w[1] * w[1] - s[1] * s[1] - s_dot, 0)) - of->w;
 }
 
-/* Residuals of variance 1 if the mechanism is right: of y by the filter's gains, of rates by what y does not tell. */
+/* Residuals of variance 1 if the mechanism is right: of y by the filter's gains, of rates beside y's. */
 static ss_status
 leave(const double *u, double *residual, double *slopes, void *user)
 {
@@ -134,7 +134,7 @@ leave(const double *u, double *residual, double *slopes, void *user)
     return isfinite(y[LEVEL]) && isfinite(y[PHASE]) ? SS_OK : SS_EDATA;
 }
 
-/* Blocks in units of the start's amplitude and of the mean damping; the errors of what a mechanism says of them. */
+/* Blocks in units of the start's amplitude and of the mean damping; errors of what a mechanism says. */
 static void
 make_points(point *p, const block *b, size_t n, double unit, double ln_a, double w)
 {
@@ -283,7 +283,8 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
             add(out, f, "contact_stiffness", "N/m", C, of->mass * contact);
             add(out, f, "friction", "N", C, slip * d);
             double both = 2 * c * d * cov[C * UNKNOWNS + SHAPE] + c * c * cov[SHAPE * UNKNOWNS + SHAPE];
-            out->number[out->n_numbers - 1].value.error = slip * sqrt(fmax(d * d * cov[C * UNKNOWNS + C] + both, 0));
+            both += d * d * cov[C * UNKNOWNS + C];
+            out->number[out->n_numbers - 1].value.error = slip * sqrt(fmax(both, 0));
         }
         for (size_t i = out->n_numbers; i-- > 2;)
             out->number[i].value.error = hypot(out->number[i].value.error, more * out->number[i].value.value);
@@ -319,7 +320,8 @@ ss_mechanism_find(ss_backbone *out, const block *b, size_t n, const decay_source
     best = best->p < REJECT ? f : best;
     out->chi2_dof = best->squares / best->free;
     for (const fitted *x = best; best->p >= REJECT && x < f + SS_MECHANISMS; x++) {
-        int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY, is_more = laws[x->kind].contains >> best->kind & 1;
+        int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY;
+        unsigned is_more = laws[x->kind].contains >> best->kind & 1;
         if (x == best || (is_near && (!is_more || best->squares - x->squares > GAIN * (best->free - x->free))))
             out->mechanism[out->n_mechanisms++] = x->kind;
     }

@@ -114,8 +114,8 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
         double rim = e.hi > e.lo ? MARGIN * (drawn.hi - drawn.lo) : 1;
         ss_print(out, "set yrange [%.9g:%.9g]\n", drawn.lo - rim, drawn.hi + rim);
         ss_print(out, "unit = %.9g; offset = %.17g\n", scale.unit, scale.offset);
-        ss_print(out, "plot $rows using 4:(($%d - offset)/unit):($%d/unit) with yerrorbars pt 7 ps 0.3*mark lw 0.8 "
-                 "lc rgb colour, $rows using 4:(($%d - offset)/unit) with lines lw 1.2 dt 2 lc rgb law\n",
+        ss_print(out, "plot $rows using 4:(($%d - offset)/unit):($%d/unit) with yerrorbars pt 7 ps 0.3*mark "
+                 "lw 0.8 lc rgb colour, $rows using 4:(($%d - offset)/unit) with lines lw 1.2 dt 2 lc rgb law\n",
                  3 + 2 * i, 4 + 2 * i, 8 + i);
     }
     return ss_script_end(out);
