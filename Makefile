@@ -67,8 +67,13 @@ else ifneq ($(shell echo 'int main(void) { return 0; }' | $(CC) -O2 -Werror $(HA
 HARDEN_CFLAGS  :=
 HARDEN_LDFLAGS :=
 endif
+# No path of the build tree stays in what is built, where the compiler can leave it out.
+PREFIX_MAP := -ffile-prefix-map=$(CURDIR)=.
+ifneq ($(shell $(CC) -Werror $(PREFIX_MAP) -x c -fsyntax-only /dev/null 2>&1 || echo failed),)
+PREFIX_MAP :=
+endif
 ALL_CFLAGS := -std=c11 -D_XOPEN_SOURCE=700 -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Iinclude -Isrc \
-	$(INCLUDES) -fPIC -fvisibility=hidden $(HARDEN_CFLAGS) $(SANFLAGS) $(CPPFLAGS) $(CFLAGS)
+	$(INCLUDES) -fPIC -fvisibility=hidden $(HARDEN_CFLAGS) $(PREFIX_MAP) $(SANFLAGS) $(CPPFLAGS) $(CFLAGS)
 ALL_LDFLAGS := $(HARDEN_LDFLAGS) $(SANFLAGS) $(LDFLAGS)
 COMPILE     = $(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@
 
