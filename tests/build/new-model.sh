@@ -1,7 +1,10 @@
 # A friction model is a file and a row: a copy of state_variable.c under another name, with a key that
 # no model has, and its row in the list of models.h; no other header changes.  Every tool then works with it as it does with the
 # original, or refuses in one clear line.  So it does with a copy of coulomb.c that says neither that
-# it is linear nor its higher derivatives.  Without its row it does not compile.
+# it is linear nor its higher derivatives.  Without its row it does not compile.  The law of CONTRIBUTING.md is a
+# file and a row, too.
+. "$SRC/tests/build/block.inc"
+block src/scene/rounded.c > rounded.c
 sed -e 's/MODEL(state_variable)/MODEL(copied)/' -e 's/ss_state_variable_model/ss_copied_model/' \
     -e 's/"state-variable"/"copied"/' -e 's/"alpha"/"front_slope"/' "$SRC/src/scene/state_variable.c" > copied.c
 sed -e 's/MODEL(coulomb)/MODEL(stepped)/' -e 's/ss_coulomb_model/ss_stepped_model/' -e 's/ss_to_coulomb/ss_to_stepped/' \
@@ -11,8 +14,8 @@ sed -e 's/MODEL(coulomb)/MODEL(stepped)/' -e 's/ss_coulomb_model/ss_stepped_mode
 compile() { $CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -Iown -I"$SRC/include" -I"$SRC/src" $INCLUDES -c "$@"; }
 compile copied.c 2> refused || grep -c 'MODEL_copied' refused
 mkdir -p own/scene
-sed '/^#define MODEL_LIST/s/$/\n    row(copied) \\\n    row(stepped) \\/' "$SRC/src/scene/models.h" > own/scene/models.h
-compile copied.c stepped.c "$SRC/src/scene/models.c"
+sed '/^#define MODEL_LIST/s/$/\n    row(copied) \\\n    row(stepped) \\\n    row(rounded) \\/' "$SRC/src/scene/models.h" > own/scene/models.h
+compile copied.c stepped.c rounded.c "$SRC/src/scene/models.c"
 mkdir bin
 common=
 for source in "$SRC"/tools/*.c; do
@@ -22,7 +25,7 @@ done
 for tool in sim trade rank sweep; do
     # what is linked first takes the place of the library's models.o
     # shellcheck disable=SC2086
-    $CCLD -o bin/ss-$tool "$BUILD/tools/ss-$tool.o" $common models.o copied.o stepped.o \
+    $CCLD -o bin/ss-$tool "$BUILD/tools/ss-$tool.o" $common models.o copied.o stepped.o rounded.o \
         "$BUILD/libstickslip.a" $LIBS &
 done
 wait
@@ -102,3 +105,8 @@ done
 paste stepped.tsv original.tsv | awk '{ print $3, $9, ($5 / $11 - 1) ^ 2 < 1e-16 }'
 refused bin/ss-sweep --vary friction=0.5:1:2 --measure floquet stepped.scene
 refused bin/ss-sweep --vary friction=0.5:1:2 --shoot stepped.scene
+
+echo '-- the law of CONTRIBUTING.md'
+sed 's/^model = .*/model = rounded\nrounding_velocity = 1e-5/' original.scene > rounded.scene
+bin/ss-trade --models -s duration=0.5 -s settle=0.5 rounded.scene | awk '!/^#/ { print $1, ($2 < 0.05) }'
+refused bin/ss-sim -s rounding_velocity=0 rounded.scene

@@ -6,19 +6,8 @@ awk '/SS_FEATURE_NUMBER_LIST\(number\)/ { inside = 1 }
     inside && !/\\$/ { print $0 " \\"; print "    number(SS_LOUDNESS, \"loudness\", \"dB\", \"ringing\", 0, ss_find_loudness)"; inside = 0; next }
     { print }' "$SRC/include/stickslip/features.h" > include/stickslip/features.h
 diff "$SRC/include/stickslip/features.h" include/stickslip/features.h | grep '^>' | grep -c LOUDNESS
-cat > loudness.c <<'C'
-/* loudness.c -- the level of the highest maximum that was found, above 1. */
-#include "find/search.h"
-
-ss_status ss_find_loudness(search *s);
-
-ss_status
-ss_find_loudness(search *s)
-{
-    know(s->out, SS_LOUDNESS, (ss_value){ 20 * log10(s->top * s->largest), 0.5 });
-    return SS_OK;
-}
-C
+. "$SRC/tests/build/block.inc"
+block src/find/loudness.c > loudness.c
 compile() {     # FOLDER OF HEADERS, FILES: the number is the last, so that nothing else need be compiled anew
     # shellcheck disable=SC2086  # flags are lists
     $CC -std=c11 -D_XOPEN_SOURCE=700 -O2 -I"$1" -I"$SRC/include" -I"$SRC/src" $INCLUDES -c "$2"
