@@ -47,7 +47,7 @@ static const decay rigs[] = {
     { .w = 20 * PI, .amplitude = 1, .zeta = .002L, .sliders = 1, .kappa = { .1L }, .d = { .2L } },
     { .w = 20 * PI, .amplitude = 1, .quadratic = .03L },
 };
-static const ss_mechanism mechanisms[] = { SS_VISCOUS, SS_COULOMB, SS_VISCOUS_COULOMB, SS_JENKINS, SS_QUADRATIC };
+static const ss_mechanism mechanisms[] = { SS_VISCOUS, SS_COULOMB_DAMPING, SS_VISCOUS_AND_COULOMB, SS_JENKINS, SS_QUADRATIC };
 enum { RIGS = sizeof rigs / sizeof *rigs };
 
 static double

@@ -27,8 +27,7 @@ static const char usage[] =
 "      --title=TEXT     default: scene or model of the signal\n"
 TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
-"  -o, --output=FILE    a script (.gp) or a picture (.png, .svg, .pdf, .eps);\n"
-"                       default: the script on standard output\n"
+"  -o, --output=FILE    .gp (default, on standard output), .png, .svg, .pdf, .eps\n"
 "  -q, --quiet          no warnings; -v, --verbose: report the input\n"
 "  -h, --help           show this text; --version: show the version\n";
 

@@ -14,8 +14,8 @@ SS_BEGIN_DECLARATIONS
 /* What damps, by how the damping s [1/s] and the frequency depend on the amplitude A of the fundamental. */
 typedef enum ss_mechanism {
     SS_VISCOUS,                 /* s constant */
-    SS_COULOMB,                 /* s = c / A */
-    SS_VISCOUS_COULOMB,         /* the sum of these two */
+    SS_COULOMB_DAMPING,                 /* s = c / A */
+    SS_VISCOUS_AND_COULOMB,         /* the sum of these two */
     SS_JENKINS,                 /* a spring behind a slider, and viscous friction beside it */
     SS_MICROSLIP,               /* s = c A^p, 0 < p <= 1; the frequency falls by b A^p; and viscous friction */
     SS_QUADRATIC,               /* s = c A */

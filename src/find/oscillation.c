@@ -210,13 +210,28 @@ fit_without_hum(search *s, ringdown *r, double f)
     return st;
 }
 
+/* The error of all frequencies by a clock that wanders.  What rings is a clock, too: from one transition to the next it
+ * differs by that much, so the lengths of cycles that vary by themselves are no wandering. */
+static double
+clock_error(const search *s, const ringdown *r)
+{
+    double squares = 0, n = 0;
+    for (size_t i = 0; i < s->out->n; i++)
+        if (isfinite(r->each[i][0].value)) {
+            double differs = r->each[i][0].value - r->all[0].value;
+            squares += differs * differs, n++;
+        }
+    double wander = s->out->reverses ? 0 : s->cycles.wander * r->all[0].value;     /* each by itself, they scatter by it */
+    return n < 3 ? wander : fmin(wander, sqrt(squares / (n - 1) / n));
+}
+
 /* Write the fits to the transitions; what rings behind the next transition belongs to that. */
 static void
 report(search *s, const ringdown *r)
 {
     ss_features *out = s->out;
     ss_value frequency, ratio, all[2] = { r->all[0], r->all[1] };
-    double wander = out->reverses ? 0 : s->cycles.wander * all[0].value;    /* each by itself, they scatter by it */
+    double wander = clock_error(s, r);
     for (int j = 0; j < 2; j++)
         all[j].error = hypot(all[j].error, wander);
     set_oscillation(all, s->rate, &frequency, &ratio);

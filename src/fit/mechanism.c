@@ -35,8 +35,8 @@ static const struct law {
     ss_range shapes;
 } laws[SS_MECHANISMS] = {
     [SS_VISCOUS] = { { 1, 1, 1, 1 }, 0, { 1 }, { 1, 1 } },
-    [SS_COULOMB] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
-    [SS_VISCOUS_COULOMB] = { { 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_COULOMB, { 1 }, { 1, 1 } },
+    [SS_COULOMB_DAMPING] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
+    [SS_VISCOUS_AND_COULOMB] = { { 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING, { 1 }, { 1, 1 } },
     [SS_JENKINS] = { { 1, 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS, { .05, .1, .2, .4, .7 }, { .01, 1 } },
     [SS_MICROSLIP] = { { 1, 1, 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_QUADRATIC, { .25, .5, .8 }, { .1, 1 } },
     [SS_QUADRATIC] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
@@ -62,7 +62,7 @@ static double
 shape_of(ss_mechanism kind, double shape, double a)
 {
     switch (kind) {
-    case SS_COULOMB: case SS_VISCOUS_COULOMB: return 1 / a;
+    case SS_COULOMB_DAMPING: case SS_VISCOUS_AND_COULOMB: return 1 / a;
     case SS_JENKINS: return a > shape ? 2 / M_PI * shape / a * (1 - shape / a) : 0;
     case SS_MICROSLIP: return pow(a, shape);
     case SS_QUADRATIC: return a;
@@ -266,7 +266,7 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
     }
     if (law->free[S])
         add(out, f, "damping_ratio", "", S, unit / w);
-    if (f->kind == SS_COULOMB || f->kind == SS_VISCOUS_COULOMB) {
+    if (f->kind == SS_COULOMB_DAMPING || f->kind == SS_VISCOUS_AND_COULOMB) {
         double by_stiffness = M_PI / 2 * unit * a / w;
         add(out, f, "friction_over_stiffness", of->column, C, by_stiffness);
         if (of->mass > 0)

@@ -52,9 +52,9 @@ draw(ss_mechanism kind)
     int viscous = kind == SS_JENKINS || kind == SS_MICROSLIP;
     if (kind == SS_VISCOUS)
         of.zeta = between(.003, .05);
-    if (kind == SS_COULOMB)
+    if (kind == SS_COULOMB_DAMPING)
         of.drag = between(.004, .04);
-    if (kind == SS_VISCOUS_COULOMB) {
+    if (kind == SS_VISCOUS_AND_COULOMB) {
         of.zeta = between(.004, .02);
         of.drag = between(.4, 1.6) * PI / 2 * of.zeta * between(.1, .6);
     }

@@ -1,7 +1,7 @@
 # With -v every tool says what was done, and in its last line what it cost.
 ss-sim compliant-light -o run.h5
 ss-morlet --octaves=-5:-4 run.h5 -o w.h5
-for command in 'ss-cat run.h5' 'ss-contour w.h5' 'ss-features run.h5' 'ss-morlet run.h5' \
+for command in 'ss-cat run.h5' 'ss-backbone -c a run.h5' 'ss-filter --low-pass 100 run.h5' 'ss-contour w.h5' 'ss-features run.h5' 'ss-morlet run.h5' \
         'ss-noise --snr 20 run.h5' 'ss-plot run.h5' 'ss-rank run.h5' 'ss-signal sine' \
         'ss-sim coulomb' 'ss-sweep --vary mass=1:2:3 coulomb' 'ss-trade --budget 0.01 coulomb'; do
     tool=${command%% *}

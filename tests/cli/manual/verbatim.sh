@@ -46,6 +46,7 @@ try() {         # NAME: the commands on standard input, in a directory of their 
     ss-cat recording -o "$1/run.tsv"
     ! grep -q 'no-clock\.csv' "$1.sh" || cut -d , -f 2- recording > "$1/no-clock.csv"
     cp run.wav bass.wav "$1"
+    ! grep -q 'tests/conformance' "$1.sh" || ln -s "$SRC/tests" "$1/tests"
     ! grep -q 'log\.csv' "$1.sh" || cp log.csv "$1"   # it has a gap, and *.csv would be it, too
     [ -s "$1.sh" ] || echo "$1: no examples"
     (cd "$1" && sh -eu "../$1.sh" > ../out 2> ../err < /dev/null) || echo "$1: exit status $?"
