@@ -193,7 +193,7 @@ int
 decay_truth(const decay_turn *turn, size_t turns, long double t, double *f, double *zeta, double *amplitude)
 {
     size_t i = 3;
-    long double y[5], u[5], n = 0, slope_y = 0, value = 0, slope_n = 0;
+    long double y[5], u[5], slope_y = 0, value = 0, slope_n = 0;
     while (i + 3 < turns && turn[i + 1].t < t)
         i++;
     if (turns < 7 || i + 3 >= turns || t < turn[2].t)
@@ -220,7 +220,6 @@ decay_truth(const decay_turn *turn, size_t turns, long double t, double *f, doub
         value += l * y[k];
         slope_y += slope * y[k];
         slope_n += slope * (long double)k;
-        n += l * (long double)k;
     }
     long double w = acosl(-1) * slope_n, s = -slope_y;
     *f = (double)(sqrtl(w * w + s * s) / (2 * acosl(-1)));

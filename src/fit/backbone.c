@@ -123,7 +123,7 @@ find_extent(decay *d)
     double complex *turned = malloc((d->n + 1) * sizeof *turned), sum = 0;
     double *size = malloc((n + 1) * sizeof *size), least = INFINITY;
     for (size_t i = 0; turned != NULL && size != NULL && i < d->n; i++) {
-        turned[i] = isnan(d->x[i]) ? 0 : d->x[i] * cexp(CMPLX(0, -d->w * (double)i));
+        turned[i] = isnan(d->x[i]) ? 0 : d->x[i] * cexp(-d->w * (double)i * I);
         sum += turned[i] - (i >= width ? turned[i - width] : 0);
         if (i + 1 < width)
             continue;
@@ -330,7 +330,7 @@ line_decay(double *w, const double *left, size_t n)
     for (size_t i = 0; i < PARTS; i++) {
         z[i] = 0;
         for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++)
-            z[i] += left[k] * cexp(CMPLX(0, -*w * (double)k));
+            z[i] += left[k] * cexp(-*w * (double)k * I);
         double weight = creal(z[i] * conj(z[i])) + 1e-300, at = (double)i, turn = carg(z[i]);
         turn -= 2 * M_PI * round((turn - last) / (2 * M_PI));
         last = turn;

@@ -21,7 +21,7 @@ typedef struct turner {
 static turner
 turner_at(bend at, double t)
 {
-    double complex rate = CMPLX(-at.s, at.w), change = CMPLX(-at.ds, at.dw);
+    double complex rate = -at.s + at.w * I, change = -at.ds + at.dw * I;
     return (turner){ cexp(rate * t + change * t * t / 2), cexp(rate + change * (t + .5)), cexp(change) };
 }
 
@@ -29,7 +29,7 @@ turner_at(bend at, double t)
 static inline double complex
 times(double complex a, double complex b)
 {
-    return CMPLX(creal(a) * creal(b) - cimag(a) * cimag(b), creal(a) * cimag(b) + cimag(a) * creal(b));
+    return creal(a) * creal(b) - cimag(a) * cimag(b) + (creal(a) * cimag(b) + cimag(a) * creal(b)) * I;
 }
 
 static inline double complex
@@ -132,7 +132,7 @@ ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, co
         if (n < m + 2)
             return 0;
         sweep(a, m);
-        double complex c = CMPLX(a[m][0], a[m][1]), step = CMPLX(a[m][2], a[m][3]) / c / half;
+        double complex c = a[m][0] + a[m][1] * I, step = (a[m][2] + a[m][3] * I) / c / half;
         double power = creal(c) * creal(c) + cimag(c) * cimag(c);
         if (!(power > 0) || !isfinite(power))
             return 0;

@@ -216,7 +216,7 @@ thin(track *few, const track *r)
 static ss_status
 make_room(law *l, const track *r, int is_slip)
 {
-    *l = (law){ .record = r, .is_slip = is_slip, .noise = { 0, 1 } };
+    *l = (law){ .record = r, .is_slip = is_slip, .noise = { 0, 1, 0 } };
     const size_t n = r->n + 2;
     l->g = malloc((4 + UNKNOWNS + 1) * n * sizeof *l->g);
     if (l->g == NULL)
