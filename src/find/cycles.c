@@ -216,8 +216,8 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
         size_t off = lag / p / PULLED + 1, by = off / 8 + 1, from = lag / p - off, to = lag / p + 1 + off;
         size_t part = best_lag(fine, first, whole, from, to, by);
         double there = part > from && part + by <= to ? relative(fine, first, part, whole) : 1;
-        there = fmin(there, fmin(relative(fine, first, lag / p, whole), relative(fine, first, lag / p + 1, whole)));
-        c.parts |= (unsigned)(there <= as_well) << p;
+        double exact = fmin(relative(fine, first, lag / p, whole), relative(fine, first, lag / p + 1, whole));
+        c.parts |= (unsigned)(there <= as_well || exact <= fmin(d[1], d[3])) << p;
         c.may_be_sooner |= there < 1 - CYCLES_ALIKE;
     }
     double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);

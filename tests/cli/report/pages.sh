@@ -13,7 +13,7 @@ ss-report -q -o again/ run.tsv "$hostile" empty.csv none.csv 2> /dev/null && dif
 page=pages/0001-run.tsv.html
 ss-features run.tsv > found
 echo "transitions $(grep -vc '^#' found), rows $(sed -n '/<h2>Transitions/,/<h2>How/p' $page | grep -c '^<tr><td>')"
-sed -n 's/^# transition_frequency: //p' found | awk '{ printf "%.4f &plusmn; %.4f\n", $1, $2 }' > number
+sed -n 's/^# transition_frequency: //p' found | awk '{ printf "%.6f &plusmn; %.6f\n", $1, $2 }' > number
 grep -c "<td>transition frequency</td><td>$(cat number)</td>" $page
 grep -o '<svg' $page | wc -l
 grep -c 'Triangles at the top: ' $page
