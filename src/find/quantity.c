@@ -7,9 +7,8 @@
 
 #include <ctype.h>
 #include <string.h>
+#include "signal/header.h"
 
-static const char *const force_units[] = { "N", "kN", "mN", "MN", "uN", "lbf", "kip", "kips", "kgf", "gf",
-                                           "dyn", "dyne", NULL };
 static const char *const motion_words[] = { "velocity", "acceleration", "displacement", "position",
                                             "slip", "speed", "stroke", "vel", "acc", "disp", "pos",
                                             "x", "v", "a", NULL };
@@ -47,9 +46,8 @@ has_word(const char *name, const char *const *list)
 column_quantity
 ss_column_quantity(const ss_column *column)
 {
-    for (const char *const *unit = force_units; *unit != NULL; unit++)
-        if (strcmp(*unit, column->unit) == 0)
-            return QUANTITY_FORCE;
+    if (ss_unit_in_si(column->unit, 'N') > 0)
+        return QUANTITY_FORCE;
     /* a unit of length, by whatever time: m, mm/s, (m/s^2), in */
     const char *unit = column->unit + (column->unit[0] == '(');
     static const char *const lengths[] = { "m", "mm", "um", "nm", "cm", "km", "in", "ft", NULL };

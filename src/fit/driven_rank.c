@@ -20,6 +20,7 @@
 #include "base/progress.h"
 #include "io/record.h"
 #include "signal/gaps.h"
+#include "signal/header.h"
 
 enum { ROWS = 2000, COARSE = 800 };     /* rows that fits and searches look at */
 enum { FEWEST = 200 };                  /* rows to be judged */
@@ -380,18 +381,8 @@ add_number(ss_motion_ranking *out, const char *name, double value, const double 
 static void
 make_scene(ss_motion_ranking *out, const driven_law *law, double number[], const char *force, const char *length)
 {
-    static const struct { const char *unit; char of; double si; } known[] = {
-        { "N", 'N', 1 }, { "kN", 'N', 1e3 }, { "MN", 'N', 1e6 }, { "mN", 'N', 1e-3 }, { "uN", 'N', 1e-6 },
-        { "lbf", 'N', 4.4482216152605 }, { "kip", 'N', 4448.2216152605 }, { "kgf", 'N', 9.80665 }, { "m", 'm', 1 },
-        { "cm", 'm', 1e-2 }, { "mm", 'm', 1e-3 }, { "um", 'm', 1e-6 }, { "nm", 'm', 1e-9 }, { "in", 'm', 0.0254 },
-        { "ft", 'm', 0.3048 } };
-    driven si = { .speed = 1 };
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        if (known[i].of == 'N' && strcmp(force, known[i].unit) == 0)
-            si.force = known[i].si;
-        if (known[i].of == 'm' && strcmp(length, known[i].unit) == 0)
-            si.length = si.speed = known[i].si;
-    }
+    const double metres = ss_unit_in_si(length, 'm');
+    const driven si = { .force = ss_unit_in_si(force, 'N'), .length = metres, .speed = metres };
     if (!(si.force > 0 && si.length > 0))
         return;
     for (size_t i = 0; i < LAW_NUMBERS && law->number[i].name != NULL; i++)

@@ -354,19 +354,6 @@ judge(ss_step *s, const track *r, double stiffness)
 
 /* --- a record ------------------------------------------------------------------------------ */
 
-/* A unit of length in metres; NaN: it is none. */
-static double
-metres(const char *unit)
-{
-    static const struct { const char *name; double is; } known[] = {
-        { "m", 1 }, { "cm", 1e-2 }, { "mm", 1e-3 }, { "um", 1e-6 }, { "\xc2\xb5m", 1e-6 }, { "\xce\xbcm", 1e-6 },
-        { "micron", 1e-6 }, { "microns", 1e-6 }, { "nm", 1e-9 }, { "in", 0.0254 }, { "ft", 0.3048 } };
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (strcmp(known[i].name, unit) == 0)
-            return known[i].is;
-    return NAN;
-}
-
 static const char *
 unit_of(const ss_column *c)
 {
@@ -379,8 +366,8 @@ read_columns(double *x, double *mu, const ss_signal *signal, size_t load, size_t
 {
     const ss_column *column = signal->head->column;
     const size_t n = signal->n;
-    const double unit = metres(unit_of(&column[load]));
-    if (isnan(unit))
+    const double unit = ss_unit_in_si(unit_of(&column[load]), 'm');
+    if (unit == 0)
         return ss_fail(err, SS_EDATA, "column %s: '%.40s' is not a unit of length, as m, mm or um is",
                        column[load].name, unit_of(&column[load]));
     for (size_t i = 0; i < n; i++) {

@@ -46,6 +46,8 @@ char *ss_clean_unit(const char *unit);
  * name before it.  Letters that end other words, too, are a unit only behind a word for its quantity, as in
  * displacement_in and accel_g.  "": there is none, and *before stays. */
 const char *ss_unit_of_name(const char *name, size_t *before);
+/* A unit of force, of dimension 'N', or of length, 'm', in N or m; 0: it is none. */
+double ss_unit_in_si(const char *unit, char dimension);
 /* "unit^2/Hz", the density of a column of this unit, in brackets if it has an operator, or in decibels re that. */
 enum { DENSITY_UNIT = 256 };
 void ss_density_unit(char text[DENSITY_UNIT], const char *unit, int decibels);

@@ -1,4 +1,4 @@
-/* unit.c -- the unit at the end of a column's name, and that of a spectral density. */
+/* unit.c -- units in SI, the unit at the end of a column's name, and that of a spectral density. */
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -42,6 +42,22 @@ ss_unit_of_name(const char *name, size_t *before)
         }
     }
     return "";
+}
+
+double
+ss_unit_in_si(const char *unit, char dimension)
+{
+    static const struct { const char *name; char dimension; double si; } known[] = {
+        { "N", 'N', 1 }, { "kN", 'N', 1e3 }, { "MN", 'N', 1e6 }, { "mN", 'N', 1e-3 }, { "uN", 'N', 1e-6 },
+        { "lbf", 'N', 4.4482216152605 }, { "kip", 'N', 4448.2216152605 }, { "kips", 'N', 4448.2216152605 },
+        { "kgf", 'N', 9.80665 }, { "gf", 'N', 9.80665e-3 }, { "dyn", 'N', 1e-5 }, { "dyne", 'N', 1e-5 },
+        { "m", 'm', 1 }, { "cm", 'm', 1e-2 }, { "mm", 'm', 1e-3 }, { "um", 'm', 1e-6 }, { "\xc2\xb5m", 'm', 1e-6 },
+        { "\xce\xbcm", 'm', 1e-6 }, { "micron", 'm', 1e-6 }, { "microns", 'm', 1e-6 }, { "nm", 'm', 1e-9 },
+        { "in", 'm', 0.0254 }, { "ft", 'm', 0.3048 } };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (known[i].dimension == dimension && strcmp(known[i].name, unit) == 0)
+            return known[i].si;
+    return 0;
 }
 
 void
