@@ -113,7 +113,7 @@ fill_columns(problem *p, const double u[UNKNOWNS])
 
 /* --- the amplitudes ------------------------------------------------------------------------ */
 
-/* Solve the normal equations g c = b of m columns, scaled. */
+/* Solve the normal equations g c = b, whose lower half is given, of m columns in ascending order, scaled. */
 static void
 solve(double g[COLUMNS][COLUMNS], const double b[], const int of[], size_t m, double c[])
 {
@@ -143,17 +143,12 @@ find_amplitudes(problem *p)
     for (int k = 0; k < COLUMNS; k++)
         if (p->column[k] != NULL)
             of[m++] = k;
-    for (size_t k = 0; k < m; k++)
-        for (size_t l = 0; l <= k; l++) {
-            const double *x = p->column[of[k]], *y = p->column[of[l]];
-            double sum = 0, with = 0;
-            for (size_t i = 0; i < d->n; i++)
-                if (is_fitted(p, i)) {
-                    sum += x[i] * y[i];
-                    with += x[i] * d->f[i];
-                }
-            g[of[k]][of[l]] = g[of[l]][of[k]] = sum;
-            b[of[k]] = with;
+    for (size_t i = 0; i < d->n; i++)
+        for (size_t k = 0; k < m && is_fitted(p, i); k++) {
+            const double x = p->column[of[k]][i];
+            b[of[k]] += x * d->f[i];
+            for (size_t l = 0; l <= k; l++)
+                g[of[k]][of[l]] += x * p->column[of[l]][i];
         }
     while (worst >= 0) {
         solve(g, b, of, m, c);
