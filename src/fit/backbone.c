@@ -14,6 +14,7 @@
 #include "base/fft.h"
 #include "base/list.h"
 #include "base/options.h"
+#include "base/sort.h"
 
 enum {
     RICH = 32,                  /* samples a period that are enough */
@@ -45,13 +46,6 @@ typedef struct decay {
     size_t n_blocks, room;
     const char *why, *start, *stop;
 } decay;
-
-static int
-ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* --- where it is ----------------------------------------------------------------------------- */
 
@@ -372,7 +366,7 @@ add_line(decay *d, int *found)
     size_t some = size / 2 < SOME ? size / 2 : SOME;        /* of the terms tell what is usual */
     for (size_t i = 0; i < some; i++)
         power[i] = power[i * (size / 2 / some)];
-    qsort(power, some, sizeof *power, ascending);
+    qsort(power, some, sizeof *power, ss_ascending);
     double least = FAINT * exp(d->block[d->n_blocks - 1].level) * (double)n / 2;
     if (peak > OUTSTANDING * power[some / 2] && peak > least * least) {
         *found = 1;

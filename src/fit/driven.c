@@ -65,24 +65,6 @@ find_window(const double *t, const double *x, size_t n, double *error)
     return best;
 }
 
-static double
-mean(const double *x, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += x[i];
-    return sum / (double)n;
-}
-
-static double
-rms(const double *x, size_t n, double about)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += (x[i] - about) * (x[i] - about);
-    return sqrt(sum / (double)n);
-}
-
 static ss_status
 make_room(driven *d, size_t n)
 {
@@ -170,11 +152,11 @@ ss_driven_new(driven *d, const double t[], const double motion[], const double f
     }
     if ((st = leave_out_clipped(d)) != SS_OK)
         return st;
-    const double about = mean(force, n);
-    d->middle = mean(d->x, n);
-    d->length = rms(d->x, n, d->middle);
-    d->speed = rms(d->v, n, 0);
-    d->force = rms(force, n, about);
+    const double about = gsl_stats_mean(force, 1, n);
+    d->middle = gsl_stats_mean(d->x, 1, n);
+    d->length = gsl_stats_sd_with_fixed_mean(d->x, 1, n, d->middle);
+    d->speed = gsl_stats_sd_with_fixed_mean(d->v, 1, n, 0);
+    d->force = gsl_stats_sd_with_fixed_mean(force, 1, n, about);
     d->step = (t[n - 1] - t[0]) / (double)(n - 1);
     /* of a cubic, whose slope has 75/8 times the variance of a value over the cube of the half width */
     d->slow = 3 * error * (opts->is_velocity ? 1 : sqrt(75. / 8 / pow((double)window, 3)) / d->step);

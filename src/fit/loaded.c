@@ -6,6 +6,7 @@
  * rows are then whitened by it, fitted, and so once more.  Errors are those of the whitened rows. */
 #include "fit/loaded.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,20 +103,11 @@ typedef struct start {
     double u[UNKNOWNS], squares, ratio;
 } start;
 
-static double
-mean_of(const double *x, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += x[i] / (double)n;
-    return sum;
-}
-
 /* The level, the drift and a that are the best beside this friction over a; a > 0 may be given. */
 static void
 solve(start *s, const track *r, const double *g, double a)
 {
-    double mean[3] = { mean_of(r->load, r->n), mean_of(g, r->n), mean_of(r->mu, r->n) }, xx = 0, xg = 0, xm = 0;
+    double mean[3] = { gsl_stats_mean(r->load, 1, r->n), gsl_stats_mean(g, 1, r->n), gsl_stats_mean(r->mu, 1, r->n) }, xx = 0, xg = 0, xm = 0;
     for (size_t i = 0; i < r->n; i++) {
         double x = r->load[i] - mean[0];
         xx += x * x;
@@ -206,9 +198,9 @@ thin(track *few, const track *r)
         }
         rows = away / NEAR + 1 < r->n - i ? away / NEAR + 1 : r->n - i;
         rows = i > 0 ? rows : 1;
-        few->t[few->n] = mean_of(r->t + i, rows);
-        few->load[few->n] = mean_of(r->load + i, rows);
-        few->mu[few->n] = mean_of(r->mu + i, rows);
+        few->t[few->n] = gsl_stats_mean(r->t + i, 1, rows);
+        few->load[few->n] = gsl_stats_mean(r->load + i, 1, rows);
+        few->mu[few->n] = gsl_stats_mean(r->mu + i, 1, rows);
     }
     return SS_OK;
 }
