@@ -53,6 +53,16 @@ signal_name(const char *path)
     return ss_printable(name);
 }
 
+/* Draw under the signal's name. */
+static void
+draw(const job *j, tool_script *script, void *user)
+{
+    ss_plot_opts opts;
+    ss_plot_opts_init(&opts, sizeof opts);
+    opts.title = j->signal_name;
+    tool_draw(j->output, &opts, script, user);
+}
+
 /* --- the quantity -------------------------------------------------------------------------- */
 
 /* The quantity of a unit: of a force, of a length, or of a length over time, "mm/s" or, in names, "mm_s";
@@ -433,19 +443,10 @@ typedef struct drawn {
 } drawn;
 
 static ss_status
-write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
+write_motion(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 {
     const drawn *d = user;
     return ss_plot_motion(out, d->signal, d->motion, d->force, d->ranking, opts, err);
-}
-
-static void
-draw_motion(const job *j, const drawn *d)
-{
-    ss_plot_opts opts;
-    ss_plot_opts_init(&opts, sizeof opts);
-    opts.title = j->signal_name;
-    tool_draw(j->output, &opts, write_script, (void *)d);
 }
 
 static void
@@ -459,14 +460,13 @@ rank_motion(job *j)
     if (motion == force)
         tool_usage("--motion and --column are the same column");
     set_motion(j, &signal->head->column[motion]);
-    j->signal_name = signal_name(j->signal_path);
     j->motion_opts.time = signal->values + (signal->head->n_columns - 1) * signal->n;
     j->motion_opts.progress = (ss_progress){ tool_progress, j };
     tool_check(ss_motion_ranking_new(&r, signal, motion, force, &j->motion_opts, &err), &err);
     if (j->fits)
         write_law(j, r);
     else if (j->kind < TOOL_STREAM)
-        draw_motion(j, &(drawn){ signal, motion, force, r });
+        draw(j, write_motion, &(drawn){ signal, motion, force, r });
     else
         tool_check(ss_motion_ranking_write(r, tool_output(j->output), tool_stream(j->kind), &err), &err);
     if (j->residual != NULL && r->rows == 0)
@@ -499,17 +499,6 @@ write_steps(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 }
 
 static void
-draw_steps(const job *j, ss_steps *steps)
-{
-    ss_plot_opts opts;
-    ss_plot_opts_init(&opts, sizeof opts);
-    char *title = signal_name(j->signal_path);
-    opts.title = title;
-    tool_draw(j->output, &opts, write_steps, steps);
-    free(title);
-}
-
-static void
 fit_load(job *j)
 {
     const double stiffness = given_stiffness(&j->settings);
@@ -529,7 +518,7 @@ fit_load(job *j)
         tool_note("step at %.9g s: %zu rows, noise of %.2g", steps->step[i].at, steps->step[i].n,
                   steps->step[i].law[steps->step[i].best].noise);
     if (j->kind < TOOL_STREAM)
-        draw_steps(j, steps);
+        draw(j, write_steps, steps);
     else
         tool_check(ss_steps_write(steps, tool_output(j->output), tool_stream(j->kind), &err), &err);
     ss_steps_free(steps);
@@ -617,7 +606,8 @@ parse(job *j, int argc, char *argv[])
     if (j->fits)
         tool_writes(j->output);
     else
-        j->kind = tool_output_kind(j->output, TOOL_WORDS | (j->motion != NULL || j->load != NULL ? TOOL_PICTURES : 0), j->kind);
+        j->kind = tool_output_kind(j->output, j->motion != NULL || j->load != NULL ? TOOL_WORDS | TOOL_PICTURES
+                                   : TOOL_WORDS, j->kind);
     set_files(j, argc - first, argv + first);
 }
 
@@ -627,7 +617,6 @@ rank_signal(job *j)
 {
     ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
     size_t column = tool_column(signal->head, j->signal_path, j->column_name);
-    j->signal_name = signal_name(j->signal_path);
     j->opts.quantity = quantity_of(&signal->head->column[column], j->as, &j->known_by);
     tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j->signal_path),
               signal->n, signal->head->column[column].name, ss_quantity_names[j->opts.quantity],
@@ -650,6 +639,7 @@ main(int argc, char *argv[])
     ss_rank_opts_init(&j.opts, sizeof j.opts);
     ss_motion_opts_init(&j.motion_opts, sizeof j.motion_opts);
     parse(&j, argc, argv);
+    j.signal_name = signal_name(j.signal_path);
     j.reading.opts.progress = (ss_progress){ tool_reading_progress, &j };
     if (j.motion != NULL)
         rank_motion(&j);

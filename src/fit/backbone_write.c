@@ -36,12 +36,8 @@ write_mechanism(struct rows *rows, const ss_backbone *b)
         length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i > 0 ? ", " : "",
                                    ss_mechanism_names[b->mechanism[i]]);
     ss_rows_note(rows, "mechanism: %s%s", b->n_mechanisms > 1 ? "cannot tell: " : "", text);
-    for (size_t i = 0; i < b->n_numbers; i++) {
-        const ss_backbone_number *k = &b->number[i];
-        char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX];
-        ss_rows_note(rows, "%s: %s %s%s%s", k->name, ss_number_text(value, k->value.value),
-                     ss_number_text(error, k->value.error), k->unit[0] != '\0' ? " " : "", k->unit);
-    }
+    for (size_t i = 0; i < b->n_numbers; i++)
+        ss_rows_note_value(rows, b->number[i].name, b->number[i].value, b->number[i].unit, 0);
 }
 
 ss_status

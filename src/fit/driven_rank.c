@@ -655,15 +655,6 @@ write_row(struct rows *rows, const ss_motion_ranking *r, size_t i)
     ss_rows_end(rows);
 }
 
-/* Write "# key: value error unit". */
-static void
-write_number(FILE *out, const char *key, ss_value value, const char *unit)
-{
-    char number[SS_NUMBER_MAX], error[SS_NUMBER_MAX];
-    fprintf(out, "# %s: %s %s%s%s\n", key, ss_number_rounded(number, value.value, 5),
-            ss_number_rounded(error, value.error, 2), unit[0] != '\0' ? " " : "", unit);
-}
-
 ss_status
 ss_motion_ranking_write(const ss_motion_ranking *r, FILE *out, ss_format format, ss_error *err)
 {
@@ -675,9 +666,9 @@ ss_motion_ranking_write(const ss_motion_ranking *r, FILE *out, ss_format format,
         return st;
     ss_rows_note(&rows, "answer: %s", r->answer);
     if (rows.format->has_notes && r->n > 0) {
-        write_number(out, "explained", (ss_value){ r->row[0].explained, r->row[0].explained_error }, "");
+        ss_rows_note_value(&rows, "explained", (ss_value){ r->row[0].explained, r->row[0].explained_error }, "", 5);
         for (size_t i = 0; i < r->n_numbers; i++)
-            write_number(out, r->number[i].name, r->number[i].value, r->number[i].unit);
+            ss_rows_note_value(&rows, r->number[i].name, r->number[i].value, r->number[i].unit, 5);
         if (r->confounded[0] != '\0')
             ss_rows_note(&rows, "confounded: %s", r->confounded);
         ss_rows_note(&rows, "force: %s on what moves", r->sign < 0 ? "as it acts" : "opposite to that");

@@ -461,16 +461,9 @@ write_row(struct rows *rows, size_t rank, const ss_step *s, size_t law)
 }
 
 static void
-note_value(struct rows *rows, const char *key, ss_value v, const char *unit)
-{
-    char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX];
-    ss_rows_note(rows, "%s: %s %s%s%s", key, ss_number_rounded(value, v.value, 6), ss_number_rounded(error, v.error, 3),
-                 *unit != '\0' ? " " : "", unit);
-}
-
-static void
 note_step(struct rows *rows, const ss_step *s)
 {
+    enum { DIGITS = 6 };
     const ss_step_law *best = &s->law[s->best];
     char at[SS_NUMBER_MAX], before[SS_NUMBER_MAX], after[SS_NUMBER_MAX], ahead[SS_NUMBER_MAX];
     ss_rows_note(rows, "step: at %s s, from %s to %s m/s", ss_number_rounded(at, s->at, 9),
@@ -480,11 +473,11 @@ note_step(struct rows *rows, const ss_step *s)
     else
         ss_rows_note(rows, "answer: %s is likelier by a factor of e^%s", ss_step_law_names[s->best],
                      ss_number_rounded(ahead, best->log_likelihood - s->law[1 - s->best].log_likelihood, 2));
-    note_value(rows, "direct_effect", best->direct_effect, "");
-    note_value(rows, "evolution_effect", best->evolution_effect, "");
-    note_value(rows, "critical_slip_distance", best->critical_slip_distance, "m");
-    note_value(rows, "stiffness", best->stiffness, "1/m");
-    note_value(rows, "drift", best->drift, "1/m");
+    ss_rows_note_value(rows, "direct_effect", best->direct_effect, "", DIGITS);
+    ss_rows_note_value(rows, "evolution_effect", best->evolution_effect, "", DIGITS);
+    ss_rows_note_value(rows, "critical_slip_distance", best->critical_slip_distance, "m", DIGITS);
+    ss_rows_note_value(rows, "stiffness", best->stiffness, "1/m", DIGITS);
+    ss_rows_note_value(rows, "drift", best->drift, "1/m", DIGITS);
 }
 
 ss_status

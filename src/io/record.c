@@ -40,6 +40,16 @@ ss_rows_note(struct rows *rows, const char *text, ...)
 }
 
 void
+ss_rows_note_value(struct rows *rows, const char *key, ss_value v, const char *unit, int digits)
+{
+    char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX];
+    ss_rows_note(rows, "%s: %s %s%s%s", key,
+                 digits > 0 ? ss_number_rounded(value, v.value, digits) : ss_number_text(value, v.value),
+                 digits > 0 ? ss_number_rounded(error, v.error, digits / 2) : ss_number_text(error, v.error),
+                 unit[0] != '\0' ? " " : "", unit);
+}
+
+void
 ss_rows_notes(struct rows *rows, const ss_header *head, const char *const own[])
 {
     for (size_t i = 0; i < head->n_notes; i++)
@@ -162,7 +172,7 @@ const char *
 ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits)
 {
     char raw[SS_NUMBER_MAX];
-    snprintf(raw, sizeof raw, "%.*g", digits, x);
+    snprintf(raw, sizeof raw, "%.*g", digits < 17 ? digits : 17, x);
     return copy_number(text, isnan(x) ? "-" : raw);
 }
 

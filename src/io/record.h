@@ -28,6 +28,8 @@ ss_status ss_rows_finish(struct rows *rows, ss_error *err);
 /* Write a line "# key: value", if the format has notes. */
 SS_PRINTF(2, 3)
 void ss_rows_note(struct rows *rows, const char *text, ...);
+/* "# key: value error unit", the value in so many digits and the error in half of them; 0: in all. */
+void ss_rows_note_value(struct rows *rows, const char *key, ss_value v, const char *unit, int digits);
 /* Write the notes of a header, except those with the names of a result's own, as ss_note_is takes them. */
 void ss_rows_notes(struct rows *rows, const ss_header *head, const char *const own[]);
 
