@@ -52,9 +52,10 @@ ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, 
         st = ss_script_check(of_f->name, ss_script_extent(f, signal->n), err);
     if (st == SS_OK)
         st = ss_script_begin_stack(&stack, out, &own, signal->head,
-                                   LOOP + LEFT + BAR * (double)r->n + 3 * AXIS, err);
+                                   SCRIPT_LEGEND + LOOP + LEFT + BAR * (double)r->n + 3 * AXIS, err);
     if (st != SS_OK)
         return st;
+    stack.top -= SCRIPT_LEGEND;
     fputs("$loop << EOD\n", out);
     for (size_t i = 0, stride = 1 + signal->n / POINTS; i < signal->n; i += stride)
         ss_print(out, "%.8g %.6g %.6g %.6g %.6g\n", r->time[i], x[i], f[i], r->predicted[i],
@@ -67,9 +68,9 @@ ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, 
     ss_script_write_frame(out, 0.22, 0.965);
     fputs("set autoscale xfix; set offsets graph 0.03,graph 0.03,graph 0.05,graph 0.05\n", out);
     write_labels(&stack, LOOP, of_x, of_f);
-    ss_print(out, "set title offset 0,0.7\n"
-             "set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\nplot $loop using 2:3 with lines lw 1 lc rgb '" SKY_BLUE
-             "' title 'measured', $loop using 2:4 with lines lw 0.8 lc rgb '" VERMILION "' title ");
+    ss_script_write_key(out);
+    fputs("plot $loop using 2:3 with lines lw 1 lc rgb '" SKY_BLUE "' title 'measured', "
+          "$loop using 2:4 with lines lw 0.8 lc rgb '" VERMILION "' title ", out);
     ss_script_quote(out, r->row[0].law);
     fputs("\nunset key\n", out);
     for (size_t i = 0; i < signal->n; i++)

@@ -125,10 +125,16 @@ ss_script_write_frame(FILE *out, double from, double to)
 }
 
 void
+ss_script_write_key(FILE *out)
+{
+    fputs("set title offset 0,0.7; set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\n", out);
+}
+
+void
 ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *signal, const ss_column *over)
 {
-    fputs("set title offset 0,0.7; set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\n"
-          "name = ", out);
+    ss_script_write_key(out);
+    fputs("name = ", out);
     ss_script_quote(out, opts->name != NULL ? opts->name : signal->name);
     fputs("; over_name = ", out);
     ss_script_quote(out, opts->over_name != NULL ? opts->over_name : over->name);

@@ -9,7 +9,6 @@
 
 #define PANEL 2.1               /* height of one panel [cm] */
 #define TIME 1.0                /* and below them [cm] */
-#define LEGEND 0.4              /* and above them, of two signals [cm] */
 #define ROOM 8.2                /* for the label of a panel [ems] */
 
 /* In the letters of the smallest label. */
@@ -32,7 +31,7 @@ write_panels(FILE *out, const ss_header *head, const script_span *span, trace t[
              const ss_plot_opts *opts, ss_error *err)
 {
     int has_over = opts->over != NULL;
-    double legend = has_over ? LEGEND : 0;
+    double legend = has_over ? SCRIPT_LEGEND : 0;
     script_stack stack;
     size_t bands = 0;
     ss_status st = ss_script_begin_stack(&stack, out, opts, head, legend + TIME + PANEL * (double)n, err);

@@ -32,6 +32,10 @@ ss_status ss_script_end(FILE *out);
  * style, and no key. */
 void ss_script_write_frame(FILE *out, double from, double to);
 
+/* Let the plot that follows have its legend above it, and the title above that.  The top of its stack is to be
+ * SCRIPT_LEGEND [cm] lower, in a picture so much higher. */
+#define SCRIPT_LEGEND 0.4
+void ss_script_write_key(FILE *out);
 /* The legend of a signal and another over it, whose names become the variables name and over_name, above their
  * panel. */
 void ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *signal,
