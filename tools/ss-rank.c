@@ -430,6 +430,9 @@ write_law(const job *j, const ss_motion_ranking *r)
     if (!(scene.mass > 0 && scene.stiffness > 0))
         tool_usage("--fit needs --set=mass=KG and --set=stiffness=N/m of the rig in which the law is to move");
     tool_check(ss_scene_check(&scene, &err), &err);
+    for (size_t i = 0; i < r->n_numbers; i++)
+        if (strstr(r->number[i].name, "_negative") != NULL && isnan(ss_scene_get(&scene, r->number[i].name)))
+            tool_warn("the scene lacks %s: its model has the same on both sides", r->number[i].name);
     FILE *out = tool_output(j->output);
     fprintf(out, "# %s, by %s.\n", r->answer, j->signal_name);
     tool_check(ss_scene_write(&scene, out, &err), &err);
