@@ -12,5 +12,5 @@ done
 explained --motion Position --column Friction --from 10 --to 205 "$data/motion/tribometer.txt" | awk '{ print ($NF >= .998) }'
 # A scene of a law with two unlike sides says what its model cannot hold.
 ss-rank --fit -s mass=10 -s stiffness=1e6 -m displacement_in -c friction_force_kip \
-    "$data/band_friction_damper_1hz_80lb.csv" 2> said | grep '^model'
+    "$data/measured/band_friction_damper_1hz_80lb.csv" 2> said | grep '^model'
 cat said
