@@ -30,7 +30,6 @@ static const ss_scene_range ranges[] = {
 
 /* --- the law ------------------------------------------------------------------------------------ */
 
-
 /* z where the contact is on a side. */
 static double
 z_of(const ss_scene *s, int side, double y)

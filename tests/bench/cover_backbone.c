@@ -14,32 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+#include "chance.h"
 #include "../decay.h"
-
-#define PI 3.14159265358979323846
-
-static uint64_t chance;
-
-static double
-uniform(void)                   /* splitmix64 */
-{
-    uint64_t z = chance += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) / 9007199254740992.;
-}
-
-static double
-between(double from, double to)
-{
-    return from * pow(to / from, uniform());
-}
-
-static double
-gauss(void)
-{
-    return sqrt(-2 * log(uniform())) * cos(2 * PI * uniform());
-}
 
 enum { CLEAN, HUM, DRIFT, OFFSET, CLIPPING, HAMMER, SECOND, CLOSE, MODULATED, CONDITIONS };
 static const char *const condition_names[] = { "none", "hum", "drift", "offset", "clipping", "hammer", "second mode",

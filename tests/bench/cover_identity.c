@@ -19,41 +19,16 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+#include "chance.h"
 #include "../rig.h"
 #include "find/numbers.h"
 
-#define PI 3.14159265358979323846
 enum { MOST_SAMPLES = 120000, MOST_EVENTS = 6000 };
-
-/* --- chance ---------------------------------------------------------------------------------- */
-
-static uint64_t chance;
 
 static void
 seed(uint64_t population, uint64_t record)
 {
     chance = (population + 1) * 0x9e3779b97f4a7c15u + record * 0xbf58476d1ce4e5b9u;
-}
-
-static double
-uniform(void)                   /* splitmix64 */
-{
-    uint64_t z = chance += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) / 9007199254740992.;
-}
-
-static double
-between(double from, double to)
-{
-    return from * pow(to / from, uniform());
-}
-
-static double
-gauss(void)
-{
-    return sqrt(-2 * log(uniform())) * cos(2 * PI * uniform());
 }
 
 /* --- records --------------------------------------------------------------------------------- */
