@@ -130,8 +130,8 @@ void tool_write_end(ss_writer *writer, size_t samples);
 /* All of this for a signal in memory. */
 void tool_write(const ss_signal *signal, const char *path, tool_kind kind);
 
-/* Copy the columns that are wanted, or all, of a reader of the file `from`, which is freed, as they come, and give them
- * the names "OLD=NEW". */
+/* Copy the columns that are wanted, or all, of a reader of the file `from`, which is freed, as they come, and give
+ * them the names "OLD=NEW". */
 void tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const tool_texts *names, const char *to,
                tool_kind kind);
 

@@ -12,8 +12,8 @@
 
 #define LIBRARY "libstickslip.so." SS_VERSION
 
-/* Open the library beside the tool, in the build tree or installed, or where it was to be installed, before any other
- * of its name. */
+/* Open the library beside the tool, in the build tree or installed, or where it was to be installed, before any
+ * other of its name. */
 static void *
 open_library(void)
 {

@@ -229,7 +229,8 @@ main(int argc, char *argv[])
     if (d.kind < TOOL_STREAM)
         tool_draw(d.output, &opts, write_script, &d);
     else
-        tool_check(ss_ridge_write(tool_output(d.output), d.coefficients, &d.opts, &opts, tool_stream(d.kind), &err), &err);
+        tool_check(ss_ridge_write(tool_output(d.output), d.coefficients, &d.opts, &opts, tool_stream(d.kind), &err),
+                   &err);
     tool_reading_free(&d.reading);
     ss_overlay_free(d.times);
     ss_overlay_free(d.overlay);

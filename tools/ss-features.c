@@ -187,7 +187,8 @@ main(int argc, char *argv[])
         TOOL_NUMBER(0, "stiffness", &req.opts.stiffness, springs),
         TOOL_TEXT(0, "displacement", &req.displacement), TOOL_TEXT(0, "force", &req.force),
         TOOL_NUMBER(0, "drop", &req.opts.drop, heights), TOOL_THREADS(0, &req.opts.threads),
-        TOOL_WHOLE('j', "jobs", &req.jobs, jobs), TOOL_FLAG(0, "summary", &req.summary), TOOL_FLAG(0, "stream", &req.stream),
+        TOOL_WHOLE('j', "jobs", &req.jobs, jobs), TOOL_FLAG(0, "summary", &req.summary),
+        TOOL_FLAG(0, "stream", &req.stream),
         TOOL_OUTPUT(&req.output), TOOL_FORMAT_OF_WORDS(&req.kind) };
 
     tool_begin(argv, "ss-features", usage);

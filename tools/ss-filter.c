@@ -54,7 +54,8 @@ main(int argc, char *argv[])
     const tool_option options[] = {
         TOOL_NUMBER(0, "low-pass", &opts.low_pass, edges), TOOL_NUMBER(0, "high-pass", &opts.high_pass, edges),
         TOOL_WHOLE(0, "derivative", &derivative, derivatives), TOOL_WHOLE(0, "integral", &integral, integrals),
-        TOOL_NUMBER(0, "stop", &opts.stop, stops), TOOL_TEXTS('c', "column", &wanted), TOOL_TEXTS(0, "name", &names), TOOL_OUTPUT(&output),
+        TOOL_NUMBER(0, "stop", &opts.stop, stops), TOOL_TEXTS('c', "column", &wanted), TOOL_TEXTS(0, "name", &names),
+        TOOL_OUTPUT(&output),
         TOOL_FORMAT(&kind) };
 
     tool_begin(argv, "ss-filter", usage);

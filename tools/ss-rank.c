@@ -532,8 +532,8 @@ fit_load(job *j)
 static void
 check_load(job *j, int files)
 {
-    static const char *const of_load[] = { "load", "normal-stress", "column", "set", "output", "format", "time", "time-unit",
-        "rate", "table", "gaps", "resample", "from", "to", "scale", "unit", "quiet", "verbose", NULL };
+    static const char *const of_load[] = { "load", "normal-stress", "column", "set", "output", "format", "time",
+        "time-unit", "rate", "table", "gaps", "resample", "from", "to", "scale", "unit", "quiet", "verbose", NULL };
     if (tool_given_others(of_load) || files > 1)
         tool_usage("with --load, of the other options only --column, --normal-stress, --set stiffness and those of "
                    "reading mean something, and no scene is read");

@@ -169,18 +169,18 @@ ss_status ss_features_write(const ss_features *features, const ss_signal *signal
 
 /* --- streams --------------------------------------------------------------------------------- */
 
-/* Features of a signal without end, in memory for 128 periods of the lowest frequency, opts->fmin, which must be given.
- * Each transition is written to the caller's file, which is flushed, when no later sample can change it: at the latest
- * two periods and 0.2 s behind its end, but for the work.  Each row tells what the last 64 periods show; the first rows
- * come after 16 periods. */
+/* Features of a signal without end, in memory for 128 periods of the lowest frequency, opts->fmin, which must be
+ * given.  Each transition is written to the caller's file, which is flushed, when no later sample can change it:
+ * at the latest two periods and 0.2 s behind its end, but for the work.  Each row tells what the last 64 periods
+ * show; the first rows come after 16 periods. */
 typedef struct ss_features_stream ss_features_stream;
 /* head is copied.  SS_EINVAL: there is no fmin, or it is not below half the rate. */
 ss_status ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t column,
                                  const ss_features_opts *opts, FILE *to, ss_format format, ss_error *err);
 /* Add n samples of all columns. */
 ss_status ss_features_stream_push(ss_features_stream *stream, double *const column[], size_t n, ss_error *err);
-/* Write the rows that are left, and then the numbers that they have in common: means over windows of 64 periods, and
- * errors that have their scatter.  SS_ESCALE: the signal is too short for fmin. */
+/* Write the rows that are left, and then the numbers that they have in common: means over windows of 64 periods,
+ * and errors that have their scatter.  SS_ESCALE: the signal is too short for fmin. */
 ss_status ss_features_stream_end(ss_features_stream *stream, ss_error *err);
 void ss_features_stream_free(ss_features_stream *stream);       /* NULL is allowed */
 

@@ -231,8 +231,8 @@ ss_status ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, si
 /* Read text or AU, told apart by the first bytes, of a record or of a stream that has ended.  The
  * reader may read more of in than it needs, and nothing may have been read from a pipe before.
  *
- * If in is NULL, name is the path of a file, also of HDF5.  That stays open until *out is freed: ss_map_read reads its
- * coefficients, in the memory of one scale, and w is NULL.  SS_EKIND: the file holds no coefficients. */
+ * If in is NULL, name is the path of a file, also of HDF5.  That stays open until *out is freed: ss_map_read reads
+ * its coefficients, in the memory of one scale, and w is NULL.  SS_EKIND: the file holds no coefficients. */
 ss_status ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error *err);
 void ss_coefficients_free(ss_coefficients *coefficients);           /* NULL is allowed */
 

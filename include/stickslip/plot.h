@@ -104,8 +104,8 @@ extern const char *const ss_palettes[];
  * this law within 1 dB, in a record of at least 100 lengths of its wavelet, and if |W| neither changes
  * slowly nor repeats.  s comes from the 25 % quantile.  It is right within 0.5 dB if all is noise, and up
  * to 2 dB too high if events last for 30 % of the time.  If such scales make an octave or more, noise
- * begins at sqrt(ln N) times the s that nine of ten of them do not exceed.  This is about the largest of N independent |W|, as many
- * as the map has.
+ * begins at sqrt(ln N) times the s that nine of ten of them do not exceed.  This is about the largest of N
+ * independent |W|, as many as the map has.
  *
  * A ridge point is a maximum of |W| over the scales at one time.  It lies outside the cone, 3 dB
  * above the saddles beside it, and above the lowest line.  That of a steady oscillation lies at
@@ -130,7 +130,8 @@ ss_status ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *op
  * multiple of the scene's own, with a colour for each simpler scene. */
 ss_status ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_error *err);
 
-/* Draw each step of a load point: friction along the path, as measured and by both laws, and what each law leaves. */
+/* Draw each step of a load point: friction along the path, as measured and by both laws, and what each law
+ * leaves. */
 ss_status ss_plot_steps(FILE *out, const ss_steps *steps, const ss_plot_opts *opts, ss_error *err);
 
 /* Draw a ranking of friction laws by two columns of the signal: the loop of force over motion as measured and as
@@ -151,8 +152,8 @@ ss_status ss_plot_map(FILE *out, const ss_table *table, const size_t column[], s
 ss_status ss_plot_diagram(FILE *out, const ss_table *table, const size_t column[], size_t n,
                           const ss_plot_opts *opts, ss_error *err);
 
-/* Draw a free decay: its amplitude [dB] and blocks over time, and its frequency and damping ratio over amplitude, with
- * errors; what is known by the mechanism's name dashed.  SS_EINVAL: there are no rows. */
+/* Draw a free decay: its amplitude [dB] and blocks over time, and its frequency and damping ratio over amplitude,
+ * with errors; what is known by the mechanism's name dashed.  SS_EINVAL: there are no rows. */
 ss_status ss_plot_backbone(FILE *out, const ss_backbone *backbone, const ss_signal *signal, size_t column,
                            const ss_plot_opts *opts, ss_error *err);
 

@@ -31,12 +31,12 @@ typedef struct ss_header {
 ss_status ss_header_new(ss_header **out, double rate, double start, ss_error *err);     /* has_time = 1 */
 ss_status ss_header_copy(ss_header **out, const ss_header *head, ss_error *err);
 /* Append a column.  Blanks and slashes in its name become "_", and a repeated name gets the suffix
- * "_2", "_3", ...; unit may be NULL or "".  A first column t in s sets has_time, as readers would take it for the time
- * otherwise.  SS_EINVAL: there is no name. */
+ * "_2", "_3", ...; unit may be NULL or "".  A first column t in s sets has_time, as readers would take it for the
+ * time otherwise.  SS_EINVAL: there is no name. */
 ss_status ss_header_add_column(ss_header *head, const char *name, const char *unit, ss_error *err);
-/* Append a note; it replaces a note with the same key, and NULL as its value deletes that one.  Control characters but tabs become blanks, in
- * the key question marks.  SS_EINVAL: the key is rate, start, columns or empty, begins with a blank or
- * contains a colon.  Writers and readers of files take up to 4096 notes. */
+/* Append a note; it replaces a note with the same key, and NULL as its value deletes that one.  Control characters
+ * but tabs become blanks, in the key question marks.  SS_EINVAL: the key is rate, start, columns or empty, begins
+ * with a blank or contains a colon.  Writers and readers of files take up to 4096 notes. */
 ss_status ss_header_note(ss_header *head, const char *key, const char *value, ss_error *err);
 /* The value of the note with this key, owned by head; NULL if there is none. */
 const char *ss_header_find_note(const ss_header *head, const char *key);
@@ -129,8 +129,9 @@ typedef struct ss_reader ss_reader;
  *
  * Text and AU streams are read as they arrive, in constant memory.  So is delimited text from a pipe whose rate is
  * given, or whose first 16 stamps are numbers on a clock without rounding, unless gaps, resample or table are set.
- * Other delimited text and .npy are first read to their end, to check their clock.  If they have more than 2^18 numbers, these are kept in a
- * temporary file, 8 bytes for each number and each row.  Memory grows with gaps only. *
+ * Other delimited text and .npy are first read to their end, to check their clock.  If they have more than 2^18
+ * numbers, these are kept in a temporary file, 8 bytes for each number and each row.  Memory grows with gaps only.
+ *
  * If in is NULL, name is the path of a file, which the reader closes.  Of HDF5, "FILE" is /signal, as this library
  * writes it, and "FILE:/path/to/dataset" a real dataset of one or two dimensions, of MATLAB v7.3 files too; in
  * one of two dimensions the columns are the shorter one.  A dataset takes its clock from opts->rate or opts->time.
@@ -160,8 +161,8 @@ typedef struct ss_signal {
     double *values;             /* column after column: row i of column c is values[c * n + i] */
 } ss_signal;
 
-/* Read all rows of a stream or, if in is NULL, of a file, as ss_reader_new and ss_reader_rows do.  The caller frees
- * each signal that a function makes with ss_signal_free. */
+/* Read all rows of a stream or, if in is NULL, of a file, as ss_reader_new and ss_reader_rows do.  The caller
+ * frees each signal that a function makes with ss_signal_free. */
 ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts,
                          ss_error *err);
 /* Make a signal of n rows of zeros, with a copy of head. */
@@ -200,18 +201,21 @@ typedef struct ss_filter_opts {
 /* No edges, order 0, 80 dB. */
 void ss_filter_opts_init(ss_filter_opts *opts, size_t size);
 
-/* Make a reader that is at its first row give its rows filtered, differentiated or integrated, all columns alike, by an
- * FIR filter of linear phase that shifts nothing in time, in memory and with a delay in proportion to its length.
+/* Make a reader that is at its first row give its rows filtered, differentiated or integrated, all columns alike,
+ * by an FIR filter of linear phase that shifts nothing in time, in memory and with a delay in proportion to its
+ * length.
  *
- * A low-pass passes up to 0.8 and stops from 1.2 times its edge on, a high-pass the other way round; the transition of
- * an edge above 0.42 times the rate ends at half the rate.  What passes is true to 1e-3 dB; of a derivative or an
- * integral this holds relative to its exact value at each frequency, up to 0.45 times the rate if there is no low-pass.
- * Rows at both ends that the filter cannot know are not given: 6.5 periods of the lowest edge with 80 dB.  An integral
- * without a high-pass is a sum that begins with 0 and drifts with the mean.  Units change with the order, and the note
- * filter, "flat LO to HI Hz, stop DB dB ...", says what passed; gaps become wider by the reach of the filter.
+ * A low-pass passes up to 0.8 and stops from 1.2 times its edge on, a high-pass the other way round; the
+ * transition of an edge above 0.42 times the rate ends at half the rate.  What passes is true to 1e-3 dB; of a
+ * derivative or an integral this holds relative to its exact value at each frequency, up to 0.45 times the rate if
+ * there is no low-pass.  Rows at both ends that the filter cannot know are not given: 6.5 periods of the lowest
+ * edge with 80 dB.  An integral without a high-pass is a sum that begins with 0 and drifts with the mean.  Units
+ * change with the order, and the note filter, "flat LO to HI Hz, stop DB dB ...", says what passed; gaps become
+ * wider by the reach of the filter.
  *
- * SS_EINVAL: an edge is not below half the rate, no frequency passes, or the filter has more than 2^24 taps.  Reading
- * fails with SS_EDATA where there are fewer rows than taps, and with SS_ERANGE if a value is not finite. */
+ * SS_EINVAL: an edge is not below half the rate, no frequency passes, or the filter has more than 2^24 taps.
+ * Reading fails with SS_EDATA where there are fewer rows than taps, and with SS_ERANGE if a value is not
+ * finite. */
 ss_status ss_reader_filter(ss_reader *reader, const ss_filter_opts *opts, ss_error *err);
 /* The same with a whole signal. */
 ss_status ss_signal_filter(ss_signal **out, const ss_signal *signal, const ss_filter_opts *opts, ss_error *err);
@@ -247,8 +251,9 @@ void ss_wave_opts_init(ss_wave_opts *opts, size_t size);
 ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err);
 
 /* Add Gaussian white noise to several columns, n rows at a time.  The same seed gives the same noise (GSL's
- * mt19937 and its Ziggurat).  That of column[c][0] ... column[c][n - 1] has the standard deviation rms[c] >= 0; where this is 0 no number is drawn.  SS_ERANGE, here and below: a
- * sum is not finite; the columns have then been changed. */
+ * mt19937 and its Ziggurat).  That of column[c][0] ... column[c][n - 1] has the standard deviation rms[c] >= 0;
+ * where this is 0 no number is drawn.  SS_ERANGE, here and below: a sum is not finite; the columns have then been
+ * changed. */
 typedef struct ss_noise ss_noise;
 ss_status ss_noise_new(ss_noise **out, unsigned long seed, ss_error *err);
 ss_status ss_noise_add(ss_noise *noise, double *const column[], size_t n_columns, size_t n, const double *rms,

@@ -72,7 +72,8 @@ typedef struct cycle {
     double symmetry;            /* correlation with itself half a cycle later */
     double mean, energy;        /* energy: mean square of the signal, less its mean */
     double drift;               /* mean square of the shift that the drift of the waveform may make [samples^2] */
-    double noise;               /* mean square of the shift that noise makes, as white as what the lag leaves [samples^2] */
+    double noise;               /* mean square of the shift that noise makes, as white as what the lag
+                                   leaves [samples^2] */
     double bend;                /* error of the lag between samples, by two parabolas [samples] */
     int may_be_sooner;          /* it is alike after some part of its length, if less so */
     unsigned parts;             /* bit p: it repeats after 1/p of its length as well as after all of it, to

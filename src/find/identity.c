@@ -1,8 +1,8 @@
 /* identity.c -- whether what rings is the contact.
  *
- * A damped oscillation in windows of a record may be of many things, and a fit is as exact whatever it is.  So before a
- * number is printed, it is compared with all that is known to look alike; each test has a row in the manual's table of
- * conditions.
+ * A damped oscillation in windows of a record may be of many things, and a fit is as exact whatever it is.  So
+ * before a number is printed, it is compared with all that is known to look alike; each test has a row in the
+ * manual's table of conditions.
  *
  * A steady line, a hum, does not decay, and runs through the windows with one phase.  What rings because of slips
  * starts anew with the phase of each, or the opposite one where the slip is the other way.
@@ -78,8 +78,8 @@ typedef struct ring {           /* in a window */
     double complex amplitude;   /* at its start: it is Re amplitude exp(i w t - s t) */
 } ring;
 
-/* The mean of the directions of the amplitudes at sample 0, if they run on from there to the n windows with w and do
- * not decay: 1 of a line with w. */
+/* The mean of the directions of the amplitudes at sample 0, if they run on from there to the n windows with w and
+ * do not decay: 1 of a line with w. */
 static double
 agreement_as_line(const ring *in, size_t n, double w)
 {
@@ -89,9 +89,10 @@ agreement_as_line(const ring *in, size_t n, double w)
     return cabs(sum) / (double)n;
 }
 
-/* May one steady line run through the n windows?  It may where they agree on it as well as on their starts, or better
- * than starts at random would by chance: a line at a harmonic of the cycles agrees with both.  Its frequency is sought
- * within SIGMAS errors of the windows' own, in steps by which its phase turns by half a radian from end to end. */
+/* May one steady line run through the n windows?  It may where they agree on it as well as on their starts, or
+ * better than starts at random would by chance: a line at a harmonic of the cycles agrees with both.  Its
+ * frequency is sought within SIGMAS errors of the windows' own, in steps by which its phase turns by half a radian
+ * from end to end. */
 static int
 is_line(const ring *in, size_t n, ss_value w)
 {
@@ -127,8 +128,8 @@ find_rings(const search *s, const ringdown *r, ring *in, size_t *n)
     return st;
 }
 
-/* Behind the reversals of a force each window is fitted by itself, so that there are neither phases nor a spectrum of
- * its sticks to be compared. */
+/* Behind the reversals of a force each window is fitted by itself, so that there are neither phases nor a spectrum
+ * of its sticks to be compared. */
 ss_status
 ss_identity_of(const search *s, const ringdown *r, const char **why)
 {

@@ -216,8 +216,8 @@ widen_errors(ss_slip *slip, double common, double octave, size_t n)
 
 /* --- all of it ------------------------------------------------------------------------------- */
 
-/* The slope of y over x in a stick, if y rises over time.  Noise of variance v in the octave of its m samples has a slope of
- * variance 12 v / m^2, about. */
+/* The slope of y over x in a stick, if y rises over time.  Noise of variance v in the octave of its m samples has
+ * a slope of variance 12 v / m^2, about. */
 static ss_value
 slope_of(const double *y, const double *x, const fall *f, shape rises)
 {

@@ -100,8 +100,9 @@ stick_behind(const search *s, size_t anchor, size_t next, double f)
 
 /* --- is it one oscillation? -------------------------------------------------------------------- */
 
-/* Is the fit near the frequency f [Hz] one of a damped oscillation in sticks: the reason why not, or NULL.  cycles: the number of them; an oscillation that fewer than half of the transitions show,
- * and not every cycle, was picked by the fit itself. */
+/* Is the fit near the frequency f [Hz] one of a damped oscillation in sticks: the reason why not, or NULL.
+ * cycles: the number of them; an oscillation that fewer than half of the transitions show, and not every cycle,
+ * was picked by the fit itself. */
 static const char *
 judge(const search *s, const ringdown *r, double f, size_t cycles)
 {
@@ -210,8 +211,8 @@ fit_without_hum(search *s, ringdown *r, double f)
     return st;
 }
 
-/* The error of all frequencies by a clock that wanders.  What rings is a clock, too: from one transition to the next it
- * differs by that much, so the lengths of cycles that vary by themselves are no wandering. */
+/* The error of all frequencies by a clock that wanders.  What rings is a clock, too: from one transition to the
+ * next it differs by that much, so the lengths of cycles that vary by themselves are no wandering. */
 static double
 clock_error(const search *s, const ringdown *r)
 {
@@ -221,7 +222,8 @@ clock_error(const search *s, const ringdown *r)
             double differs = r->each[i][0].value - r->all[0].value;
             squares += differs * differs, n++;
         }
-    double wander = s->out->reverses ? 0 : s->cycles.wander * r->all[0].value;     /* each by itself, they scatter by it */
+    /* behind the reversals of a force the windows, each by itself, scatter by it already */
+    double wander = s->out->reverses ? 0 : s->cycles.wander * r->all[0].value;
     return n < 3 ? wander : fmin(wander, sqrt(squares / (n - 1) / n));
 }
 

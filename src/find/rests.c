@@ -1,9 +1,9 @@
 /* rests.c -- the stretches in which a signal stands still at one level.
  *
- * While a true stick lasts, velocity and acceleration are zero: the samples lie about one level, within the noise of
- * the record, whatever makes it.  The level is where samples are densest.  A motion that crosses the level does not
- * stop there: it passes the band about the level, and the wider one on either side, evenly.  A rest is as long as it
- * lasts in the band, and short beside it.  What is neither may be a short rest, or an extremum of a motion.
+ * While a true stick lasts, velocity and acceleration are zero: the samples lie about one level, within the noise
+ * of the record, whatever makes it.  The level is where samples are densest.  A motion that crosses the level does
+ * not stop there: it passes the band about the level, and the wider one on either side, evenly.  A rest is as long
+ * as it lasts in the band, and short beside it.  What is neither may be a short rest, or an extremum of a motion.
  */
 #include "find/rests.h"
 
@@ -18,7 +18,8 @@
 #define PART 0.1                /* of the samples are at rest */
 #define CLEAR 0.05              /* of the largest sample: a wider band is none of a rest */
 
-/* Level and standard deviation of the samples that are at rest, from the narrowest interval with PART of all on. */
+/* Level and standard deviation of the samples that are at rest, from the narrowest interval with PART of all
+ * on. */
 static ss_status
 find_level(const double *x, size_t n, double *level, double *deviation)
 {

@@ -102,8 +102,8 @@ keep_ringing(search *s)
     out->n = kept;
 }
 
-/* May some of the events be no slips, but ends of sticks, or micro-slips, or may slips be missing?  Events at equal
- * distances are all of one kind.  Where nothing rings anew with each, weak slips hide in noise or a hum. */
+/* May some of the events be no slips, but ends of sticks, or micro-slips, or may slips be missing?  Events at
+ * equal distances are all of one kind.  Where nothing rings anew with each, weak slips hide in noise or a hum. */
 static int
 is_doubtful(const search *s, times event, size_t each)
 {

@@ -1,10 +1,10 @@
 /* stream.c -- the features of a signal without end, row by row.
  *
- * The last 64 periods of the lowest frequency are kept and searched again and again, as a recording of their own.  A
- * transition is written when its end lies farther back than a wavelet of that frequency reaches, when the search before
- * found it at the same samples, so that later ones no longer change it, and when it is behind all that were written.
- * The first search comes after 16 periods, as less shows nothing that recurs.  The numbers of all are means over windows that do
- * not overlap, weighted with their errors. */
+ * The last 64 periods of the lowest frequency are kept and searched again and again, as a recording of their own.
+ * A transition is written when its end lies farther back than a wavelet of that frequency reaches, when the search
+ * before found it at the same samples, so that later ones no longer change it, and when it is behind all that were
+ * written.  The first search comes after 16 periods, as less shows nothing that recurs.  The numbers of all are
+ * means over windows that do not overlap, weighted with their errors. */
 #include <stickslip/features.h>
 
 #include <math.h>
@@ -143,7 +143,8 @@ write_rows(ss_features_stream *s, const ss_features *f, double start, double unt
 {
     for (size_t i = 0; i < f->n; i++) {
         double onset = start + f->transition[i].onset, end = start + f->transition[i].end;
-        if (!(onset > s->written + SAME / s->head->rate && end <= until && (until == INFINITY || was_found(s, onset, end))))
+        if (!(onset > s->written + SAME / s->head->rate && end <= until
+              && (until == INFINITY || was_found(s, onset, end))))
             continue;
         if (!(f->transition[i].end > f->transition[i].onset) && f->transition[i].spikes == 0)
             continue;                           /* a maximum whose extent is not known yet */
@@ -235,7 +236,8 @@ ss_features_stream_end(ss_features_stream *s, ss_error *err)
         if (k == SS_SLIPS)
             all.number[k].why = "a stream counts its transitions; slip_rate has the rest";
         else if (2 * m->n >= s->windows)
-            all.number[k] = (ss_number){ .value = m->value, .error = sqrt(fmax(1, spread) / m->weight), .scatter = NAN };
+            all.number[k] = (ss_number){ .value = m->value, .error = sqrt(fmax(1, spread) / m->weight),
+                                         .scatter = NAN };
     }
     all.number[SS_TRANSITIONS].value = (double)s->transitions;
     ss_features_numbers(&s->rows, &all, s->has);

@@ -14,10 +14,10 @@
 #include "fit/slider.h"
 #include "fit/wander.h"
 
-/* The unknowns of a fit.  Friction rings about its new value with the frequency V w, where w^2 = k/(a Dc), and falls
- * by k/a - (b/a - 1)/Dc: the difference of two numbers that may be close.  In b/a and Dc, such rings are a narrow
- * curved valley; in w and the quotient of the two, critical stiffness over k, it is straight.  DIRECT, RING and
- * STIFFNESS are logarithms, DRIFT is that over the whole way. */
+/* The unknowns of a fit.  Friction rings about its new value with the frequency V w, where w^2 = k/(a Dc), and
+ * falls by k/a - (b/a - 1)/Dc: the difference of two numbers that may be close.  In b/a and Dc, such rings are a
+ * narrow curved valley; in w and the quotient of the two, critical stiffness over k, it is straight.  DIRECT, RING
+ * and STIFFNESS are logarithms, DRIFT is that over the whole way. */
 enum { LEVEL, DRIFT, DIRECT, CRITICAL, RING, STIFFNESS, UNKNOWNS };
 enum { STARTS = 4, NEAR = 12 };    /* NEAR: rows about a change that are not thinned */
 #define COARSE 1e-5             /* the slider's tolerance on the grid, and in fits */
@@ -56,7 +56,7 @@ run(const law *l, double *g, const double *u, int moved, double by, double tol)
     const slider s = slider_of(l, u[CRITICAL] + (moved == CRITICAL) * by, exp(u[RING] + (moved == RING) * by),
                                exp(u[STIFFNESS] - u[DIRECT] + (moved == STIFFNESS) * by));
     ss_status st = ss_slider_run(g, &s, l->t, l->load, l->nodes, tol);
-    for (size_t i = l->nodes - l->record->n; i-- > 0;)      /* the first corner first: then the others' rows are right */
+    for (size_t i = l->nodes - l->record->n; i-- > 0;)      /* the first corner first: others' rows are right then */
         memmove(g + l->inserted[i], g + l->inserted[i] + 1, (l->nodes - 1 - l->inserted[i]) * sizeof *g);
     return st;
 }
@@ -107,7 +107,8 @@ typedef struct start {
 static void
 solve(start *s, const track *r, const double *g, double a)
 {
-    double mean[3] = { gsl_stats_mean(r->load, 1, r->n), gsl_stats_mean(g, 1, r->n), gsl_stats_mean(r->mu, 1, r->n) }, xx = 0, xg = 0, xm = 0;
+    double mean[3] = { gsl_stats_mean(r->load, 1, r->n), gsl_stats_mean(g, 1, r->n), gsl_stats_mean(r->mu, 1, r->n) };
+    double xx = 0, xg = 0, xm = 0;
     for (size_t i = 0; i < r->n; i++) {
         double x = r->load[i] - mean[0];
         xx += x * x;
@@ -320,8 +321,9 @@ ss_loaded_fit(ss_step_law *out, double *model, const track *record, int is_slip,
 {
     const size_t n = record->n;
     const double way = way_of(record), held = log(stiffness);
+    const ss_range of_stiffness = stiffness > 0 ? (ss_range){ held, held } : (ss_range){ log(1e-5 / way), log(1e4 / way) };
     const ss_range range[UNKNOWNS] = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), 0 }, { -1000, 1.5 },
-        { log(0.01 / (way * way)), log(1e9 / (way * way)) }, { stiffness > 0 ? held : log(1e-5 / way), stiffness > 0 ? held : log(1e4 / way) } };
+        { log(0.01 / (way * way)), log(1e9 / (way * way)) }, of_stiffness };
     double covariance[UNKNOWNS * UNKNOWNS], *room = malloc(n * (1 + UNKNOWNS) * sizeof *room);
     law l = { 0 };
     start s;

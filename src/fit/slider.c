@@ -1,7 +1,7 @@
 /* slider.c -- friction of a slider with rate and state, by its Taylor series.
  *
- * mu = mu* + a ln(V/V*) + b ln(V* theta/Dc) without inertia, pulled by a spring: mu' = k (V_load - V).  With lengths
- * in Dc, speeds in the speed before, v = V, q = 1/theta, w = ln(V theta) and K = k Dc/a:
+ * mu = mu* + a ln(V/V*) + b ln(V* theta/Dc) without inertia, pulled by a spring: mu' = k (V_load - V).  With
+ * lengths in Dc, speeds in the speed before, v = V, q = 1/theta, w = ln(V theta) and K = k Dc/a:
  *
  *     v' = v u',   u' = K (v_load - v) - (b/a) f,
  *     aging: f = q - v, q' = -q f;   slip: f = -v w, w' = u' + f.

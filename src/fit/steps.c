@@ -1,13 +1,13 @@
 /* steps.c -- find the steps in the speed of a load point, fit both laws to each, and write them.
  *
- * A sensor of the path has noise, of which a stiff spring would make noise of friction; and friction that answers to
- * its own model's noise is fitted by too small a, b and k.  So the path is first cut into lines, again and again
- * where two of them fit best, as long as they are significantly better than one; and the load point moves on a chain
- * of links that meet where the lines do.
+ * A sensor of the path has noise, of which a stiff spring would make noise of friction; and friction that answers
+ * to its own model's noise is fitted by too small a, b and k.  So the path is first cut into lines, again and
+ * again where two of them fit best, as long as they are significantly better than one; and the load point moves on
+ * a chain of links that meet where the lines do.
  *
- * Lines whose speeds differ by less than a fifth are one slide.  A line that is short beside its neighbours, in time and way, is the ramp of a
- * servo; it belongs to the change between these.  A step begins in the second half of a slide, when that may be
- * steady, and ends with the next slide. */
+ * Lines whose speeds differ by less than a fifth are one slide.  A line that is short beside its neighbours, in
+ * time and way, is the ramp of a servo; it belongs to the change between these.  A step begins in the second half
+ * of a slide, when that may be steady, and ends with the next slide. */
 #include <stickslip/steps.h>
 
 #include <float.h>
@@ -126,8 +126,8 @@ drop(path *p, size_t i, size_t n)
     p->lines -= n;
 }
 
-/* Join lines of like speed, the likest first, and leave out ramps: then the change between their neighbours ends where
- * the next line begins. */
+/* Join lines of like speed, the likest first, and leave out ramps: then the change between their neighbours ends
+ * where the next line begins. */
 static void
 join(path *p)
 {
@@ -148,8 +148,8 @@ join(path *p)
     }
 }
 
-/* The variance of the path's noise, from how far rows are off their neighbours, without the farthest tenth; room for
- * n numbers. */
+/* The variance of the path's noise, from how far rows are off their neighbours, without the farthest tenth; room
+ * for n numbers. */
 static double
 noise_of(const path *p, double *off)
 {
@@ -174,13 +174,14 @@ joint(const path *p, size_t k)
     const double first = k < p->lines ? p->t[p->line[k].first] : p->t[p->n - 1];
     if (k == 0 || k == p->lines)
         return first;
-    double meet = p->t[0] + (l[0].from - l[0].speed * l[0].at - l[1].from + l[1].speed * l[1].at) / (l[1].speed - l[0].speed);
+    double apart = l[0].from - l[0].speed * l[0].at - (l[1].from - l[1].speed * l[1].at);
+    double meet = p->t[0] + apart / (l[1].speed - l[0].speed);
     double before = (p->t[l[0].first] + first) / 2, behind = (first + p->t[l[1].end - 1]) / 2;
     return meet > before && meet < behind ? meet : first;
 }
 
-/* Move the path onto the chain of straight links between such joints that is nearest to it; but a link that noise does
- * not explain stays as recorded.  SS_ENOMEM. */
+/* Move the path onto the chain of straight links between such joints that is nearest to it; but a link that noise
+ * does not explain stays as recorded.  SS_ENOMEM. */
 static ss_status
 chain(path *p, double noise)
 {
@@ -216,7 +217,8 @@ chain(path *p, double noise)
     return SS_OK;
 }
 
-/* Find the lines of different speed, and move the path onto its lines, but for rows that noise does not explain. */
+/* Find the lines of different speed, and move the path onto its lines, but for rows that noise does not
+ * explain. */
 static ss_status
 find_lines(path *p)
 {

@@ -2,8 +2,8 @@
  *
  * Residuals of recordings have memory, and loggers change their rate at a step.  So noise is white plus a process
  * of Ornstein and Uhlenbeck, whose memory lasts for a time, or for rows, whichever is likelier.  Kalman's filter
- * predicts each row from those before; what is left is white.  Likelihood of noise beside fitted columns: Patterson
- * and Thompson (1971). */
+ * predicts each row from those before; what is left is white.  Likelihood of noise beside fitted columns:
+ * Patterson and Thompson (1971). */
 #include "fit/wander.h"
 
 #include <float.h>

@@ -11,9 +11,9 @@ typedef struct wander {
     int by_rows;                /* 1: memory counts rows, as behind a logger's filter */
 } wander;
 
-/* Write to `white` what n rows of so many columns are beyond their prediction from the rows before, in its standard
- * error (for a noise of variance 1); in and white may be the same.  Returns the sum of the logarithms of these
- * variances. */
+/* Write to `white` what n rows of so many columns are beyond their prediction from the rows before, in its
+ * standard error (for a noise of variance 1); in and white may be the same.  Returns the sum of the logarithms of
+ * these variances. */
 double ss_wander_whiten(double *white, const wander *w, const double *t, const double *in, size_t n,
                         size_t columns);
 

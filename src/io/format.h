@@ -46,8 +46,8 @@ struct format {
     int has_notes;              /* 1: lines "# key: value" are allowed everywhere */
     char separator;             /* of cells that may be words; '\0': it holds numbers only */
     void (*word)(FILE *out, const char *word);  /* write such a cell; NULL: as it is */
-    /* Write the name before a cell, and what separates it; NULL: names stand in the header.  A row then ends with a
-     * brace. */
+    /* Write the name before a cell, and what separates it; NULL: names stand in the header.  A row then ends with
+     * a brace. */
     void (*key)(FILE *out, const char *name, int first);
 };
 

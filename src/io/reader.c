@@ -61,8 +61,8 @@ resample(ss_source **s, const ss_read_opts *opts, ss_error *err)
     return st == SS_OK ? ss_source_resample(s, rate, 0, INFINITY, err) : st;
 }
 
-/* Open the file at a path: a stream becomes reader->file, what only its path opens, with or without ":/" and a place
- * in it, the reader's source. */
+/* Open the file at a path: a stream becomes reader->file, what only its path opens, with or without ":/" and a
+ * place in it, the reader's source. */
 static ss_status
 open_path(ss_reader *reader, const char *path, const ss_read_opts *opts, ss_error *err)
 {

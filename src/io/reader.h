@@ -10,8 +10,8 @@ struct ss_reader {
     FILE *file;                 /* that the reader closes, or NULL */
 };
 
-/* Begin to read a stream of this kind, in the format that its first bytes show, or, if in is NULL, the file whose path
- * is its name; o->in becomes the reader's. */
+/* Begin to read a stream of this kind, in the format that its first bytes show, or, if in is NULL, the file whose
+ * path is its name; o->in becomes the reader's. */
 ss_status ss_reader_open(ss_reader **out, FILE *in, const char *name, struct opening *o, ss_error *err);
 
 /* Wrap a source for the options that hold for every format: a span of time, factors and units (adjust.c). */

@@ -306,7 +306,8 @@ ss_record_write(const ss_record *r, FILE *out, const char *path, ss_format forma
         return SS_FAIL_NULL(err);
     const ss_signal *signal = r->signal;
     const ss_coefficients *c = r->coefficients;
-    size_t n = c != NULL ? c->n : signal != NULL ? signal->n : 0, columns = signal != NULL ? signal->head->n_columns : 0;
+    size_t n = c != NULL ? c->n : signal != NULL ? signal->n : 0;
+    size_t columns = signal != NULL ? signal->head->n_columns : 0;
     const ss_contents what = { signal != NULL ? signal->head : NULL, c, r->has_events || r->n_events > 0, n };
     double **column = malloc((columns + 1) * sizeof *column);
     ss_status st = column != NULL ? ss_writer_new(&w, out, path, format, &what, err) : ss_fail_memory(err, NULL);

@@ -1,5 +1,5 @@
-/* steps.c -- draw the steps of a load point: of each, friction along the path as measured and by both laws, and what
- * each law leaves. */
+/* steps.c -- draw the steps of a load point: of each, friction along the path as measured and by both laws, and
+ * what each law leaves. */
 #include "plot/script.h"
 #include "plot/style.h"
 

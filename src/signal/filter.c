@@ -1,15 +1,16 @@
 /* filter.c -- filter, differentiate and integrate by one FIR filter of linear phase.
  *
  * A low-pass is the sinc of its edge under a window of Kaiser's, a high-pass is one less a low-pass.  A derivative
- * of order N is N differences of neighbours, which are (2 i sin(pi f))^N for a frequency of f cycles a sample, and a
- * correction ((pi f) / sin(pi f))^N, which is smooth; an integral is N sums and the inverse of the correction.  So
- * the error of each frequency that passes is that of the window, in proportion to its own answer however low the
- * frequency.  (Kaiser 1974 has the window; Oppenheim & Schafer, Discrete-time signal processing, 7.5, its length.)
+ * of order N is N differences of neighbours, which are (2 i sin(pi f))^N for a frequency of f cycles a sample, and
+ * a correction ((pi f) / sin(pi f))^N, which is smooth; an integral is N sums and the inverse of the correction.
+ * So the error of each frequency that passes is that of the window, in proportion to its own answer however low
+ * the frequency.  (Kaiser 1974 has the window; Oppenheim & Schafer, Discrete-time signal processing, 7.5, its
+ * length.)
  *
- * The rows go through the filter in blocks: its taps are cut into parts as long as a block, the spectra of the last
- * blocks are kept, and that of the next output is the sum of their products with those of the parts.  (Overlap-save,
- * partitioned; Stockham 1966.)  A block is an eighth of the filter, so rows leave shortly after they can be known,
- * and their bits do not depend on how a pipe delivers them. */
+ * The rows go through the filter in blocks: its taps are cut into parts as long as a block, the spectra of the
+ * last blocks are kept, and that of the next output is the sum of their products with those of the parts.
+ * (Overlap-save, partitioned; Stockham 1966.)  A block is an eighth of the filter, so rows leave shortly after
+ * they can be known, and their bits do not depend on how a pipe delivers them. */
 #include "signal/filter.h"
 
 #include <gsl/gsl_sf_bessel.h>
@@ -153,7 +154,8 @@ choose(struct design *d, const ss_source *s, const ss_filter_opts *o, ss_error *
     if (d->low > 0 && !(d->high + d->high_width < d->low - d->low_width))
         return ss_fail(err, SS_EINVAL, "%s: no frequency passes the filter: the bands from %g to %g Hz, and from %g to "
                        "%g Hz, are transitions", s->name, (d->high - d->high_width) * rate,
-                       (d->high + d->high_width) * rate, (d->low - d->low_width) * rate, (d->low + d->low_width) * rate);
+                       (d->high + d->high_width) * rate, (d->low - d->low_width) * rate,
+                       (d->low + d->low_width) * rate);
     int both = d->low > 0 && d->high > 0;
     double width = both ? fmin(d->low_width, d->high_width) : d->low > 0 ? d->low_width : d->high_width, half = 0;
     for (int pass = 0; pass < 3 && width > 0; pass++) {

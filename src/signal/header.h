@@ -26,10 +26,11 @@ is_blank(char c)
 /* 1 if a note has one of these names, of which the last is NULL; a name that ends in "*" stands for all that begin
  * with it. */
 int ss_note_is(const char *note, const char *const name[]);
-/* Delete the notes of these names.  A result deletes all that it may say itself, so that no input speaks for it. */
+/* Delete the notes of these names.  A result deletes all that it may say itself, so that no input speaks for
+ * it. */
 void ss_header_forget(ss_header *head, const char *const name[]);
-/* The first row at time t or later, counted from 0; a row that lies less than 1e-6 sample periods before t counts as
- * at t. */
+/* The first row at time t or later, counted from 0; a row that lies less than 1e-6 sample periods before t counts
+ * as at t. */
 size_t ss_header_row(const ss_header *head, double t);
 /* SS_EDATA: readers would refuse the header, as it has too many notes. */
 ss_status ss_header_check_notes(const ss_header *head, ss_error *err);

@@ -80,8 +80,8 @@ ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double
 
 /* Read count[i] values along dimension i of a dataset, from at[i] on, as doubles.  Returns 0 if HDF5 fails. */
 int ss_h5_read_piece(hid_t id, int rank, const hsize_t at[], const hsize_t count[], double *values);
-/* The same of n rows, from the row-th on, of a list, or of an array whose rows go along its last dimension if it is
- * by columns. */
+/* The same of n rows, from the row-th on, of a list, or of an array whose rows go along its last dimension if it
+ * is by columns. */
 int ss_h5_read_rows(hid_t id, int by_columns, size_t row, size_t n, double *values);
 
 /* SS_EDATA with the place of the first value that is not finite. */

@@ -1,5 +1,5 @@
-/* timed_rows.c -- an array whose rows have times, of another dataset or of a column of its own: they become a table,
- * whose clock is found, checked and filled as that of a table in text. */
+/* timed_rows.c -- an array whose rows have times, of another dataset or of a column of its own: they become a
+ * table, whose clock is found, checked and filled as that of a table in text. */
 #include "io/hdf5/groups.h"
 
 #include <stdlib.h>

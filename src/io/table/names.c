@@ -397,8 +397,8 @@ name_first_time(struct sheet *t)
     return SS_OK;
 }
 
-/* The first column may repeat the times that the header gives, or hold the rows' numbers.  Where each channel has a
- * column of times, they must be equal; all but the first are left out. */
+/* The first column may repeat the times that the header gives, or hold the rows' numbers.  Where each channel has
+ * a column of times, they must be equal; all but the first are left out. */
 ss_status
 ss_text_check_times(struct text *x, ss_error *err)
 {

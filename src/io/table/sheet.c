@@ -1,5 +1,5 @@
-/* sheet.c -- the columns and rows of a table, which are kept: only all stamps together show the rate, and all cells the
- * gaps. */
+/* sheet.c -- the columns and rows of a table, which are kept: only all stamps together show the rate, and all
+ * cells the gaps. */
 #include "io/table/sheet.h"
 
 #include <math.h>

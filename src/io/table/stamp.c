@@ -102,8 +102,8 @@ read_half(const char *p, long *hour)
     return half + 2;
 }
 
-/* Read h:m:s, or m:s.f where a fraction shows that these are no hours and minutes.  In times without a date hours may
- * exceed a day, and minutes without hours an hour. */
+/* Read h:m:s, or m:s.f where a fraction shows that these are no hours and minutes.  In times without a date hours
+ * may exceed a day, and minutes without hours an hour. */
 static const char *
 read_time(const char *p, time_stamp *to)
 {
@@ -215,8 +215,8 @@ count_days(struct stamp_column *c, const long day[ORDERS])
     return c->fits[order] ? (double)(day[order] - c->first[order]) : NAN;
 }
 
-/* Times without a date go on at midnight, and those without hours at the hour.  Second 60 is the next minute's second
- * 0 unless that follows, too: then it was a leap second. */
+/* Times without a date go on at midnight, and those without hours at the hour.  Second 60 is the next minute's
+ * second 0 unless that follows, too: then it was a leap second. */
 double
 ss_stamp_next(struct stamp_column *c, const char *cell)
 {

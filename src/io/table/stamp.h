@@ -18,8 +18,8 @@ typedef struct time_stamp {
 
 /* Read a stamp of ISO 8601: 2024-03-05, 10:12:13.125, 2024-03-05T10:12:13,125Z.  The date may have
  * slashes, a blank may replace the T, and hours and minutes of a zone may follow.  Or read what others write:
- * 5.3.2024, 03/05/2024 and 03-05-2024 in either order, 9:12:13, 09:12:13 PM; times that have elapsed, 100:12:13 and
- * without hours 12:13.125. */
+ * 5.3.2024, 03/05/2024 and 03-05-2024 in either order, 9:12:13, 09:12:13 PM; times that have elapsed, 100:12:13
+ * and without hours 12:13.125. */
 time_stamp ss_stamp_read(const char *cell);
 
 /* A column of stamps, of which each row shows more. */
@@ -33,7 +33,8 @@ struct stamp_column {
     int leap, leaps;            /* leap: may it lie in a leap second?  leaps: so many have ended */
 };
 struct stamp_column ss_stamp_column(unsigned parts);
-/* The seconds of the next row's stamp since the midnight before the first row; NaN: it is none like those before. */
+/* The seconds of the next row's stamp since the midnight before the first row; NaN: it is none like those
+ * before. */
 double ss_stamp_next(struct stamp_column *c, const char *cell);
 /* The day of the first row, since 1970-01-01; NaN: it has none, or day and month may stand in either order. */
 double ss_stamp_day(const struct stamp_column *c);

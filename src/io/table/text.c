@@ -73,8 +73,8 @@ drop_lines(struct text *x)
 static const char candidate[] = { '\t', ';', ',', ' ' };
 enum { CANDIDATES = sizeof candidate / sizeof *candidate };
 
-/* The number of cells that belong to columns, if all of these but the last hold numbers; else 0.  LabVIEW leaves the
- * cell of x empty, and writes comments behind some rows. */
+/* The number of cells that belong to columns, if all of these but the last hold numbers; else 0.  LabVIEW leaves
+ * the cell of x empty, and writes comments behind some rows. */
 static size_t
 count_cells(const struct text *x, const char *line, const char *shape, size_t numbers)
 {
@@ -88,8 +88,8 @@ count_cells(const struct text *x, const char *line, const char *shape, size_t nu
     return numbers > 0 && n > first && strcspn(shape + first, wrong) >= full - first ? n : 0;
 }
 
-/* *yes becomes 1 if this is the first line of data; then separator and columns are set.  Empty cells at its end count
- * if each has a name in the line above. */
+/* *yes becomes 1 if this is the first line of data; then separator and columns are set.  Empty cells at its end
+ * count if each has a name in the line above. */
 static ss_status
 is_data(struct text *x, const char *line, int *yes)
 {
@@ -155,8 +155,8 @@ is_like(const char *shape, const char *row)
     return *row == '\0' && strchr(shape, 'n') == NULL;
 }
 
-/* The first line with numbers and words that has two lines like it below, or one if there are no more; shape is NULL
- * for a comment. */
+/* The first line with numbers and words that has two lines like it below, or one if there are no more; shape is
+ * NULL for a comment. */
 static size_t
 find_like(const struct text *x, char *const *shape)
 {
@@ -177,8 +177,8 @@ find_like(const struct text *x, char *const *shape)
     return x->n_head;
 }
 
-/* Find the first of the kept lines that is a row of data with words in it, as the lines below it are too, or n_head;
- * then separator and columns are set. */
+/* Find the first of the kept lines that is a row of data with words in it, as the lines below it are too, or
+ * n_head; then separator and columns are set. */
 static ss_status
 find_mixed(struct text *x, size_t *found)
 {
@@ -222,8 +222,8 @@ check_mark(struct text *x, size_t column, ss_error *err)
                    mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
 }
 
-/* Read the value of one cell of the line that was split.  A missing cell of an unneeded column is read as 0, with one
- * warning. */
+/* Read the value of one cell of the line that was split.  A missing cell of an unneeded column is read as 0, with
+ * one warning. */
 static ss_status
 read_cell(struct text *x, size_t i, double *value, ss_error *err)
 {
@@ -553,8 +553,8 @@ next_rows(struct sheet *t, ss_error *err)
                                                 x->in->line) : st;
 }
 
-/* *live becomes 1 if the rows of a text from a pipe can be handed on as they come: if a rate is given, or if the first
- * stamps show one that more of them would not change.  The rest is as read_line has it. */
+/* *live becomes 1 if the rows of a text from a pipe can be handed on as they come: if a rate is given, or if the
+ * first stamps show one that more of them would not change.  The rest is as read_line has it. */
 static ss_status
 read_first(struct text *x, int *live, char **row, int *more, ss_error *err)
 {
@@ -579,8 +579,8 @@ is_letter(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/* Does a line have this word with a digit somewhere behind it?  A longer word that begins so counts if the word has
- * more than four letters. */
+/* Does a line have this word with a digit somewhere behind it?  A longer word that begins so counts if the word
+ * has more than four letters. */
 static int
 has_number_of(const char *line, const char *word)
 {
@@ -662,8 +662,9 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
 
 /* --- writing --------------------------------------------------------------------------------
  *
- * Comma-separated values as RFC 4180 describes: a line of names, then rows.  A cell that contains a comma, a quote or
- * the end of a line is quoted; a number that is not known is an empty cell.  Spreadsheets take what begins with =, +,
+ * Comma-separated values as RFC 4180 describes: a line of names, then rows.  A cell that contains a comma, a quote
+ * or the end of a line is quoted; a number that is not known is an empty cell.  Spreadsheets take what begins with
+ * =, +,
  * - or @ for a formula, so a word that does has an apostrophe before it, which makes it text. */
 
 static int

@@ -52,7 +52,8 @@ char *ss_text_shape(struct text *x, const char *line, char separator, size_t *nu
  * A line with numbers in it is either a word about the record ("Rate;1000") or a row of data with
  * a bad cell: the latter if it begins with a number or stands below a row of names. */
 ss_status ss_text_read_names(struct text *x, ss_error *err);
-/* When all rows are there: check the columns of times that LabVIEW writes, of each channel and against the header. */
+/* When all rows are there: check the columns of times that LabVIEW writes, of each channel and against the
+ * header. */
 ss_status ss_text_check_times(struct text *x, ss_error *err);
 
 #endif
