@@ -132,6 +132,11 @@ finds_the_truth_of_simulated_rocks(void **state)
     r.until[1] = 250;
     r.until[2] = 400;
     answers("slide, hold, slide", &r, 8, 1, 0);
+    r.until[0] = 95;                            /* two lines fit it best if the first ends in the middle of the hold */
+    r.until[1] = 195;
+    r.until[2] = 290;
+    r.n = 837;
+    answers("as long a hold", &r, 9, 1, 0);
     r = usual;
     r.speed[2] = 1e-6;
     r.speed[3] = 10e-6;

@@ -45,7 +45,7 @@ typedef struct path {
     double *x;
     size_t n;
     long double (*sum)[5];      /* of t, x, t t, t x, x x of the rows before */
-    double saved;               /* squares that a cut must save */
+    double rounding, saved;     /* of the sums of squares; squares that a cut must save */
     double start;               /* x of the first row, as recorded */
     line *line;
     size_t lines, room;
@@ -60,8 +60,8 @@ fit_line(const path *p, size_t first, size_t end, line *out)
         s[i] = p->sum[end][i] - p->sum[first][i];
     long double tt = s[2] - s[0] * s[0] / n, tx = s[3] - s[0] * s[1] / n, xx = s[4] - s[1] * s[1] / n;
     double left = (double)fmaxl(xx - tx * tx / tt, 0);
-    *out = (line){ first, end, (double)(tx / tt), sqrt(left / (double)(n - 2) / (double)tt), (double)(s[0] / n),
-                   (double)(s[1] / n), left };
+    *out = (line){ first, end, (double)(tx / tt), sqrt((left + p->rounding) / (double)(n - 2) / (double)tt),
+                   (double)(s[0] / n), (double)(s[1] / n), left };
     return left;
 }
 
@@ -233,7 +233,8 @@ find_lines(path *p)
             for (int k = 0; k < 5; k++)
                 p->sum[i + 1][k] = p->sum[i][k] + of[k];
         }
-        p->saved = fmax(SIGNIFICANT * noise, 10 * DBL_EPSILON * way * way);     /* rounding of the sums */
+        p->rounding = 10 * DBL_EPSILON * way * way;
+        p->saved = fmax(SIGNIFICANT * noise, p->rounding);
         st = cut(p, 0, p->n);
         if (st == SS_OK)
             st = chain(p, noise);
