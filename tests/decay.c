@@ -192,18 +192,20 @@ decay_run(const decay *of, long double dt, size_t n, double *x, double *v, doubl
 int
 decay_truth(const decay_turn *turn, size_t turns, long double t, double *f, double *zeta, double *amplitude)
 {
-    size_t i = 3;
+    size_t i = 4;
     long double y[5], u[5], slope_y = 0, value = 0, slope_n = 0;
-    while (i + 3 < turns && turn[i + 1].t < t)
+    while (i + 4 < turns && turn[i + 1].t < t)
         i++;
-    if (turns < 7 || i + 3 >= turns || t < turn[2].t)
+    if (turns < 9 || i + 4 >= turns || t < turn[3].t)
         return 0;
-    if (i + 4 < turns && t - turn[i].t > turn[i + 1].t - t)
+    if (i + 5 < turns && t - turn[i].t > turn[i + 1].t - t)
         i++;
     for (size_t k = 0; k < 5; k++) {
         const decay_turn *p = &turn[i - 2 + k];
+        long double near = fabsl(p[-1].x) + fabsl(p[1].x), far = fabsl(p[-2].x) + fabsl(p[2].x);
         u[k] = p->t - t;
-        y[k] = logl((fabsl(p[-1].x - p[0].x) + fabsl(p[1].x - p[0].x)) / 4);
+        /* without an offset, which turns have in turn, and exact for a polynomial of third order */
+        y[k] = logl((10 * fabsl(p->x) + 4 * near - far) / 16);
     }
     for (size_t k = 0; k < 5; k++) {            /* Lagrange's polynomial and its slope at t */
         long double l = 1, slope = 0;

@@ -165,7 +165,7 @@ first_block(const decay *d, block *b, size_t length, double s)
     double half = M_PI / (double)length;
     for (double w = d->w * .7; w < d->w * 1.3; w += half / 2) {
         block trial;
-        if (ss_block_fit(&trial, d->x, d->first, d->first + length, (bend){ s, w, 0, 0 }, &d->beside, 0)
+        if (ss_block_fit(&trial, d->x, d->first, d->first + length, (bend){ .s = s, .w = w }, &d->beside, 0)
             && fabs(trial.rate[PHASE] - d->w) < .4 * d->w && (!found || trial.left < b->left)) {
             *b = trial;
             found = 1;
@@ -181,7 +181,7 @@ follow(decay *d)
 {
     double period = 2 * M_PI / d->w, s = 1 / (double)(d->end - d->first + 1), sure[TRACKS] = { 0 };
     double noise = 0, free_of_noise = 0;
-    bend at = { s, d->w, 0, 0 };
+    bend at = { .s = s, .w = d->w };
     size_t first = d->first;
     d->n_blocks = 0;
     d->stop = "end of the record";
@@ -204,7 +204,7 @@ follow(decay *d)
         }
         if (last == NULL && -b->rate[LEVEL] * (double)length > 1.5 * FALL && (double)length > 1.6 * period) {
             s = -b->rate[LEVEL];                /* it decays so fast that the block must be shorter */
-            at = (bend){ s, b->rate[PHASE], 0, 0 };
+            at = (bend){ .s = s, .w = b->rate[PHASE] };
             length = block_length(d, at, 1, 0);
             if (!ss_block_fit(b, d->x, first, first + length, at, &d->beside, 0))
                 return SS_OK;
@@ -241,7 +241,8 @@ is_hit(const decay *d)
     return d->n_blocks >= FEW && b[0].left / b[0].free > HIT * fmax(b[1].left / b[1].free, b[2].left / b[2].free);
 }
 
-/* The noise of each block, from those about it. */
+/* The noise of each block, from those about it, re the amplitude that is smooth: else those that noise makes large
+ * would count more. */
 static void
 share_noise(decay *d)
 {
@@ -251,7 +252,8 @@ share_noise(decay *d)
             left += d->block[k].left;
             n += d->block[k].free;
         }
-        d->block[i].noise = left / n + 1e-24 * exp(2 * d->block[i].y[LEVEL]);
+        block *b = &d->block[i];
+        b->noise = (left / n + 1e-24 * exp(2 * b->y[LEVEL])) * exp(2 * (b->y[LEVEL] - b->level));
     }
 }
 
@@ -261,7 +263,7 @@ static ss_status
 settle(decay *d)
 {
     for (size_t i = 0; i < d->n_blocks; i++)
-        d->block[i].at = (bend){ 0, d->block[i].rate[PHASE], 0, 0 };
+        d->block[i].at = (bend){ .w = d->block[i].rate[PHASE] }, d->block[i].level = d->block[i].y[LEVEL];
     for (int pass = 0; pass < REFITS; pass++) {
         share_noise(d);
         if (ss_blocks_smooth(d->block, d->n_blocks, 1) != SS_OK)
@@ -270,7 +272,7 @@ settle(decay *d)
             block *b = &d->block[i], again;
             if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside,
                              b->cov[LEVEL][0] * b->noise > SURE * SURE)) {
-                again.at = b->at;
+                again.at = b->at, again.level = b->level;
                 *b = again;
             }
         }
@@ -290,8 +292,7 @@ leave(const decay *d, size_t *n)
     for (size_t i = 0; left != NULL && i < d->n_blocks; i++)
         for (size_t k = d->block[i].first; k < d->block[i].end; k++) {
             const block *b = &d->block[i];
-            double u = (double)k - b->t, level = b->level - u * (b->at.s + u * b->at.ds / 2);
-            double x = d->x[k] - exp(level) * cos(b->phase + u * (b->at.w + u * b->at.dw / 2));
+            double x = d->x[k] - creal(cexp(b->level + b->phase * I + ss_bend_at(&b->at, (double)k - b->t)));
             left[k - first] = isnan(x) ? 0 : x;
         }
     return left;
@@ -386,14 +387,14 @@ fit_level(const double *x, size_t first, size_t end, double w)
 {
     double n = (double)(end - first), t = (double)(first + end - 1) / 2, tt = n * (n * n - 1) / 12;
     double sum = 0, slope = 0;
-    block b = { .first = first, .end = end, .t = t, .free = n - 2, .at = { 0, w, 0, 0 } };
+    block b = { .first = first, .end = end, .t = t, .free = n - 2, .at = { .w = w } };
     for (size_t i = first; i < end; i++) {
         sum += x[i];
         slope += x[i] * ((double)i - t);
     }
     for (size_t i = first; i < end; i++)
         b.left += pow((x[i] - sum / n - slope / tt * ((double)i - t)) * NEPER, 2);
-    b.y[LEVEL] = sum / n * NEPER;
+    b.y[LEVEL] = b.level = sum / n * NEPER;
     b.rate[LEVEL] = slope / tt * NEPER;
     b.cov[LEVEL][0] = 1 / n;
     b.cov[LEVEL][2] = 1 / tt;
@@ -415,17 +416,23 @@ find_levels(decay *d, const double *x, size_t n, double rate)
         most = x[i] > x[most] ? i : most;
     if (n < most + 4 * LEVELS || most >= tail)
         return SS_OK;
+    d->x = malloc(n * sizeof *d->x);
+    if (d->x == NULL)
+        return SS_ENOMEM;
+    memcpy(d->x, x, n * sizeof *x);
     block last = fit_level(x, tail, n, w);
     if (last.rate[LEVEL] > .3 * (last.y[LEVEL] - x[most] * NEPER) / (double)(n - most)) {
-        d->stop = "noise";                      /* it ends in a floor */
-        for (size_t i = most; i < n && x[i] * NEPER > last.y[LEVEL] + 10 * NEPER; i++)
+        d->stop = "noise";                      /* it ends in a floor, whose power is not the decay's */
+        for (size_t i = most; i < n && x[i] * NEPER > last.y[LEVEL] + 10 * NEPER; i++) {
+            d->x[i] += 10 * log10(1 - pow(10, (last.y[LEVEL] / NEPER - x[i]) / 10));
             tail = i;
+        }
     } else
         tail = n;
     if (tail < most + 4 * LEVELS)
         return SS_OK;
     for (size_t i = 0; i < LEVELS; i++)
-        d->block[d->n_blocks++] = fit_level(x, most + (tail - most) * i / LEVELS,
+        d->block[d->n_blocks++] = fit_level(d->x, most + (tail - most) * i / LEVELS,
                                             most + (tail - most) * (i + 1) / LEVELS, w);
     share_noise(d);
     return ss_blocks_smooth(d->block, d->n_blocks, 0);

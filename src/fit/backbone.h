@@ -2,14 +2,17 @@
 #ifndef BACKBONE_H
 #define BACKBONE_H
 
+#include <complex.h>
 #include <stddef.h>
 #include <stickslip/backbone.h>
 
-/* An oscillation about the middle of a block, per sample: ln A falls by s t + ds t^2/2, the phase grows by
- * w t + dw t^2/2. */
+/* An oscillation about the middle of a block, per sample: ln A falls by s t + ds t^2/2 + dds t^3/6, the phase
+ * grows by w t + dw t^2/2 + ddw t^3/6. */
 typedef struct bend {
-    double s, w, ds, dw;
+    double s, w, ds, dw, dds, ddw;
 } bend;
+/* ln A + i phase at t, less those at the middle. */
+double complex ss_bend_at(const bend *at, double t);
 
 /* What stands beside the decay: lines of a hum or of other modes, exp(-s t) cos(w t + p) each. */
 enum { LINES_MAX = 3 };
@@ -38,6 +41,28 @@ typedef struct block {
  * found. */
 int ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, const lines *beside,
                  int is_near);
+
+/* What is tracked through blocks: (y, rate, p) and constants. */
+enum { STATES = 10 };
+
+typedef struct place {          /* of a block */
+    double see[3][STATES];      /* y, its rate and its bend, of the states */
+    double seen[2], tie, variance[2];   /* y, and the rate less tie times y, whose errors are independent */
+    double turn[3][3], shift[3], walk[3][3];    /* to the next place: x becomes turn x + shift, with variance
+                                                   q walk */
+    double x[STATES], p[STATES][STATES];        /* mean and variance by what this place and those before tell */
+    double h[2][STATES], gain[2][STATES], news[2], sure[2];     /* of the filter's steps */
+    double mean[3], square[3];  /* of y, its rate and its bend: mean and variance */
+} place;
+
+/* What a block tells of y and of its rate, each less what the states do not hold. */
+void ss_place_see(place *at, const block *b, int track, double y, double rate);
+/* The walk over v e-folds, by turn. */
+void ss_place_walk(place *at, double v);
+/* Set mean and square of all places, from a mean and a variance at the first one; end takes x and p of the last.
+ * Returns the ln likelihood of what is seen. */
+double ss_blocks_track(place *at, size_t n, size_t states, const double x[], double start[STATES][STATES],
+                       place *end);
 
 /* Draw smooth s and w, with errors, through n blocks whose noise is known: at, error and level; at.s and at.w
  * must be near.  has_phase 0: there is no w. */

@@ -1,6 +1,6 @@
 /* backbone_block.c -- amplitude, phase and their rates in a block of a few periods.
  *
- * About a bend that is nearly right, g = exp(-(s t + ds t^2/2) + i (w t + dw t^2/2)), the signal is Re (C g + D t
+ * About a bend that is nearly right, g = exp of its ln A + i phase, the signal is Re (C g + D t
  * g), beside a straight line, two harmonics of constant amplitude, as friction makes them, and the lines.  All are
  * linear; D / C is what s and w lack, so repetition is Gauss's and Newton's method.  No taper: with white noise
  * none gives smaller errors. */
@@ -13,16 +13,27 @@
 
 enum { ROOM = 17, AT_ONCE = 64, LANES = 8, STEPS = 8 };         /* ROOM: columns, with x, which comes last */
 
+double complex
+ss_bend_at(const bend *at, double t)
+{
+    return t * (-at->s + at->w * I + t / 2 * (-at->ds + at->dw * I + t / 3 * (-at->dds + at->ddw * I)));
+}
+
 /* The columns of a block, one after the other, as factors that turn by themselves. */
 typedef struct turner {
-    double complex now, turn, bend;     /* now *= turn, turn *= bend */
+    double complex now, turn, bend, twist;      /* now *= turn, turn *= bend, bend *= twist */
 } turner;
 
 static turner
 turner_at(bend at, double t)
 {
-    double complex rate = -at.s + at.w * I, change = -at.ds + at.dw * I;
-    return (turner){ cexp(rate * t + change * t * t / 2), cexp(rate + change * (t + .5)), cexp(change) };
+    double complex c[4];                /* and their differences, of rising order */
+    for (int i = 0; i < 4; i++)
+        c[i] = ss_bend_at(&at, t + i);
+    for (int order = 1; order < 4; order++)
+        for (int i = 3; i >= order; i--)
+            c[i] -= c[i - 1];
+    return (turner){ cexp(c[0]), cexp(c[1]), cexp(c[2]), cexp(c[3]) };
 }
 
 /* Finite factors need not ask for the infinities that C's own product looks after. */
@@ -38,6 +49,7 @@ turned(turner *g)
     double complex now = g->now;
     g->now = times(g->now, g->turn);
     g->turn = times(g->turn, g->bend);
+    g->bend = times(g->bend, g->twist);
     return now;
 }
 
@@ -64,10 +76,10 @@ add_up(double sum[ROOM][ROOM], size_t m, const double *x, size_t first, size_t e
 {
     double middle = (double)(first + end - 1) / 2, half = (double)(end - first) / 2, column[ROOM][AT_ONCE];
     turner g = turner_at(at, (double)first - middle), line[LINES_MAX];
-    turner pure = turner_at((bend){ 0, at.w, 0, at.dw }, (double)first - middle);
+    turner pure = turner_at((bend){ .w = at.w, .dw = at.dw, .ddw = at.ddw }, (double)first - middle);
     size_t n = 0, kept = 0;
     for (size_t i = 0; i < beside->n; i++)
-        line[i] = turner_at((bend){ beside->s[i], beside->w[i], 0, 0 }, (double)first - middle);
+        line[i] = turner_at((bend){ .s = beside->s[i], .w = beside->w[i] }, (double)first - middle);
     for (size_t k = first; k < end; k++) {
         double complex z = turned(&g), h = turned(&pure), power = h;
         double u = ((double)k - middle) / half;

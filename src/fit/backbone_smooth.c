@@ -1,43 +1,174 @@
 /* backbone_smooth.c -- what is smooth through the blocks: damping and frequency over amplitude, with bands.
  *
- * Friction makes damping a power of the amplitude A, or a sum of such powers: viscous friction A^0, Coulomb's
- * A^-1, drag A^1.  So per e-fold of A lost, ln s grows by p, nearly constant; the state is (ln A, ln s, p), and p
- * is a random walk of variance q an e-fold.  s may be 0 or less: ln s is asinh(s / (2 small)), in fact.  The
- * frequency is (phase, w, p) in the same way, w in units of the mean of s, since friction's stiffness and its
- * losses are of one size.  Kalman's filter and smoother, about the last smooth curve, give mean and variance for
- * each q; both are averaged over q by likelihood, which is the band. */
+ * What is tracked is (y, rate, p) and constants: y is ln A or the phase, p is the slope of the rate over the
+ * e-folds of A that are lost, and a random walk of variance q an e-fold.  Kalman's filter and smoother give mean
+ * and variance for each q; they are averaged over q by likelihood, which is the band.
+ *
+ * With no mechanism in mind: friction makes damping a power of A, or a sum of such powers, viscous friction A^0,
+ * Coulomb's A^-1, drag A^1.  So ln s grows by p, nearly constant; s may be 0 or less: ln s is asinh(s / small), in
+ * fact, and the filter goes about the last smooth curve.  w is in units of the mean of s, since friction's
+ * stiffness and its losses are of one size. */
 #include "fit/backbone.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { N = 3, WALKS = 12, PASSES = 6, PARTS = 4 };
+enum { WALKS = 12, PASSES = 6, PARTS = 4 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
-#define FAR 1.0                  /* the most by which ln s and p change in a pass */
-#define SMALL 0.05              /* damping over its mean below which its logarithm is none */
+#define FAR 1.0                 /* the most by which ln s and p change in a pass */
+#define SMALL .005              /* damping over its mean below which its logarithm is none */
 
-typedef struct step {           /* from a block to the next: x becomes turn x + shift, with variance q walk */
-    double turn[N][N], shift[N], walk[N][N];
-} step;
+static double
+dot(const double *a, const double *b, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
 
-typedef struct moment {
-    double x[N], p[N][N];
-} moment;
-
-typedef struct place {          /* of a block */
-    double y, rate, r[3];       /* measured: y and the second state; their variances */
-    step step;                  /* to the next */
-    moment after;               /* what it and the blocks before tell */
-    double keep[N][N], news[2], sure[2][2];     /* of the filter's step: I - K H, S^-1 e, S^-1 */
-    double level[N];            /* (ln A, asinh s, p) about which the level is linear */
-    double lost, delay;         /* e-folds to the next block, and their integral over time */
-    double mean[N], square[N];  /* over the walks, with weights */
-} place;
-
-/* (ln A, ln s, p) a time later; e-folds lost, in units of the state, and their integral over that time. */
+/* to = t p t', where t moves the first three states. */
 static void
-move_level(double x[N], double t, double small, double *lost, double *delay)
+turn(double p[STATES][STATES], double t[3][3], size_t n, int backward)
+{
+    for (int side = 0; side < 2; side++)
+        for (size_t i = 0; i < n; i++) {
+            double was[3];
+            for (int k = 0; k < 3; k++)
+                was[k] = side ? p[i][k] : p[k][i];
+            for (int k = 0; k < 3; k++) {
+                double is = 0;
+                for (int j = 0; j < 3; j++)
+                    is += (backward ? t[j][k] : t[k][j]) * was[j];
+                *(side ? &p[i][k] : &p[k][i]) = is;
+            }
+        }
+}
+
+/* Take in what is seen at a place, one number after the other, in Joseph's form, which keeps variances positive.
+ * Returns its ln likelihood. */
+static double
+take_in(place *at, size_t n)
+{
+    double likelihood = 0;
+    for (int o = 0; o < 2; o++) {
+        double *gain = at->gain[o], with[STATES], left[STATES], *h = at->h[o];
+        for (size_t i = 0; i < n; i++) {
+            h[i] = at->see[o][i] - (o > 0 ? at->tie * at->see[0][i] : 0);
+            with[i] = 0;
+        }
+        for (size_t i = 0; i < n; i++)
+            with[i] = dot(at->p[i], h, n);
+        double whole = dot(with, h, n) + at->variance[o], news = at->seen[o] - dot(at->x, h, n);
+        for (size_t i = 0; i < n; i++)
+            gain[i] = with[i] / whole;
+        for (size_t i = 0; i < n; i++) {
+            at->x[i] += gain[i] * news;
+            for (size_t j = 0; j < n; j++)
+                at->p[i][j] -= gain[i] * with[j];
+            left[i] = dot(at->p[i], h, n);
+        }
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = 0; j < n; j++)
+                at->p[i][j] += (at->variance[o] * gain[i] - left[i]) * gain[j];
+        at->sure[o] = 1 / whole;
+        at->news[o] = news / whole;
+        likelihood -= (log(whole) + news * news / whole) / 2;
+    }
+    return likelihood;
+}
+
+double
+ss_blocks_track(place *at, size_t n, size_t states, const double x[], double start[STATES][STATES], place *end)
+{
+    double best = -INFINITY, whole = 0;
+    for (size_t i = 0; i < n; i++)
+        memset(at[i].mean, 0, sizeof at[i].mean + sizeof at[i].square);
+    memset(end, 0, sizeof *end);
+    for (int w = 0; w < WALKS; w++) {
+        double q = pow(10, -6 + .75 * w), likelihood = 0, r[STATES] = { 0 }, sure[STATES][STATES] = { { 0 } };
+        memcpy(at->x, x, sizeof at->x);
+        memcpy(at->p, start, sizeof at->p);
+        at->p[2][2] += q;
+        for (size_t i = 0; i < n; i++) {
+            likelihood += take_in(&at[i], states);
+            if (i + 1 == n)
+                break;
+            memcpy(at[i + 1].x, at[i].x, sizeof at->x);
+            memcpy(at[i + 1].p, at[i].p, sizeof at->p);
+            turn(at[i + 1].p, at[i].turn, states, 0);
+            for (int k = 0; k < 3; k++) {
+                at[i + 1].x[k] = at[i].shift[k] + dot(at[i].turn[k], at[i].x, 3);
+                for (int j = 0; j < 3; j++)
+                    at[i + 1].p[k][j] += q * at[i].walk[k][j];
+            }
+        }
+        double ease = likelihood > best ? exp(best - likelihood) : 1;
+        best = fmax(best, likelihood);
+        double weight = exp(likelihood - best);
+        whole = whole * ease + weight;
+        for (size_t i = 0; i < states; i++) {
+            end->x[i] = end->x[i] * ease + weight * at[n - 1].x[i];
+            for (size_t j = 0; j < states; j++)
+                end->p[i][j] = end->p[i][j] * ease
+                    + weight * (at[n - 1].p[i][j] + at[n - 1].x[i] * at[n - 1].x[j]);
+        }
+        for (size_t i = n; i-- > 0;) {          /* backward, the form without inverses (Bierman 1973) */
+            double with[STATES];
+            for (int o = 0; o < 3; o++) {
+                double mean = dot(at[i].see[o], at[i].x, states), square = 0;
+                for (size_t j = 0; j < states; j++) {
+                    with[j] = dot(at[i].p[j], at[i].see[o], states);
+                    mean += with[j] * r[j];
+                    square += with[j] * at[i].see[o][j];
+                }
+                for (size_t j = 0; j < states; j++)
+                    square -= with[j] * dot(sure[j], with, states);
+                at[i].mean[o] = at[i].mean[o] * ease + weight * mean;
+                at[i].square[o] = at[i].square[o] * ease + weight * (fmax(square, 0) + mean * mean);
+            }
+            for (int o = 2; o-- > 0;) {
+                const double *h = at[i].h[o], *gain = at[i].gain[o];
+                double by = at[i].news[o] - dot(gain, r, states), both = at[i].sure[o];
+                for (size_t j = 0; j < states; j++) {
+                    with[j] = dot(sure[j], gain, states);
+                    r[j] += h[j] * by;
+                }
+                both += dot(with, gain, states);
+                for (size_t j = 0; j < states; j++)
+                    for (size_t k = 0; k < states; k++)
+                        sure[j][k] += both * h[j] * h[k] - with[j] * h[k] - h[j] * with[k];
+            }
+            if (i > 0) {
+                double was[3] = { r[0], r[1], r[2] };
+                for (int k = 0; k < 3; k++) {
+                    r[k] = 0;
+                    for (int j = 0; j < 3; j++)
+                        r[k] += at[i - 1].turn[j][k] * was[j];
+                }
+                turn(sure, at[i - 1].turn, states, 1);
+            }
+        }
+    }
+    for (size_t i = 0; i < n; i++)
+        for (int o = 0; o < 3; o++) {
+            at[i].mean[o] /= whole;
+            at[i].square[o] = fmax(at[i].square[o] / whole - at[i].mean[o] * at[i].mean[o], 0);
+        }
+    for (size_t i = 0; i < states; i++)
+        end->x[i] /= whole;
+    for (size_t i = 0; i < states; i++)
+        for (size_t j = 0; j < states; j++)
+            end->p[i][j] = end->p[i][j] / whole - end->x[i] * end->x[j];
+    return best + log(whole / WALKS);
+}
+
+/* --- with no mechanism in mind --------------------------------------------------------------- */
+
+/* (ln A, asinh s, p) a time later; e-folds lost, in units of the state, and their integral over that time. */
+static void
+move_level(double x[3], double t, double small, double *lost, double *delay)
 {
     double v = 0, sum = 0, h = t / PARTS;
     for (int i = 0; i < PARTS; i++) {
@@ -61,226 +192,115 @@ move_level(double x[N], double t, double small, double *lost, double *delay)
     *delay = sum;
 }
 
-static void
-walk_of(step *s, double gain, double v)
+void
+ss_place_walk(place *at, double v)
 {
-    double w[N][N] = { { gain * gain * v * v * v / 20, gain * v * v * v / 8, gain * v * v / 6 },
+    double gain = at->turn[0][1];
+    double w[3][3] = { { gain * gain * v * v * v / 20, gain * v * v * v / 8, gain * v * v / 6 },
                        { gain * v * v * v / 8, v * v * v / 3, v * v / 2 }, { gain * v * v / 6, v * v / 2, v } };
-    memcpy(s->walk, w, sizeof w);
+    memcpy(at->walk, w, sizeof w);
 }
 
+/* One pass through ln A: the curve is moved to what is smooth about it. */
 static void
-level_step(place *p, double t, double small)
+smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], double (*lost)[2])
 {
-    double x[N], moved[2][N], v, d;
-    memcpy(x, p->level, sizeof x);
-    move_level(x, t, small, &p->lost, &p->delay);
-    p->step = (step){ .turn = { { 1 }, { 0 }, { 0 } } };
-    for (int c = 1; c < N; c++) {
-        for (int side = 0; side < 2; side++) {
-            memcpy(moved[side], p->level, sizeof x);
-            moved[side][c] += side ? 1e-4 : -1e-4;
-            move_level(moved[side], t, small, &v, &d);
-        }
-        for (int r = 0; r < N; r++)
-            p->step.turn[r][c] = (moved[1][r] - moved[0][r]) / 2e-4;
-    }
-    for (int r = 0; r < N; r++) {
-        p->step.shift[r] = x[r];
-        for (int c = 0; c < N; c++)
-            p->step.shift[r] -= p->step.turn[r][c] * p->level[c];
-    }
-    walk_of(&p->step, p->step.turn[0][1], p->lost);
-}
-
-static void
-phase_step(place *p, double t, double unit)
-{
-    p->step = (step){ .turn = { { 1, unit * t, unit * p->delay }, { 0, 1, p->lost }, { 0, 0, 1 } } };
-    walk_of(&p->step, unit * t, p->lost);
-}
-
-/* to = f p f' + q w; backward: f' p f. */
-static void
-carry(double to[N][N], double f[N][N], double p[N][N], double q, double w[N][N], int backward)
-{
-    double half[N][N] = { { 0 } };
-    for (int r = 0; r < N; r++)
-        for (int c = 0; c < N; c++)
-            for (int k = 0; k < N; k++)
-                half[r][c] += (backward ? f[k][r] : f[r][k]) * p[k][c];
-    for (int r = 0; r < N; r++)
-        for (int c = 0; c < N; c++) {
-            to[r][c] = q > 0 ? q * w[r][c] : 0;
-            for (int k = 0; k < N; k++)
-                to[r][c] += half[r][k] * (backward ? f[k][c] : f[c][k]);
-        }
-}
-
-static void
-apply(double to[N], double f[N][N], const double x[N], int backward)
-{
-    for (int r = 0; r < N; r++) {
-        to[r] = 0;
-        for (int k = 0; k < N; k++)
-            to[r] += (backward ? f[k][r] : f[r][k]) * x[k];
-    }
-}
-
-/* Take in y and rate, in Joseph's form, which keeps variances positive.  Returns their ln likelihood. */
-static double
-take_in(moment *m, place *b)
-{
-    double s00 = m->p[0][0] + b->r[0], s01 = m->p[0][1] + b->r[1], s11 = m->p[1][1] + b->r[2];
-    double det = s00 * s11 - s01 * s01, i[2][2] = { { s11 / det, -s01 / det }, { -s01 / det, s00 / det } };
-    double e[2] = { b->y - m->x[0], b->rate - m->x[1] }, r[2][2] = { { b->r[0], b->r[1] }, { b->r[1], b->r[2] } };
-    double p[N][N], noise[N][N] = { { 0 } }, gain[N][2];
-    for (int k = 0; k < N; k++)
-        for (int c = 0; c < N; c++) {
-            if (c < 2)
-                gain[k][c] = m->p[k][0] * i[0][c] + m->p[k][1] * i[1][c];
-            b->keep[k][c] = (k == c) - (c < 2 ? gain[k][c] : 0);
-        }
-    for (int k = 0; k < N; k++)
-        for (int c = 0; c < N; c++)
-            for (int a = 0; a < 2; a++)
-                noise[k][c] += gain[k][a] * (r[a][0] * gain[c][0] + r[a][1] * gain[c][1]);
-    carry(p, b->keep, m->p, 1, noise, 0);
-    memcpy(m->p, p, sizeof p);
-    for (int k = 0; k < N; k++)
-        m->x[k] += gain[k][0] * e[0] + gain[k][1] * e[1];
-    for (int k = 0; k < 2; k++) {
-        b->news[k] = i[k][0] * e[0] + i[k][1] * e[1];
-        b->sure[k][0] = i[k][0];
-        b->sure[k][1] = i[k][1];
-    }
-    return -(log(det) + e[0] * b->news[0] + e[1] * b->news[1]) / 2;
-}
-
-/* Set mean and square of each place, over the walks: Kalman's filter forward, and backward the form of the
- * smoother without inverses (Bierman 1973). */
-static void
-smooth(place *p, size_t n, const moment *start)
-{
-    double best = -INFINITY, whole = 0;
-    for (int w = 0; w < WALKS; w++) {
-        double q = pow(10, -3 + .5 * w), likelihood = 0, news[N] = { 0 }, sure[N][N] = { { 0 } };
-        moment m = *start;
-        for (size_t i = 0; i < n; i++) {
-            likelihood += take_in(&m, &p[i]);
-            p[i].after = m;
-            if (i + 1 == n)
-                break;
-            apply(m.x, p[i].step.turn, p[i].after.x, 0);
-            for (int k = 0; k < N; k++)
-                m.x[k] += p[i].step.shift[k];
-            carry(m.p, p[i].step.turn, p[i].after.p, q, p[i].step.walk, 0);
-        }
-        double ease = likelihood > best ? exp(best - likelihood) : 1;
-        best = fmax(best, likelihood);
-        double weight = exp(likelihood - best);
-        for (size_t i = n; i-- > 0;) {
-            double less[N], lessened[N][N], now[N], was[N][N];
-            apply(less, p[i].after.p, news, 0);
-            carry(lessened, p[i].after.p, sure, 0, NULL, 0);
-            for (int k = 0; k < N; k++) {
-                double x = p[i].after.x[k] + less[k], square = fmax(p[i].after.p[k][k] - lessened[k][k], 0);
-                p[i].mean[k] = p[i].mean[k] * ease + weight * x;
-                p[i].square[k] = p[i].square[k] * ease + weight * (square + x * x);
-            }
-            apply(now, p[i].keep, news, 1);
-            carry(was, p[i].keep, sure, 0, NULL, 1);
-            for (int k = 0; k < 2; k++) {
-                now[k] += p[i].news[k];
-                was[k][0] += p[i].sure[k][0];
-                was[k][1] += p[i].sure[k][1];
-            }
-            if (i > 0) {
-                apply(news, p[i - 1].step.turn, now, 1);
-                carry(sure, p[i - 1].step.turn, was, 0, NULL, 1);
-            }
-        }
-        whole = whole * ease + weight;
-    }
-    for (size_t i = 0; i < n; i++)
-        for (int k = 0; k < N; k++) {
-            p[i].mean[k] /= whole;
-            p[i].square[k] = fmax(p[i].square[k] / whole - p[i].mean[k] * p[i].mean[k], 0);
-        }
-}
-
-static void
-smooth_level(place *p, block *b, size_t n, double small)
-{
+    double start[STATES][STATES] = { { 100 }, { 0, 100 }, { 0, 0, 4 } };
+    place end;
     for (size_t i = 0; i < n; i++) {
-        double gain = hypot(b[i].at.s, small), *r = b[i].cov[LEVEL];
-        p[i].y = b[i].y[LEVEL];
-        p[i].rate = asinh(b[i].at.s / small) + (-b[i].rate[LEVEL] - b[i].at.s) / gain;
-        p[i].r[0] = r[0] * b[i].noise, p[i].r[1] = -r[1] * b[i].noise / gain;
-        p[i].r[2] = r[2] * b[i].noise / gain / gain;
-        p[i].mean[0] = p[i].mean[1] = p[i].mean[2] = 0;
-        memset(p[i].square, 0, sizeof p[i].square);
-        if (i + 1 < n)
-            level_step(&p[i], b[i + 1].t - b[i].t, small);
+        double gain = hypot(b[i].at.s, small), x[3], moved[2][3], ignore[2];
+        p[i] = (place){ .see = { { 1 }, { 0, -gain }, { 0, 0, 1 } } };
+        ss_place_see(&p[i], &b[i], LEVEL, b[i].y[LEVEL],
+                     b[i].rate[LEVEL] + b[i].at.s - gain * asinh(b[i].at.s / small));
+        if (i + 1 == n)
+            break;
+        double t = b[i + 1].t - b[i].t;
+        memcpy(x, level[i], sizeof x);
+        move_level(x, t, small, &lost[i][0], &lost[i][1]);
+        p[i].turn[0][0] = 1;
+        for (int c = 1; c < 3; c++) {
+            for (int side = 0; side < 2; side++) {
+                memcpy(moved[side], level[i], sizeof x);
+                moved[side][c] += side ? 1e-4 : -1e-4;
+                move_level(moved[side], t, small, &ignore[0], &ignore[1]);
+            }
+            for (int r = 0; r < 3; r++)
+                p[i].turn[r][c] = (moved[1][r] - moved[0][r]) / 2e-4;
+        }
+        for (int r = 0; r < 3; r++)
+            p[i].shift[r] = x[r] - dot(p[i].turn[r], level[i], 3);
+        ss_place_walk(&p[i], lost[i][0]);
     }
-    smooth(p, n, &(moment){ { p->y, p->rate, 0 }, { { 100, 0, 0 }, { 0, 100, 0 }, { 0, 0, 4 } } });
+    ss_blocks_track(p, n, 3, (double[STATES]){ b->y[LEVEL], asinh(b->at.s / small) }, start, &end);
     for (size_t i = 0; i < n; i++) {
-        double *to = p[i].level;
+        double *to = level[i], gain = hypot(b[i].at.s, small);
         to[0] = b[i].level = p[i].mean[0];
-        to[1] += fmax(fmin(p[i].mean[1] - to[1], FAR), -FAR);
+        to[1] += fmax(fmin(-p[i].mean[1] / gain - to[1], FAR), -FAR);
         to[2] += fmax(fmin(p[i].mean[2] - to[2], FAR), -FAR);
         b[i].at.s = small * sinh(to[1]);
-        double gain = hypot(b[i].at.s, small);
+        b[i].error[LEVEL] = sqrt(p[i].square[1]) * hypot(b[i].at.s, small) / gain;
+        gain = hypot(b[i].at.s, small);
         b[i].at.ds = gain * gain * to[2];
-        b[i].error[LEVEL] = gain * sqrt(p[i].square[1]);
+        b[i].at.dds = 2 * b[i].at.s * pow(gain * to[2], 2);
         b[i].bend_error = gain * gain * sqrt(p[i].square[2]);
     }
 }
 
 static void
-smooth_phase(place *p, block *b, size_t n, double unit)
+smooth_phase(place *p, block *b, size_t n, double unit, double (*lost)[2])
 {
-    double w = b[n / 2].at.w, turns = 0;
+    double w = b[n / 2].at.w, last = 0, start[STATES][STATES] = { { 100 }, { 0, 1e6 }, { 0, 0, 100 } };
+    place end;
     for (size_t i = 0; i < n; i++) {
-        double *r = b[i].cov[PHASE], ahead = i > 0 ? p[i - 1].y + (b[i - 1].at.w + b[i].at.w - 2 * w) / 2
-            * (b[i].t - b[i - 1].t) : 0;
-        turns = b[i].y[PHASE] - w * (b[i].t - b->t);
-        p[i].y = turns - 2 * M_PI * round((turns - ahead) / (2 * M_PI));
-        p[i].rate = (b[i].rate[PHASE] - w) / unit;
-        p[i].r[0] = r[0] * b[i].noise, p[i].r[1] = r[1] * b[i].noise / unit;
-        p[i].r[2] = r[2] * b[i].noise / unit / unit;
-        p[i].mean[0] = p[i].mean[1] = p[i].mean[2] = 0;
-        memset(p[i].square, 0, sizeof p[i].square);
-        if (i + 1 < n)
-            phase_step(&p[i], b[i + 1].t - b[i].t, unit);
+        double ahead = i > 0 ? last + (b[i - 1].at.w + b[i].at.w - 2 * w) / 2 * (b[i].t - b[i - 1].t) : 0;
+        double t = i + 1 < n ? b[i + 1].t - b[i].t : 0, turns = b[i].y[PHASE] - w * (b[i].t - b->t);
+        last = turns - 2 * M_PI * round((turns - ahead) / (2 * M_PI));
+        p[i] = (place){ .see = { { 1 }, { 0, unit }, { 0, 0, 1 } },
+                        .turn = { { 1, unit * t, unit * lost[i][1] }, { 0, 1, lost[i][0] }, { 0, 0, 1 } } };
+        ss_place_see(&p[i], &b[i], PHASE, last, b[i].rate[PHASE] - w);
+        ss_place_walk(&p[i], lost[i][0]);
     }
-    smooth(p, n, &(moment){ { p->y, p->rate, 0 }, { { 100, 0, 0 }, { 0, 1e6, 0 }, { 0, 0, 100 } } });
+    ss_blocks_track(p, n, 3, (double[STATES]){ p->seen[0] }, start, &end);
     for (size_t i = 0; i < n; i++) {
         b[i].phase = p[i].mean[0] + w * (b[i].t - b->t);
-        b[i].at.w = w + unit * p[i].mean[1];
-        b[i].at.dw = i + 1 < n ? unit * p[i].mean[2] * p[i].lost / (b[i + 1].t - b[i].t) : 0;
-        b[i].error[PHASE] = unit * sqrt(p[i].square[1]);
+        b[i].at.w = w + p[i].mean[1];
+        b[i].at.dw = i + 1 < n ? unit * p[i].mean[2] * lost[i][0] / (b[i + 1].t - b[i].t) : 0;
+        b[i].at.ddw = b[i].at.dw * b[i].at.ds / hypot(b[i].at.s, SMALL * unit);
+        b[i].error[PHASE] = sqrt(p[i].square[1]);
     }
+}
+
+void
+ss_place_see(place *at, const block *b, int track, double y, double rate)
+{
+    const double *cov = b->cov[track];
+    at->tie = cov[1] / cov[0];
+    at->seen[0] = y;
+    at->seen[1] = rate - at->tie * y;
+    at->variance[0] = cov[0] * b->noise;
+    at->variance[1] = fmax(cov[2] - at->tie * cov[1], 0) * b->noise;
 }
 
 ss_status
 ss_blocks_smooth(block *b, size_t n, int has_phase)
 {
     place *p = calloc(n, sizeof *p);
+    double (*level)[3] = calloc(n, sizeof *level), (*lost)[2] = calloc(n, sizeof *lost);
     double mean = (b[0].y[LEVEL] - b[n - 1].y[LEVEL]) / (b[n - 1].t - b[0].t);
     double unit = fmax(mean, .1 / (b[n - 1].t - b[0].t));
-    if (p == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < n; i++) {
+    int has_room = p != NULL && level != NULL && lost != NULL;
+    for (size_t i = 0; has_room && i < n; i++) {
         size_t lo = i > 2 ? i - 2 : 0, hi = i + 2 < n ? i + 2 : n - 1;
         b[i].at.s = fmax((b[lo].y[LEVEL] - b[hi].y[LEVEL]) / (b[hi].t - b[lo].t), SMALL * unit);
-        p[i].level[0] = b[i].y[LEVEL];
-        p[i].level[1] = asinh(b[i].at.s / (SMALL * unit));
+        level[i][0] = b[i].y[LEVEL];
+        level[i][1] = asinh(b[i].at.s / (SMALL * unit));
     }
-    for (int pass = 0; pass < PASSES; pass++)
-        smooth_level(p, b, n, SMALL * unit);
-    if (has_phase)
-        smooth_phase(p, b, n, unit);
+    for (int pass = 0; has_room && pass < PASSES; pass++)
+        smooth_level(p, b, n, SMALL * unit, level, lost);
+    if (has_room && has_phase)
+        smooth_phase(p, b, n, unit, lost);
     free(p);
-    return SS_OK;
+    free(level);
+    free(lost);
+    return has_room ? SS_OK : SS_ENOMEM;
 }

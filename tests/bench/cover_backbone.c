@@ -244,12 +244,12 @@ main(int argc, char *argv[])
     int only = argc > 3 ? atoi(argv[3]) : -1, of = argc > 4 ? atoi(argv[4]) : -1;
     double db = argc > 5 ? atof(argv[5]) : 0;
     verbose = argc > 6;
-    static const double levels[] = { 60, 40, 20 };
+    static const double levels[] = { 60, 40, 20, 100, 25 };
     printf("| mechanism | dB | records | rows | damping <= 1 | <= 2 | frequency <= 1 | <= 2 | median | rms | right "
            "| not told | other | wrong |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int c = 0; c < CONDITIONS; c++)
         for (int k = 0; k < SS_MECHANISMS && (only < 0 || only == c); k++)
-            for (int l = 0; l < 3; l++) {
+            for (int l = 0; l < (db > 0 ? 5 : 3); l++) {
                 score s = { 0 };
                 char level[16];
                 if ((of >= 0 && of != k) || (db > 0 && levels[l] != db) || (c != CLEAN && (k > 0 || levels[l] != 40)))
