@@ -10,6 +10,9 @@ echo '#include <stickslip.h>' | $CC -I"$SRC/include" -x c -E -P - | grep -v '^#'
         -e 's/^ *extern const.*[ *]\(ss_[a-z0-9_]*\).*$/\1/p' |
     sort -u > declared
 diff declared shown
+# Debian's list of them, each with the version that it came with
+symbols=debian/libstickslip1.symbols
+sed -n 's/^ \(ss_[a-z0-9_]*\)@STICKSLIP_1 .*/\1/p' "$SRC/$symbols" | diff -u --label declared --label $symbols declared -
 readelf -d "$library" | sed -n 's/.*SONAME.*\[\(.*\)\]/\1/p'
 
 # A program that links the static library meets no other name either.
