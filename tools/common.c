@@ -7,6 +7,7 @@
 #include "options.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <limits.h>
 #include <math.h>
@@ -29,10 +30,16 @@ tool_stopping(void)
     return asked_to_stop != 0;
 }
 
+/* A read that waits goes on after this, and finds the end. */
 static void
 ask_to_stop(int number)
 {
+    int nothing = open("/dev/null", O_RDONLY);
     asked_to_stop = number;
+    if (nothing >= 0) {
+        dup2(nothing, STDIN_FILENO);
+        close(nothing);
+    }
 }
 
 /* --- progress ------------------------------------------------------------------------------ */

@@ -147,7 +147,8 @@ void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, 
 
 /* Call before long work, with the path after -o.  If this is standard output, the first SIGINT,
  * SIGTERM or SIGHUP after this call does not kill at once: tool_progress returns 1, sinks should
- * return 1 too (tool_stopping), the row is finished, and tool_end dies of the signal. */
+ * return 1 too (tool_stopping), standard input ends, tool_rows gives none of the rows that it was about to read, the
+ * row is finished, and tool_end dies of the signal. */
 void tool_end_at_rows(const char *path);
 int tool_stopping(void);
 /* The function of an ss_progress, called with the part of the work that is done, 0 to 1.  After a

@@ -59,6 +59,9 @@ tool_read_rows(const char *path, const ss_read_opts *opts)
     ss_reader *reader = NULL;
     ss_error err = { 0 };
     FILE *in = is_stdin(path) ? stdin : NULL;
+    struct stat st;
+    if (in == NULL && stat(path, &st) == 0 && S_ISFIFO(st.st_mode))
+        in = freopen(path, "rb", stdin);        /* which ends when the user stops */
     tool_check(ss_reader_new(&reader, in, tool_input_name(path), opts, &err), &err);
     return reader;
 }
@@ -77,7 +80,10 @@ tool_rows(ss_reader *reader, double *const column[], size_t max)
 {
     size_t n;
     ss_error err = { 0 };
-    tool_check(ss_reader_rows(reader, column, max, &n, &err), &err);
+    ss_status st = ss_reader_rows(reader, column, max, &n, &err);
+    if (tool_stopping())                /* the last row may be a part of one */
+        return 0;
+    tool_check(st, &err);
     return n;
 }
 

@@ -111,7 +111,7 @@ follow(const request *req, const char *path, tool_kind kind)
     tool_check(ss_features_stream_new(&stream, head, column, &opts, tool_output(req->output), tool_stream(kind), &err),
                &err);
     tool_note("rows come at most %.3g s behind the end of a transition", 2 / opts.fmin + 0.2);
-    while (!tool_stopping() && (n = tool_rows(reader, x, piece)) > 0)
+    while ((n = tool_rows(reader, x, piece)) > 0)
         tool_check(ss_features_stream_push(stream, x, n, &err), &err);
     tool_check(ss_features_stream_end(stream, &err), &err);
     ss_features_stream_free(stream);

@@ -301,6 +301,8 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
     ss_error bad = { 0 }, err = { 0 };
     do {
         ss_status st = ss_reader_rows(reader, x, piece, &n, &bad);
+        if (tool_stopping() && f->samples > 0)
+            n = 0, st = SS_OK;          /* the last row may be a part of one */
         f->samples += n;
         if (f->samples == 0)                   /* then nothing is written */
             tool_check(st, &bad);

@@ -171,8 +171,8 @@ ss_status ss_features_write(const ss_features *features, const ss_signal *signal
 
 /* Features of a signal without end, in memory for 128 periods of the lowest frequency, opts->fmin, which must be
  * given.  Each transition is written to the caller's file, which is flushed, when no later sample can change it:
- * at the latest two periods and 0.2 s behind its end, but for the work.  Each row tells what the last 64 periods
- * show; the first rows come after 16 periods. */
+ * at the latest two periods and 0.2 s behind its end, but for the work.  Each row tells what up to 64 periods before it
+ * show, of which a search takes as many as have 8 transitions; the first rows come after 16 periods. */
 typedef struct ss_features_stream ss_features_stream;
 /* head is copied.  SS_EINVAL: there is no fmin, or it is not below half the rate. */
 ss_status ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t column,

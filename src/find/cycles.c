@@ -417,12 +417,12 @@ find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
 }
 
 ss_status
-ss_cycles_find(const double *x, size_t n, ss_cycles *out)
+ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out)
 {
-    ss_value start;
+    ss_value start = { about, NAN };
     size_t parts = 1;
     *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
-    ss_status st = ss_period_find(x, n, &start);
+    ss_status st = about == 0 ? ss_period_find(x, n, &start) : SS_OK;
     if (st != SS_OK)
         return st;
     if (isnan(start.value) || start.value < 4) {

@@ -26,7 +26,8 @@ typedef struct ss_cycles {
 #define CYCLES_UNLIKE 0.5         /* narrow noise, and ringing behind slips at random times, lasts less */
 #define CYCLES_ALIKE 0.70
 
-/* Find the cycles of the n samples of x, whose likeness must be at least CYCLES_ALIKE. */
-ss_status ss_cycles_find(const double *x, size_t n, ss_cycles *out);
+/* Find the cycles of the n samples of x, whose likeness must be at least CYCLES_ALIKE.  about: what their period was
+ * in samples before; NaN: nothing repeated; 0: not known. */
+ss_status ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out);
 
 #endif

@@ -220,7 +220,7 @@ open_octaves(row_source *source, double octave, ss_error *err)
     double *x = continued(source->x, source->n, source->margin);
     ss_status st = x == NULL ? SS_ENOMEM
         : ss_map_of_samples(&source->rows, x, source->n + 2 * source->margin, source->rate, &opts,
-                               err);
+                            source->plans, err);
     free(x);
     return st;
 }

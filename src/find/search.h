@@ -34,6 +34,8 @@ typedef struct search {
     ss_maximum *found;          /* all maxima, also slight ones */
     size_t n_found;
     column_quantity quantity;
+    double about;               /* what ss_cycles_find asks for */
+    map_plans *plans;           /* may be NULL */
     ss_cycles cycles;
     int is_cleaned;             /* x has lost a steady hum: it is not the column any more */
     int is_second;              /* it lost that in a first search */
@@ -76,6 +78,16 @@ cycle_rate(const search *s)
 {
     return (ss_value){ s->rate * s->cycles.frequency.value, s->rate * s->cycles.frequency.error };
 }
+
+/* A signal that is a part of a longer one. */
+typedef struct stream_part {
+    double period;              /* [s] of the cycles of the longer one, or NaN if it does not repeat itself: of the
+                                   part only the transitions are found; 0: not known */
+    map_plans *plans;           /* for parts of the same length; may be NULL */
+} stream_part;
+/* As ss_features_find. */
+ss_status ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, const ss_features_opts *opts,
+                              const stream_part *part, ss_error *err);
 
 /* Count the slips, and find their rate, into s->out, which has transitions and repetition_frequency; or say
  * there why they are not known. */

@@ -1,10 +1,14 @@
 /* stream.c -- the features of a signal without end, row by row.
  *
- * The last 64 periods of the lowest frequency are kept and searched again and again, as a recording of their own.
- * A transition is written when its end lies farther back than a wavelet of that frequency reaches, when the search
- * before found it at the same samples, so that later ones no longer change it, and when it is behind all that were
- * written.  The first search comes after 16 periods, as less shows nothing that recurs.  The numbers of all are
- * means over windows that do not overlap, weighted with their errors. */
+ * The last 64 periods of the lowest frequency are kept.  Each such window is searched once, as a recording of its
+ * own, for numbers and for what repeats.  Rows come from searches in between, which know what repeats.  They take a
+ * part of the window only: as many periods as show ENOUGH transitions, which were as good as the whole window on
+ * signals with noise, where 5 were not.  Where nothing happened, a part that shows a transition is a reason to
+ * search the whole window.  Each transition is written by the first search that finds its end farther back than a
+ * wavelet of the lowest frequency reaches, and its onset behind all that were written.  The first search comes after
+ * 16 periods, as less shows nothing that recurs.
+ *
+ * The numbers of all are means over windows that do not overlap, weighted with their errors. */
 #include <stickslip/features.h>
 
 #include <math.h>
@@ -12,12 +16,14 @@
 #include <string.h>
 #include "base/columns.h"
 #include "base/options.h"
+#include "find/search.h"
 #include "find/write.h"
 
-enum { PERIODS = 64, FIRST = 16 };      /* in the window, and before rows: some transitions show what recurs */
-#define LATE 0.18               /* [s] after two periods a row is written at the latest, but for the work */
+enum { PERIODS = 64, FIRST = 16, LEAST = 8 };   /* in a whole window, before rows, and in a part */
+#define DELAY 0.18              /* [s] after two periods a row is written at the latest, but for the work */
+#define BEHIND 1.25             /* periods behind the end of a transition after which it is known: a wavelet's reach */
 #define SAME 2.                 /* samples between times that are the same */
-#define HOP 0.06                /* [s] between searches, or a quarter of a period */
+enum { ENOUGH = 8 };            /* transitions show what recurs as well as all of a window do */
 
 struct mean {
     double weight, value, squares;      /* squares: weighted, about the value (West 1979) */
@@ -33,11 +39,13 @@ struct ss_features_stream {
     unsigned has;               /* of what numbers need; 0 before the first row */
     int begun;
     double **x;                 /* the last samples of each column, n of them, in room for twice as many */
-    size_t n, window, hop, behind;      /* [samples] */
-    uint64_t seen;              /* samples so far */
+    size_t n, window, first, few, hop, behind;  /* [samples] */
+    size_t part;                /* of the window, in which rows are searched */
+    int is_still;               /* 1: the last whole window had no transition */
+    double period;              /* [s] of its cycles, as stream_part has it */
+    map_plans plans;
+    uint64_t seen, searched;    /* samples so far, and at the last search of a whole window */
     double written;             /* [s] the end of the last transition, on the source's clock */
-    double (*before)[2];        /* onset and end of those that the last search found */
-    size_t n_before;
     size_t transitions, windows;
     struct mean mean[SS_FEATURE_NUMBERS];
     ss_number last[SS_FEATURE_NUMBERS];
@@ -56,7 +64,7 @@ ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t c
     ss_features_opts_init(&usual, sizeof usual);
     ss_features_stream *s = calloc(1, sizeof *s);
     ss_status st = s != NULL ? ss_options_take(&s->opts, sizeof s->opts, &usual, opts, err) : ss_fail_memory(err, NULL);
-    double period = st == SS_OK ? head->rate / s->opts.fmin : 0, room = 2 * (PERIODS + 4) * (period + head->rate);
+    double period = st == SS_OK ? head->rate / s->opts.fmin : 0, room = 2 * ((PERIODS + 4) * period + head->rate);
     if (st == SS_OK && !(s->opts.fmin > 0 && period > 2 && room < 1e9))
         st = ss_fail(err, SS_EINVAL, "a stream of features needs fmin, below half the rate and not far below it");
     if (st == SS_OK)
@@ -66,9 +74,11 @@ ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t c
     if (st == SS_OK) {
         s->column = column;
         s->written = -INFINITY;
-        s->hop = (size_t)ceil(fmax(HOP * head->rate, period / 4));
-        s->behind = (size_t)ceil(2 * period + LATE * head->rate) - 2 * s->hop;
-        s->window = s->hop * (size_t)ceil(PERIODS * period / (double)s->hop);
+        s->behind = (size_t)ceil(BEHIND * period);
+        s->hop = (size_t)(2 * period + DELAY * head->rate) - s->behind;
+        s->first = (size_t)(FIRST * period);
+        s->few = (size_t)(LEAST * period);
+        s->part = s->window = s->hop + s->behind + (size_t)(PERIODS * period);
         s->x = ss_columns_new(head->n_columns, 2 * s->window);
         if (s->x == NULL)
             st = ss_fail_memory(err, NULL);
@@ -86,8 +96,8 @@ ss_features_stream_free(ss_features_stream *s)
     if (s == NULL)
         return;
     ss_header_free(s->head);
+    ss_map_plans_free(&s->plans);
     free(s->x);
-    free(s->before);
     free(s);
 }
 
@@ -110,89 +120,84 @@ add_numbers(ss_features_stream *s, const ss_features *f)
     }
 }
 
-/* Did the last search find this transition? */
-static int
-was_found(const ss_features_stream *s, double onset, double end)
-{
-    double most = SAME / s->head->rate;
-    for (size_t i = 0; i < s->n_before; i++)
-        if (fabs(s->before[i][0] - onset) <= most && fabs(s->before[i][1] - end) <= most)
-            return 1;
-    return 0;
-}
-
-/* Keep the transitions for the next search. */
-static ss_status
-keep(ss_features_stream *s, const ss_features *f, double start, ss_error *err)
-{
-    void *more = realloc(s->before, (f->n + 1) * sizeof *s->before);
-    if (more == NULL)
-        return ss_fail_memory(err, NULL);
-    s->before = more;
-    s->n_before = f->n;
-    for (size_t i = 0; i < f->n; i++) {
-        s->before[i][0] = start + f->transition[i].onset;
-        s->before[i][1] = start + f->transition[i].end;
-    }
-    return SS_OK;
-}
-
-/* Write the names, and the rows up to a time [s] on the source's clock. */
+/* Write what comes before the rows. */
 static void
-write_rows(ss_features_stream *s, const ss_features *f, double start, double until)
+begin(ss_features_stream *s, const ss_features *f)
 {
-    for (size_t i = 0; i < f->n; i++) {
-        double onset = start + f->transition[i].onset, end = start + f->transition[i].end;
-        if (!(onset > s->written + SAME / s->head->rate && end <= until
-              && (until == INFINITY || was_found(s, onset, end))))
-            continue;
-        if (!(f->transition[i].end > f->transition[i].onset) && f->transition[i].spikes == 0)
-            continue;                           /* a maximum whose extent is not known yet */
-        if (!s->begun) {
-            s->has = ss_features_have(f, &s->opts);
-            ss_features_notes(&s->rows, s->head, s->column, &s->opts);
-            ss_features_row(&s->rows, f, f->n, 0, s->has);      /* the names */
-        }
-        s->begun = 1;
-        ss_features_row(&s->rows, f, i, start, s->has);
-        s->written = end;
-        s->transitions++;
-    }
+    s->has = ss_features_have(f, &s->opts);
+    ss_features_notes(&s->rows, s->head, s->column, &s->opts);
+    ss_features_row(&s->rows, f, f->n, 0, s->has);      /* the names */
+    s->begun = 1;
 }
 
-/* Search the window. */
+/* Is a transition new, and known up to a time [s] on the source's clock? */
+static int
+is_due(const ss_features_stream *s, const ss_transition *tr, double start, double until)
+{
+    return start + tr->onset > s->written + SAME / s->head->rate && start + tr->end <= until
+        && (tr->end > tr->onset || tr->spikes > 0);     /* the extent of a lone maximum is not known yet */
+}
+
+/* Find the features of the last n samples, which begin at *start [s]. */
 static ss_status
-search_window(ss_features_stream *s, int last, ss_error *err)
+find_last(ss_features_stream *s, size_t n, double period, ss_features **f, double *start, ss_error *err)
 {
     ss_signal *now = NULL;
-    ss_features *f = NULL;
-    size_t n = s->n < s->window ? s->n : s->window;
     ss_status st = ss_signal_new(&now, s->head, n, err);
     if (st != SS_OK)
         return st;
-    now->head->start += (double)(s->seen - n) / s->head->rate;
+    *start = now->head->start += (double)(s->seen - n) / s->head->rate;
     for (size_t c = 0; c < s->head->n_columns; c++)
         memcpy(now->values + c * n, s->x[c] + s->n - n, n * sizeof *now->values);
-    st = ss_features_find(&f, now, s->column, &s->opts, err);
-    double end = now->head->start + (double)n / s->head->rate;
-    if (st == SS_OK) {
-        write_rows(s, f, now->head->start, last ? INFINITY : end - (double)s->behind / s->head->rate);
-        if (s->seen % s->window == 0 || (last && s->windows == 0))
-            add_numbers(s, f);
-        if (last && !s->begun) {
-            s->has = ss_features_have(f, &s->opts);
-            ss_features_notes(&s->rows, s->head, s->column, &s->opts);
-            ss_features_row(&s->rows, f, f->n, 0, s->has);
-        }
-        st = keep(s, f, now->head->start, err);
-        if (st == SS_OK)
-            st = ss_rows_finish(&s->rows, err);
-    } else if (st == SS_ESCALE && !last) {
-        st = SS_OK;                             /* too short as yet */
-    }
-    ss_features_free(f);
+    stream_part part = { period, &s->plans };
+    st = ss_features_of_part(f, now, s->column, &s->opts, &part, err);
     ss_signal_free(now);
     return st;
+}
+
+/* Write the transitions that are known now, or all at the end. */
+static ss_status
+write_known(ss_features_stream *s, int last, ss_error *err)
+{
+    ss_features *f = NULL;
+    double start, until = last ? INFINITY
+        : s->head->start + (double)(s->seen - s->behind) / s->head->rate;
+    size_t all = s->n < s->window ? s->n : s->window, due = 0;
+    int whole = last || s->seen - s->searched >= s->window;
+    size_t n = whole || s->part > all ? all : s->part;
+    ss_status st = find_last(s, n, whole ? 0 : s->period, &f, &start, err);
+    for (size_t i = 0; st == SS_OK && i < f->n; i++)
+        due += is_due(s, &f->transition[i], start, until);
+    if (due > 0 && n < all && s->is_still) {
+        ss_features_free(f);
+        f = NULL;
+        st = find_last(s, all, 0, &f, &start, err);
+    }
+    if (st == SS_ESCALE && !last)
+        return SS_OK;                           /* too short as yet */
+    if (st != SS_OK)
+        return st;
+    if (!s->begun && (due > 0 || last))
+        begin(s, f);
+    for (size_t i = 0; i < f->n; i++)
+        if (is_due(s, &f->transition[i], start, until)) {
+            ss_features_row(&s->rows, f, i, start, s->has);
+            s->written = start + f->transition[i].end;
+            s->transitions++;
+        }
+    double period = 1 / f->number[SS_REPETITION_FREQUENCY].value;
+    if (whole || isfinite(period))
+        s->period = period;                     /* a part that does not repeat itself says nothing of the whole */
+    if (whole && (!last || s->windows == 0)) {
+        add_numbers(s, f);
+        s->searched = s->seen;
+        s->is_still = f->n == 0;
+        s->part = s->hop + s->behind + s->few;
+        while (s->part < s->window && f->n * s->part < ENOUGH * s->window)
+            s->part += s->few;
+    }
+    ss_features_free(f);
+    return ss_rows_finish(&s->rows, err);
 }
 
 ss_status
@@ -200,17 +205,20 @@ ss_features_stream_push(ss_features_stream *s, double *const column[], size_t n,
 {
     if (s == NULL || (column == NULL && n > 0))
         return SS_FAIL_NULL(err);
-    for (size_t i = 0; i < n; i++) {
+    for (size_t done = 0, some; done < n; done += some) {
         if (s->n == 2 * s->window) {
             s->n = s->window;
             for (size_t c = 0; c < s->head->n_columns; c++)
                 memcpy(s->x[c], s->x[c] + s->window, s->window * sizeof *s->x[c]);
         }
+        some = s->hop - (size_t)(s->seen % s->hop);             /* up to the next search */
+        some = some < n - done ? some : n - done;
+        some = some < 2 * s->window - s->n ? some : 2 * s->window - s->n;
         for (size_t c = 0; c < s->head->n_columns; c++)
-            s->x[c][s->n] = column[c][i];
-        s->n++;
-        int due = ++s->seen % s->hop == 0 && s->seen >= s->window / PERIODS * FIRST;
-        ss_status st = due ? search_window(s, 0, err) : SS_OK;
+            memcpy(s->x[c] + s->n, column[c] + done, some * sizeof *s->x[c]);
+        s->n += some;
+        s->seen += some;
+        ss_status st = s->seen % s->hop == 0 && s->seen >= s->first ? write_known(s, 0, err) : SS_OK;
         if (st != SS_OK)
             return st;
     }
@@ -223,7 +231,7 @@ ss_features_stream_end(ss_features_stream *s, ss_error *err)
     ss_features all = { .n = 0 };
     if (s == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = search_window(s, 1, err);
+    ss_status st = write_known(s, 1, err);
     if (st != SS_OK)
         return st;
     for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++) {
