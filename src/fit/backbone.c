@@ -241,6 +241,15 @@ is_hit(const decay *d)
     return d->n_blocks >= FEW && b[0].left / b[0].free > HIT * fmax(b[1].left / b[1].free, b[2].left / b[2].free);
 }
 
+/* 1: the last block leaves more than those before, by 5 standard deviations: the motion's end is in it. */
+static int
+is_stop(const decay *d)
+{
+    const block *b = d->block + d->n_blocks - 1;
+    double usual = fmin(b[-1].left / b[-1].free, b[-2].left / b[-2].free);
+    return d->n_blocks > FEW && b->left / b->free > usual * (1 + 5 * sqrt(2 / b->free));
+}
+
 /* The noise of each block, from those about it, re the amplitude that is smooth: else those that noise makes large
  * would count more. */
 static void
@@ -257,27 +266,39 @@ share_noise(decay *d)
     }
 }
 
-/* Draw a smooth curve through the blocks, and fit them again about it: where noise is large, what a block alone
- * finds is biased. */
+/* Fit the blocks again about what is smooth: where noise is large, what a block alone finds is biased. */
+static void
+refit(decay *d)
+{
+    for (size_t i = 0; i < d->n_blocks; i++) {
+        block *b = &d->block[i], again;
+        if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside,
+                         b->cov[LEVEL][0] * b->noise > SURE * SURE)) {
+            again.at = b->at;
+            again.level = b->level;
+            again.phase = b->phase;
+            *b = again;
+        }
+    }
+    share_noise(d);
+}
+
+/* Draw a smooth curve through the blocks, and fit them again about it. */
 static ss_status
 settle(decay *d)
 {
-    for (size_t i = 0; i < d->n_blocks; i++)
-        d->block[i].at = (bend){ .w = d->block[i].rate[PHASE] }, d->block[i].level = d->block[i].y[LEVEL];
-    for (int pass = 0; pass < REFITS; pass++) {
-        share_noise(d);
-        if (ss_blocks_smooth(d->block, d->n_blocks, 1) != SS_OK)
-            return SS_ENOMEM;
-        for (size_t i = 0; pass + 1 < REFITS && i < d->n_blocks; i++) {
-            block *b = &d->block[i], again;
-            if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside,
-                             b->cov[LEVEL][0] * b->noise > SURE * SURE)) {
-                again.at = b->at, again.level = b->level;
-                *b = again;
-            }
-        }
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < d->n_blocks; i++) {
+        d->block[i].at = (bend){ .w = d->block[i].rate[PHASE] };
+        d->block[i].level = d->block[i].y[LEVEL];
     }
-    return SS_OK;
+    share_noise(d);
+    for (int pass = 0; st == SS_OK && pass < REFITS; pass++) {
+        if (pass > 0)
+            refit(d);
+        st = ss_blocks_smooth(d->block, d->n_blocks, 1);
+    }
+    return st;
 }
 
 /* --- lines beside it ------------------------------------------------------------------------- */
@@ -447,31 +468,25 @@ ss_backbone_opts_init(ss_backbone_opts *opts, size_t size)
     ss_options_init(opts, size, &defaults, sizeof defaults);
 }
 
-static ss_status
+static void
 make_rows(ss_backbone *out, const decay *d, const decay_source *source)
 {
     double unit = source->rate;
-    out->row = calloc(d->n_blocks, sizeof *out->row);
-    if (out->row == NULL)
-        return SS_ENOMEM;
     for (; out->n < d->n_blocks; out->n++) {
         const block *b = &d->block[out->n];
-        double whole = hypot(b->at.s, b->at.w), w0 = sqrt(whole * whole + b->at.ds);
-        double uneven = fmax(b->at.ds, 0) / b->at.w / 2;    /* friction acts by half periods, not smoothly */
-        double es = hypot(b->error[LEVEL], uneven * M_PI * M_PI * b->at.s / b->at.w);
-        double ew = hypot(b->error[PHASE], uneven);
-        double ew0 = hypot(hypot(b->at.w * ew, b->at.s * es), b->bend_error / 2) / w0;
+        double whole = hypot(b->at.s, b->at.w), w0 = sqrt(b->at.w * b->at.w + b->lag);
+        double es = b->error[LEVEL], ew = b->error[PHASE], ew0 = hypot(b->at.w * ew, b->lag_error / 2) / w0;
         out->row[out->n] = (ss_backbone_row){
             .t = (b->t + .5 - .5 / (double)d->group) / unit, .amplitude = exp(b->level),
             .frequency = { w0 * unit / (2 * M_PI), ew0 * unit / (2 * M_PI) },
             .damping_ratio = { b->at.s / whole, b->at.w * hypot(b->at.w * es, b->at.s * ew) / pow(whole, 3) },
-            .periods = (double)(b->end - b->first) * b->at.w / (2 * M_PI) };
+            .periods = (double)(b->end - b->first) * b->at.w / (2 * M_PI),
+            .named = { out->row[out->n].named[0], out->row[out->n].named[1] } };
         if (!source->has_phase) {
             out->row[out->n].frequency = (ss_value){ d->opts->level_frequency, NAN };
             out->row[out->n].damping_ratio.error = es / whole;
         }
     }
-    return SS_OK;
 }
 
 /* Why blocks are no decay; NULL: they are one. */
@@ -512,6 +527,11 @@ find(decay *d, const double *x, size_t n, decay_source *source)
         }
         if (st == SS_OK && d->n_blocks >= FEW)
             st = settle(d);
+        if (st == SS_OK && d->n_blocks >= FEW && is_stop(d)) {
+            d->n_blocks--;
+            d->stop = "the motion stops";
+            st = settle(d);
+        }
         if (st == SS_OK && d->n_blocks >= FEW && d->beside.n < LINES_MAX)
             st = add_line(d, &more);
     }
@@ -558,9 +578,11 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
         b->noise = d.n_blocks > 0 ? sqrt(d.block[d.n_blocks - 1].noise * (double)d.group) : NAN;
     }
     if (st == SS_OK && b->why == NULL)
-        st = make_rows(b, &d, &source);
+        st = (b->row = calloc(d.n_blocks, sizeof *b->row)) != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK && b->why == NULL)
         st = ss_mechanism_find(b, d.block, d.n_blocks, &source);
+    if (st == SS_OK && b->why == NULL)
+        make_rows(b, &d, &source);
     free(d.x);
     free(d.block);
     if (st == SS_OK)

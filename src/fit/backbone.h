@@ -32,7 +32,8 @@ typedef struct block {
     double left, free;          /* sum of squares of the residuals, and degrees of freedom */
     double noise;               /* variance of the residuals here */
     bend at;                    /* what is smooth through the blocks, at t */
-    double error[TRACKS], bend_error;   /* of its rates, and of ds */
+    double error[TRACKS];       /* of its rates */
+    double lag, lag_error;      /* what damping takes from the square of w */
     double level, phase;        /* ln A of it, and the phase, at t */
 } block;
 
@@ -80,6 +81,6 @@ typedef struct decay_source {
 /* 0, 1, 2 for a unit of x, x' or x'' in SI units; -1: it is none. */
 int ss_motion_order(const char *unit);
 /* Name the mechanism that n blocks show, drawn smooth: mechanism, chi2_dof and number of *out. */
-ss_status ss_mechanism_find(ss_backbone *out, const block *b, size_t n, const decay_source *source);
+ss_status ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *source);
 
 #endif

@@ -104,6 +104,7 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
                     at[i + 1].p[k][j] += q * at[i].walk[k][j];
             }
         }
+        likelihood += w == 0 && states > 3 ? log(WALKS - 1) : 0;
         double ease = likelihood > best ? exp(best - likelihood) : 1;
         best = fmax(best, likelihood);
         double weight = exp(likelihood - best);
@@ -242,7 +243,9 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
         gain = hypot(b[i].at.s, small);
         b[i].at.ds = gain * gain * to[2];
         b[i].at.dds = 2 * b[i].at.s * pow(gain * to[2], 2);
-        b[i].bend_error = gain * gain * sqrt(p[i].square[2]);
+        double half = fmax(b[i].at.ds, 0) + 2 * b[i].at.s * b[i].error[LEVEL];  /* friction acts by half periods */
+        b[i].lag = b[i].at.s * b[i].at.s + b[i].at.ds;
+        b[i].lag_error = hypot(gain * gain * sqrt(p[i].square[2]), half);
     }
 }
 

@@ -54,6 +54,7 @@ typedef struct trial {
     const point *p;
     size_t n, tracks;
     double w;                   /* about which w is counted, in units of the mean damping */
+    struct told *told;          /* n to work with */
 } trial;
 
 /* s = u[S] + u[C] g(A), with a factor near 1 for Jenkins, whose spring of stiffness u[C] of->w re the mass makes
@@ -89,9 +90,10 @@ losses(const trial *of, const double u[UNKNOWNS], double a)
     return u[S] + u[C] * of_jenkins * shape_of(of->kind, u[SHAPE], a);
 }
 
-/* The rates of ln A and of the phase, less of->w, at ln A. */
+/* The rates of ln A and of the phase, less of->w, at ln A; and what damping takes from the square of w: s^2 + s',
+ * less what harmonics give, which of Coulomb's friction take s' again, and of drag s' + .183 s^2 (all of them). */
 static void
-rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS])
+rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS], double *lag)
 {
     const double h = .01;
     double a = exp(fmax(fmin(ln_a, 20), -40)), s[3], w[3];
@@ -101,8 +103,35 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
         s[i] = losses(of, u, at);
     }
     double fall = s[1] / (1 + (w[2] - w[0]) / (4 * h) / w[1]), s_dot = -fall * (s[2] - s[0]) / (2 * h);
+    *lag = of->kind == SS_JENKINS || of->kind == SS_MICROSLIP ? s[1] * s[1] + s_dot
+        : of->kind == SS_QUADRATIC ? .183 * s[1] * s[1] : u[S] * u[S] + 3 * (s[1] - u[S]) * s[1];
     rate[LEVEL] = -fmin(fall, 1e4);
-    rate[PHASE] = sqrt(fmax(w[1] * w[1] - s[1] * s[1] - s_dot, 0)) - of->w;
+    rate[PHASE] = sqrt(fmax(w[1] * w[1] - *lag, 0)) - of->w;
+}
+
+/* What a mechanism says of a block: ln A and phase, and their rates. */
+typedef struct told {
+    double y[TRACKS], rate[TRACKS], lag;
+} told;
+
+static void
+tell(told *out, const trial *of, const double u[UNKNOWNS])
+{
+    double y[TRACKS] = { u[LN_A], u[TURN] };
+    for (size_t i = 0; i < of->n; i++) {
+        const point *p = &of->p[i];
+        double dt = i > 0 ? p->t - p[-1].t : 0, k[4][TRACKS];
+        int parts = 1 + (int)fmin(dt * fmax(-p->rate[LEVEL], 1) / .2, 8);
+        for (int part = 0; part < parts; part++) {
+            double h = dt / parts;
+            for (int j = 0; j < 4; j++)
+                rates(of, u, y[LEVEL] + (j == 0 ? 0 : (j < 3 ? h / 2 : h) * k[j - 1][LEVEL]), k[j], &out[i].lag);
+            for (size_t c = 0; c < TRACKS; c++)
+                y[c] += h / 6 * (k[0][c] + 2 * k[1][c] + 2 * k[2][c] + k[3][c]);
+        }
+        memcpy(out[i].y, y, sizeof y);
+        rates(of, u, y[LEVEL], out[i].rate, &out[i].lag);
+    }
 }
 
 /* Residuals of variance 1 if the mechanism is right: of y by the filter's gains, of rates beside y's. */
@@ -110,28 +139,19 @@ static ss_status
 leave(const double *u, double *residual, double *slopes, void *user)
 {
     const trial *of = user;
-    double y[TRACKS] = { u[LN_A], u[TURN] }, off[TRACKS] = { 0 };
+    double off[TRACKS] = { 0 };
     (void)slopes;
-    for (size_t i = 0; i < of->n; i++) {
-        const point *p = &of->p[i];
-        double dt = i > 0 ? p->t - p[-1].t : 0, k[4][TRACKS], rate[TRACKS];
-        int parts = 1 + (int)fmin(dt * fmax(-p->rate[LEVEL], 1) / .2, 8);
-        for (int part = 0; part < parts; part++) {
-            double h = dt / parts;
-            for (int j = 0; j < 4; j++)
-                rates(of, u, y[LEVEL] + (j == 0 ? 0 : (j < 3 ? h / 2 : h) * k[j - 1][LEVEL]), k[j]);
-            for (size_t c = 0; c < TRACKS; c++)
-                y[c] += h / 6 * (k[0][c] + 2 * k[1][c] + 2 * k[2][c] + k[3][c]);
-        }
-        rates(of, u, y[LEVEL], rate);
+    tell(of->told, of, u);
+    for (size_t i = 0; i < of->n; i++)
         for (size_t c = 0; c < of->tracks; c++) {
-            double news = p->y[c] - y[c] - off[c];
+            const point *p = &of->p[i];
+            double left = p->y[c] - of->told[i].y[c], news = left - off[c];
             *residual++ = news / p->whole[c];
-            *residual++ = (p->rate[c] - rate[c] - p->tie[c] * (p->y[c] - y[c])) / p->rate_sigma[c];
+            *residual++ = (p->rate[c] - of->told[i].rate[c] - p->tie[c] * left) / p->rate_sigma[c];
             off[c] += p->gain[c] * news;
         }
-    }
-    return isfinite(y[LEVEL]) && isfinite(y[PHASE]) ? SS_OK : SS_EDATA;
+    const double *last = of->told[of->n - 1].y;
+    return isfinite(last[LEVEL]) && isfinite(last[PHASE]) ? SS_OK : SS_EDATA;
 }
 
 /* Blocks in units of the start's amplitude and of the mean damping; errors of what a mechanism says. */
@@ -296,23 +316,131 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
     }
 }
 
+/* --- what is smooth about it ----------------------------------------------------------------- */
+
+/* What is smooth through the blocks about the mechanism f, whose unknowns are constants beside: each track twice,
+ * as the constants that the other one finds are where it starts.  Weighs less by `weight` than what is there. */
+static ss_status
+smooth_about(block *smooth, const trial *of, const fitted *f, const block *b, double unit, double ln_a, double weight)
+{
+    size_t n = of->n, states = 3, which[UNKNOWNS];
+    double start[STATES][STATES] = { { 0 } }, x[STATES] = { 0 };
+    told *at = calloc(n, sizeof *at), *by = calloc(n, sizeof *by);
+    place *p = calloc(2 * n, sizeof *p), end[TRACKS];
+    if (at == NULL || by == NULL || p == NULL) {
+        free(at), free(by), free(p);
+        return SS_ENOMEM;
+    }
+    tell(at, of, f->u);
+    for (size_t c = 0; c < of->tracks; c++)
+        for (size_t i = 0; i < n; i++) {
+            place *to = &p[c * n + i];
+            double s = fmax(-at[i].rate[LEVEL], 1e-9), rate = c == LEVEL ? -s : 1;
+            double t = i + 1 < n ? of->p[i + 1].t - of->p[i].t : 0;
+            double lost = i + 1 < n ? fmax(at[i].y[LEVEL] - at[i + 1].y[LEVEL], 1e-9) : 0;
+            double past = c == LEVEL ? -lost : t;
+            *to = (place){ .see = { { 1 }, { 0, rate }, { 0, 0, s * s } },
+                           .turn = { { 1, past, past * lost / 2 }, { 0, 1, lost }, { 0, 0, 1 } } };
+            to->tie = of->p[i].tie[c];
+            to->seen[0] = of->p[i].y[c] - at[i].y[c];
+            to->seen[1] = of->p[i].rate[c] - at[i].rate[c] - to->tie * to->seen[0];
+            to->variance[0] = b[i].cov[c][0] * b[i].noise;
+            to->variance[1] = (b[i].cov[c][2] - b[i].cov[c][1] * b[i].cov[c][1] / b[i].cov[c][0]) * b[i].noise / unit / unit;
+            ss_place_walk(to, lost);
+        }
+    for (size_t k = 0; k < UNKNOWNS; k++) {
+        double u[UNKNOWNS], sigma = sqrt(f->covariance[k * UNKNOWNS + k]);
+        if (!(sigma > 0) || !isfinite(sigma))
+            continue;
+        memcpy(u, f->u, sizeof u);
+        u[k] += sigma / 10;
+        tell(by, of, u);
+        for (size_t c = 0; c < of->tracks; c++)
+            for (size_t i = 0; i < n; i++) {
+                p[c * n + i].see[0][states] = (by[i].y[c] - at[i].y[c]) * 10;
+                p[c * n + i].see[1][states] = (by[i].rate[c] - at[i].rate[c]) * 10;
+            }
+        which[states - 3] = k;
+        for (size_t j = 3; j <= states; j++) {
+            double of_j = f->covariance[which[j - 3] * UNKNOWNS + which[j - 3]];
+            start[j][states] = start[states][j] = (double)(4 * n) * f->covariance[k * UNKNOWNS + which[j - 3]] / sigma / sqrt(of_j);
+        }
+        states++;
+    }
+    for (size_t c = 0; c < of->tracks; c++)
+        ss_blocks_track(&p[c * n], n, states, x, start, &end[c]);
+    for (size_t c = 0; of->tracks > 1 && c < of->tracks; c++) {
+        place ignore, *other = &end[1 - c];
+        for (size_t j = 0; j < 3; j++) {
+            other->x[j] = 0;
+            for (size_t k = 0; k < states; k++)
+                other->p[j][k] = other->p[k][j] = 0;
+        }
+        ss_blocks_track(&p[c * n], n, states, other->x, other->p, &ignore);
+    }
+    for (size_t i = 0; i < n; i++) {
+        const place *level = &p[i], *phase = &p[n + i];
+        const double h = .02;
+        double near[3][TRACKS], slope[TRACKS], curve[TRACKS], ignore;
+        for (int j = 0; j < 3; j++)
+            rates(of, f->u, at[i].y[LEVEL] + (j - 1) * h, near[j], &ignore);
+        for (size_t c = 0; c < TRACKS; c++) {
+            slope[c] = (near[2][c] - near[0][c]) / (2 * h);
+            curve[c] = (near[2][c] - 2 * near[1][c] + near[0][c]) / (h * h);
+        }
+        double fall = near[1][LEVEL];
+        block *to = &smooth[i];
+        to->level += weight * (ln_a + at[i].y[LEVEL] + level->mean[0]);
+        double s = -unit * (at[i].rate[LEVEL] + level->mean[1]), variance = unit * unit * level->square[1];
+        to->at.s += weight * s;
+        to->error[LEVEL] += weight * (variance + s * s);
+        double lag = unit * unit * (at[i].lag + level->mean[2]);
+        to->lag += weight * lag;
+        to->lag_error += weight * (pow(unit, 4) * level->square[2] + lag * lag);
+        to->at.ds += weight * unit * unit * (-fall * slope[LEVEL] + level->mean[2]);
+        to->at.dds += weight * pow(unit, 3) * -fall * (slope[LEVEL] * slope[LEVEL] + fall * curve[LEVEL]);
+        if (of->tracks == 1)
+            continue;
+        to->phase += weight * (at[i].y[PHASE] + phase->mean[0] + of->w * (of->p[i].t - of->p->t));
+        double w = unit * (at[i].rate[PHASE] + phase->mean[1]);
+        to->at.w += weight * w;
+        to->error[PHASE] += weight * (unit * unit * phase->square[1] + w * w);
+        to->at.dw += weight * unit * unit * fall * slope[PHASE];
+        to->at.ddw += weight * pow(unit, 3) * fall * (slope[LEVEL] * slope[PHASE] + fall * curve[PHASE]);
+    }
+    free(at), free(by), free(p);
+    return SS_OK;
+}
+
+static int
+is_among(const ss_backbone *b, ss_mechanism kind)
+{
+    for (size_t i = 0; i < b->n_mechanisms; i++)
+        if (b->mechanism[i] == kind)
+            return 1;
+    return 0;
+}
+
 ss_status
-ss_mechanism_find(ss_backbone *out, const block *b, size_t n, const decay_source *source)
+ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *source)
 {
     double unit = (b->level - b[n - 1].level) / (b[n - 1].t - b->t), w = b[n / 2].at.w;
+    double ln_a = b->level;
     point *p = calloc(n, sizeof *p);
+    told *what = calloc(n, sizeof *what);
     fitted f[SS_MECHANISMS];
-    if (p == NULL)
-        return SS_ENOMEM;
-    make_points(p, b, n, unit, b->level, w);
-    ss_status st = SS_OK;
+    ss_status st = p != NULL && what != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK)
+        make_points(p, b, n, unit, ln_a, w);
     for (int k = 0; st == SS_OK && k < SS_MECHANISMS; k++) {
-        trial of = { (ss_mechanism)k, p, n, source->has_phase ? 2 : 1, w / unit };
-        st = fit(&f[k], &of, b, unit, b->level);
+        trial of = { (ss_mechanism)k, p, n, source->has_phase ? 2 : 1, w / unit, what };
+        st = fit(&f[k], &of, b, unit, ln_a);
     }
-    free(p);
-    if (st != SS_OK)
+    if (st != SS_OK) {
+        free(p);
+        free(what);
         return st;
+    }
     qsort(f, SS_MECHANISMS, sizeof *f, by_bic);
     const fitted *best = f;
     while (best < f + SS_MECHANISMS - 1 && best->p < REJECT)
@@ -325,15 +453,42 @@ ss_mechanism_find(ss_backbone *out, const block *b, size_t n, const decay_source
         if (x == best || (is_near && (!is_more || best->squares - x->squares > GAIN * (best->free - x->free))))
             out->mechanism[out->n_mechanisms++] = x->kind;
     }
+    if (out->n_mechanisms > 0) {
+        block *smooth = calloc(n, sizeof *smooth);
+        double whole = 0;
+        for (const fitted *x = f; x < f + SS_MECHANISMS; x++)
+            whole += is_among(out, x->kind) ? exp((best->bic - x->bic) / 2) : 0;
+        for (const fitted *x = f; smooth != NULL && st == SS_OK && x < f + SS_MECHANISMS; x++) {
+            trial of = { x->kind, p, n, source->has_phase ? 2 : 1, w / unit, what };
+            if (is_among(out, x->kind))
+                st = smooth_about(smooth, &of, x, b, unit, ln_a, exp((best->bic - x->bic) / 2) / whole);
+        }
+        for (size_t i = 0; smooth != NULL && st == SS_OK && i < n; i++) {
+            const block *from = &smooth[i];
+            b[i].level = from->level;
+            b[i].at.s = from->at.s, b[i].at.ds = from->at.ds, b[i].at.dds = from->at.dds;
+            b[i].error[LEVEL] = sqrt(fmax(from->error[LEVEL] - from->at.s * from->at.s, 0));
+            b[i].lag = from->lag;
+            b[i].lag_error = sqrt(fmax(from->lag_error - from->lag * from->lag, 0));
+            if (!source->has_phase)
+                continue;
+            b[i].phase = from->phase;
+            b[i].at.w = w + from->at.w, b[i].at.dw = from->at.dw, b[i].at.ddw = from->at.ddw;
+            b[i].error[PHASE] = sqrt(fmax(from->error[PHASE] - from->at.w * from->at.w, 0));
+        }
+        free(smooth);
+    }
+    free(p);
+    free(what);
     for (size_t i = 0; i < n; i++) {
-        trial of = { best->kind, NULL, 0, 0, w / unit };
-        double rate[TRACKS], at = frequency(&of, best->u, exp(b[i].level - b->level));
+        trial of = { best->kind, NULL, 0, 0, w / unit, NULL };
+        double rate[TRACKS], ignore, at = frequency(&of, best->u, exp(b[i].level - ln_a));
         int is_named = out->n_mechanisms == 1 && source->has_phase;
-        rates(&of, best->u, b[i].level - b->level, rate);
+        rates(&of, best->u, b[i].level - ln_a, rate, &ignore);
         out->row[i].named[0] = is_named ? at * unit * source->rate / (2 * M_PI) : NAN;
         out->row[i].named[1] = out->n_mechanisms == 1 ? -rate[LEVEL] / hypot(rate[LEVEL], at) : NAN;
     }
     if (out->n_mechanisms > 0)
-        add_numbers(out, best, source, w / unit, unit * source->rate, exp(b->level));
+        add_numbers(out, best, source, w / unit, unit * source->rate, exp(ln_a));
     return SS_OK;
 }
