@@ -122,7 +122,8 @@ try_to_draw(FILE *out, const ss_signal *signal, int y, const ss_signal *over, co
     assert_int_equal(ss_reader_of_signal(&reader, signal, NULL), SS_OK);
     if (over != NULL)
         assert_int_equal(ss_reader_of_signal(&other, over, NULL), SS_OK);
-    own.over = other;
+    own.over = &other;
+    own.n_over = over != NULL;
     ss_status st = y >= 0 ? ss_plot_xy(out, reader, 0, (size_t)y, &own, err)
         : ss_plot_signal(out, reader, NULL, 0, &own, err);
     ss_reader_free(other);

@@ -7,12 +7,12 @@
 #include <string.h>
 
 static const char usage[] =
-"usage: ss-plot [options] [FILE[:/dataset]] | gnuplot -p\n"
-"Draw a signal: one panel a column over time, or one column over another; or a\n"
-"map of a sweep.\n"
+"usage: ss-plot [options] [FILE[:/dataset] ...] | gnuplot -p\n"
+"Draw a signal: one panel a column over time, or one column over another; of\n"
+"several files, one over the other; or a map of a sweep.\n"
 "  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
-"      --over=FILE      draw its first column over the first panel, from the\n"
-"                       beginning of the signal on; or with --xy its X and Y\n"
+"      --over=FILE      draw its first column over the first panel, or its X and Y\n"
+"      --difference     and the difference of the first panel in a panel below\n"
 "      --features=FILE  shade the transitions that ss-features found\n"
 "      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"
 "      --map=X,Y,Z[,Z]  rows of ss-sweep over two keys: a column of few\n"
@@ -76,7 +76,7 @@ set_xy(const tool_option *o, char *pair)
 static void
 set_over(const tool_option *o, char *path)
 {
-    const char **over = o->to;
+    char **over = o->to;
     if (*over != NULL)
         tool_usage("--over: one other signal is drawn, and '%s' is the second", path);
     *over = path;
@@ -211,25 +211,28 @@ file_name(const char *path)
     return slash != NULL && slash[1] != '\0' ? slash + 1 : tool_input_name(path);
 }
 
-/* Draw the named columns of a signal, or all, or one over another, in the form of d. */
+/* Draw the named columns of a signal, or all, or one over another, in the form of d, and n others over it. */
 static void
-draw_signal(const char *path, const tool_texts *name, drawing d, const char *over, const char *features,
+draw_signal(const char *path, const tool_texts *name, drawing d, char *const over[], size_t n, const char *features,
             const char *output, ss_read_opts *reading, ss_plot_opts *opts)
 {
+    const char *names[SS_PLOT_OVER + 1] = { file_name(path) };
+    ss_reader *others[SS_PLOT_OVER];
     ss_error err = { 0 };
-    ss_read_opts plainly;
+    ss_read_opts plainly, *as = opts->alike ? reading : &plainly;
     ss_read_opts_init(&plainly, sizeof plainly);
     plainly.folder = reading->folder;
-    reading->rewinds = d.xy || d.spectrum;
-    plainly.rewinds = d.xy;
+    plainly.rewinds = reading->rewinds = d.xy || d.spectrum || opts->difference;
     d.reader = tool_read_rows(path, reading);
     choose_columns(&d, path, name);
     const ss_header *head = ss_reader_header(d.reader);
-    opts->name = file_name(path);
-    if (over != NULL) {
-        opts->over_name = file_name(over);
-        opts->over = tool_read_rows(over, &plainly);
+    for (size_t k = 0; k < n; k++) {
+        others[k] = tool_read_rows(over[k], as);
+        names[k + 1] = file_name(over[k]);
     }
+    opts->over = others;
+    opts->n_over = n;
+    opts->name = names;
     tool_note("%s: columns: %zu, at %.9g Hz", tool_input_name(path), head->n_columns, head->rate);
     ss_overlay *overlay = tool_read_overlay(features, SS_KIND_FEATURES);
     opts->features = overlay;
@@ -248,7 +251,8 @@ draw_signal(const char *path, const tool_texts *name, drawing d, const char *ove
     for (size_t i = 0; d.density != NULL && i < d.n; i++)
         ss_spectrum_free(d.density[i]);
     free(d.density);
-    ss_reader_free(opts->over);
+    for (size_t k = 0; k < n; k++)
+        ss_reader_free(others[k]);
     ss_reader_free(d.reader);
     free(d.column);
 }
@@ -258,14 +262,16 @@ main(int argc, char *argv[])
 {
     ss_plot_opts opts;
     tool_reading reading = { .rate_letter = 'r' };
-    const char *output = NULL, *over = NULL, *features = NULL, *map = NULL, *line = NULL;
+    const char *output = NULL, *features = NULL, *map = NULL, *line = NULL;
+    char *over = NULL;
     tool_texts wanted = { NULL, 0 }, xy = { NULL, 0 };
     drawing d = { .kind = TOOL_GP };
     const tool_option options[] = {
         TOOL_FLAG(0, "spectrum", &d.spectrum), TOOL_FLAG(0, "db", &opts.decibels),
         TOOL_NUMBER(0, "resolution", &opts.resolution, ((ss_range){ 1e-300, 1e300 })),
         TOOL_TEXTS('c', "column", &wanted), TOOL_VALUE(0, "xy", set_xy, &xy),
-        TOOL_VALUE(0, "over", set_over, &over), TOOL_TEXT(0, "features", &features),
+        TOOL_VALUE(0, "over", set_over, &over), TOOL_FLAG(0, "difference", &opts.difference),
+        TOOL_TEXT(0, "features", &features),
         TOOL_TEXT(0, "map", &map), TOOL_TEXT(0, "line", &line),
         TOOL_TEXT(0, "title", &opts.title), TOOL_STYLE(&opts.style), TOOL_OUTPUT(&output),
         TOOL_FORMAT_OF_WORDS(&d.kind) };
@@ -275,7 +281,13 @@ main(int argc, char *argv[])
     int first = TOOL_PARSE(argc, argv, options, &reading);
     if (xy.n > 0 && wanted.n > 0)
         tool_usage("--xy and --column exclude each other");
-    const char *path = tool_input(argc, argv, first);
+    char **others = argv + first + 1;
+    size_t n_others = argc > first + 1 ? (size_t)(argc - first - 1) : 0;
+    if (n_others > SS_PLOT_OVER)
+        tool_usage("one picture has at most %d signals, not %zu", SS_PLOT_OVER + 1, n_others + 1);
+    if (n_others > 0 && (over != NULL || map != NULL))
+        tool_usage("unexpected argument '%s'; of several files, --over and --map draw none", others[0]);
+    const char *path = tool_input(argc - (int)n_others, argv, first);
     d.kind = tool_output_kind(output, TOOL_PICTURES | (d.spectrum ? TOOL_WORDS : 0), d.kind);
     if (d.kind == TOOL_GP)
         tool_script_to(output);
@@ -293,8 +305,17 @@ main(int argc, char *argv[])
         tool_usage("--features is over time; it excludes --map, --xy and --spectrum");
     if (features != NULL && strcmp(features, "-") == 0 && strcmp(path, "-") == 0)
         tool_usage("standard input can be read only once");
+    opts.alike = n_others > 0;
+    if (over != NULL) {
+        others = &over;
+        n_others = 1;
+    }
+    if (opts.difference && (n_others == 0 || d.xy || d.spectrum))
+        tool_usage("--difference needs --over or several files, and is over time");
     if (d.spectrum && (map != NULL || d.xy || over != NULL))
         tool_usage("--spectrum excludes --map, --xy and --over");
+    if (d.kind >= TOOL_STREAM && n_others > 0)
+        tool_usage("the numbers of a spectrum are those of one file");
     if ((opts.decibels || opts.resolution > 0 || d.kind >= TOOL_STREAM) && !d.spectrum)
         tool_usage("--db, --resolution and --format need --spectrum");
     if (line != NULL && map == NULL)
@@ -302,7 +323,7 @@ main(int argc, char *argv[])
     if (map != NULL)
         draw_map(path, map, line, output, &opts);
     else
-        draw_signal(path, d.xy ? &xy : &wanted, d, over, features, output, &reading.opts, &opts);
+        draw_signal(path, d.xy ? &xy : &wanted, d, others, n_others, features, output, &reading.opts, &opts);
     free(wanted.text);
     free(xy.text);
     tool_reading_free(&reading);

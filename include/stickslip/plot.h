@@ -25,6 +25,8 @@ typedef enum ss_plot_style {
     SS_SCREEN                   /* 1.5 times as wide and high, with letters of the same size */
 } ss_plot_style;
 
+enum { SS_PLOT_OVER = 6 };
+
 typedef struct ss_plot_opts {
     size_t size;                /* set by ss_plot_opts_init */
     const char *output;         /* the file of the picture, .png, .svg or .pdf; NULL: the script draws
@@ -33,9 +35,14 @@ typedef struct ss_plot_opts {
     const char *title;          /* NULL: made from the notes (scene, model); "": no title */
     double from, to;            /* [s] on the source's clock, the span to draw; NaN: all of it */
     ss_plot_style style;
-    ss_reader *over;            /* a second signal for ss_plot_signal and ss_plot_xy, drawn as if it began
-                                   with the first; NULL: none */
-    const char *name, *over_name;   /* of the two in a legend, if there is a second; NULL: those of its columns */
+    ss_reader *const *over;     /* n_over other signals, at most SS_PLOT_OVER, for ss_plot_signal, ss_plot_xy and
+                                   ss_plot_spectrum, drawn as if they began with the first */
+    size_t n_over;
+    const char *const *name;    /* of all n_over + 1 in a legend; NULL: those of the first columns drawn */
+    int alike;                  /* 1: the others' columns are drawn over those of their names; 0, or if they have no
+                                   such column: their first column over the first panel */
+    int difference;             /* 1: ss_plot_signal draws the first column less those over it in a panel below,
+                                   by lines between their samples; the readers can go back */
     const ss_overlay *features; /* ss_plot_signal shades its transitions in every panel; NULL: none */
     double resolution;          /* [Hz] of ss_plot_spectra, as for ss_spectrum_new; 0: that of seven segments */
     int decibels;               /* 1: ss_plot_spectrum draws dB re 1 unit^2/Hz */
@@ -47,14 +54,13 @@ typedef struct ss_plot_opts {
 void ss_plot_opts_init(ss_plot_opts *opts, size_t size);
 
 /* Draw the n columns of these indices over time, one panel each (figure 1); with n = 0 all columns.
- * The first column of opts->over is drawn over the first panel.
  *
  * A signal may have any length: it is read to its end, and in memory that does not grow.  Of a column of more
  * than 2048 values in the span, the smallest and the largest of each of 1024 blocks or more are drawn. */
 ss_status ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
-/* Draw column y over column x: a phase plane or a friction loop.  If opts->over is not NULL, its
- * columns of the same names are drawn over it, or else its first two.
+/* Draw column y over column x: a phase plane or a friction loop.  Of opts->over, the columns of the same names are
+ * drawn over it, or else the first two.
  *
  * The readers can go back to their first row.  A part of the line is left out if it crosses no cell of half a
  * pixel that the line has not crossed before. */

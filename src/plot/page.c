@@ -130,15 +130,63 @@ ss_script_write_key(FILE *out)
     fputs("set title offset 0,0.7; set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\n", out);
 }
 
+/* --- signals over another ------------------------------------------------------------------------ */
+
+const char *const ss_script_number[] = { "", "2", "3", "4", "5", "6" };
+
+ss_status
+ss_script_check_over(const ss_plot_opts *opts, ss_error *err)
+{
+    return opts->n_over <= SS_PLOT_OVER ? SS_OK
+        : ss_fail(err, SS_EINVAL, "one picture has at most %d signals, not %zu", SS_PLOT_OVER + 1, opts->n_over + 1);
+}
+
 void
-ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *signal, const ss_column *over)
+ss_script_write_colours(FILE *out, const ss_plot_opts *opts)
+{
+    static const char *const colour[SS_PLOT_OVER] = { VERMILION, GREEN, PURPLE, ORANGE, SKY_BLUE, BLACK };
+    fputs("colour = '" BLUE "'\n", out);
+    for (size_t k = 0; k < opts->n_over; k++)
+        ss_print(out, "over%s = '%s'\n", ss_script_number[k], colour[k]);
+}
+
+/* The entries of the legend in a row: letters are some 0.12 cm wide on paper, and a sample is as wide as 5. */
+static size_t
+entries(const ss_plot_opts *opts)
+{
+    size_t longest = 0, all = (size_t)(0.8 * WIDTH / 0.12);
+    for (size_t k = 0; opts->name != NULL && k <= opts->n_over; k++)
+        longest = strlen(opts->name[k]) > longest ? strlen(opts->name[k]) : longest;
+    return opts->n_over < 2 ? 2 : longest + 5 < all ? all / (longest + 5) : 1;
+}
+
+double
+ss_script_legend(const ss_plot_opts *opts)
+{
+    return opts->n_over > 0 ? SCRIPT_LEGEND * (double)((opts->n_over + entries(opts)) / entries(opts)) : 0;
+}
+
+void
+ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *const column[])
 {
     ss_script_write_key(out);
-    fputs("name = ", out);
-    ss_script_quote(out, opts->name != NULL ? opts->name : signal->name);
-    fputs("; over_name = ", out);
-    ss_script_quote(out, opts->over_name != NULL ? opts->over_name : over->name);
+    if (opts->n_over > 1)
+        ss_print(out, "set title offset 0,%.3g; set key maxcols %zu\n", 0.7 + 0.9 * (ss_script_legend(opts)
+                 / SCRIPT_LEGEND - 1), entries(opts));
+    for (size_t k = 0; k <= opts->n_over; k++) {
+        ss_print(out, "%s%s = ", k == 0 ? "name" : "; over_name", k == 0 ? "" : ss_script_number[k - 1]);
+        ss_script_quote(out, opts->name != NULL ? opts->name[k] : column[k]->name);
+    }
     putc('\n', out);
+}
+
+void
+ss_script_write_over(FILE *out, size_t k, const char *block, int titled)
+{
+    const char *number = ss_script_number[k];
+    ss_print(out, ", %s with lines lw 1 lc rgb over%s", block, number);
+    if (titled)
+        ss_print(out, " title over_name%s", number);
 }
 
 ss_status

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
 
 #define PANEL 2.1               /* height of one panel [cm] */
@@ -24,54 +25,241 @@ make_labels(trace t[], size_t n)
         t[i].label.font = font;
 }
 
-/* The panels, and the trace t[n] over the first, unless opts->over is NULL.  A line of one sample would be
- * invisible. */
-static ss_status
-write_panels(FILE *out, const ss_header *head, const script_span *span, trace t[], size_t n,
-             const ss_plot_opts *opts, ss_error *err)
+/* Another signal: its columns over some panels, and what the first panel's column has beyond it. */
+typedef struct layer {
+    trace *t, left;             /* left: of which column is NULL if there is no difference */
+    size_t *panel, n;
+} layer;
+
+typedef struct drawing {
+    FILE *out;
+    const ss_plot_opts *opts;
+    const script_span *span;
+    trace *t;
+    size_t n;
+    layer layer[SS_PLOT_OVER];
+    size_t bands;               /* of features */
+} drawing;
+
+/* The name of the data of a trace of signal k over a panel. */
+static void
+name_over(char name[40], size_t k, size_t panel)
 {
-    int has_over = opts->over != NULL;
-    double legend = has_over ? SCRIPT_LEGEND : 0;
+    if (panel == 0)
+        snprintf(name, 40, "$over%s", ss_script_number[k]);
+    else
+        snprintf(name, 40, "$over%s_panel%zu", ss_script_number[k], panel + 1);
+}
+
+/* Write the data of all panels, those over a panel in its scale, and widen its extent. */
+static void
+write_data(drawing *d)
+{
+    char name[40];
+    for (size_t i = 0; i < d->n; i++) {
+        snprintf(name, sizeof name, "$panel%zu", i + 1);
+        ss_trace_write(d->out, name, &d->t[i]);
+    }
+    make_labels(d->t, d->n);
+    for (size_t k = 0; k < d->opts->n_over; k++)
+        for (size_t m = 0; m < d->layer[k].n; m++) {
+            trace *over = &d->layer[k].t[m], *t = &d->t[d->layer[k].panel[m]];
+            over->scale = t->scale;
+            name_over(name, k, d->layer[k].panel[m]);
+            ss_trace_write(d->out, name, over);
+            ss_script_widen(&t->extent, over->extent);
+        }
+}
+
+/* A line of one sample would be invisible. */
+static void
+plot_panel(const drawing *d, size_t i)
+{
+    const char *by = d->span->n > 1 ? "lines" : "points pt 7 ps 1";
+    int titled = i == 0 && d->opts->n_over > 0;
+    ss_print(d->out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s",
+             d->bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes x1y2 with boxxyerror fill solid noborder "
+             "lc rgb feature_colour, " : "", i + 1, by, titled ? " title name" : "");
+    for (size_t k = 0; k < d->opts->n_over; k++) {
+        char name[60] = "NaN";                          /* an entry of the legend */
+        for (size_t m = 0; m < d->layer[k].n; m++)
+            if (d->layer[k].panel[m] == i) {
+                name_over(name, k, i);
+                strcat(name, " using 1:2");
+            }
+        if (titled || name[0] == '$')
+            ss_script_write_over(d->out, k, name, titled);
+    }
+    fputs(titled ? "\nunset key\n" : "\n", d->out);
+}
+
+/* The differences of all signals from the first panel, which have one scale and label. */
+static ss_status
+write_differences(drawing *d, trace *label, ss_error *err)
+{
+    trace all = { .extent = SCRIPT_NO_EXTENT };
+    static char name[] = "difference";
+    for (size_t k = 0; k < d->opts->n_over; k++)
+        if (d->layer[k].left.column != NULL)
+            ss_script_widen(&all.extent, d->layer[k].left.extent);
+    if (!(all.extent.lo <= all.extent.hi))
+        return ss_fail(err, SS_EINVAL, "no difference can be drawn: no other column lies over the first panel");
+    all.scale = ss_script_scale(all.extent);
+    ss_script_make_label(&all.label, &(ss_column){ name, d->t[0].column->unit }, all.scale, ROOM);
+    for (size_t k = 0; k < d->opts->n_over; k++) {
+        char block[24];
+        d->layer[k].left.scale = all.scale;
+        snprintf(block, sizeof block, "$difference%s", ss_script_number[k]);
+        if (d->layer[k].left.column != NULL)
+            ss_trace_write(d->out, block, &d->layer[k].left);
+    }
+    *label = all;
+    return SS_OK;
+}
+
+static void
+plot_differences(const drawing *d)
+{
+    const char *before = "plot ";
+    for (size_t k = 0; k < d->opts->n_over; k++)
+        if (d->layer[k].left.column != NULL) {
+            ss_print(d->out, "%s$difference%s using 1:2 with lines lw 1 lc rgb over%s", before, ss_script_number[k],
+                     ss_script_number[k]);
+            before = ", ";
+        }
+    putc('\n', d->out);
+}
+
+static ss_status
+write_panels(drawing *d, const ss_header *head, ss_error *err)
+{
+    FILE *out = d->out;
+    const ss_plot_opts *opts = d->opts;
+    const ss_column *first[SS_PLOT_OVER + 1] = { d->t[0].column };
+    double legend = ss_script_legend(opts);
+    size_t panels = d->n + (opts->difference != 0);
     script_stack stack;
-    size_t bands = 0;
-    ss_status st = ss_script_begin_stack(&stack, out, opts, head, legend + TIME + PANEL * (double)n, err);
+    trace left;
+    ss_status st = ss_script_begin_stack(&stack, out, opts, head, legend + TIME + PANEL * (double)panels, err);
     if (st != SS_OK)
         return st;
     stack.top -= legend;
-    int letters = ss_script_write_span(out, span);
-    ss_print(out, "colour = '" BLUE "'\n%s", has_over ? "over = '" VERMILION "'\n" : "");
-    if (opts->features != NULL && (bands = ss_contour_write_spans(out, span, opts->features)) > 0)
+    int letters = ss_script_write_span(out, d->span);
+    ss_script_write_colours(out, opts);
+    if (opts->features != NULL && (d->bands = ss_contour_write_spans(out, d->span, opts->features)) > 0)
         fputs("feature_colour = '" SHADE_COLOUR "'; set y2range [0:1]\n", out);
-    for (size_t i = 0; i < n; i++) {
-        char name[32];
-        snprintf(name, sizeof name, "$panel%zu", i + 1);
-        ss_trace_write(out, name, &t[i]);
-    }
-    make_labels(t, n);
-    if (has_over) {
-        t[n].scale = t[0].scale;
-        ss_trace_write(out, "$over", &t[n]);
-        ss_script_widen(&t[0].extent, t[n].extent);
-    }
+    write_data(d);
+    if (opts->difference && (st = write_differences(d, &left, err)) != SS_OK)
+        return st;
     ss_script_write_frame(out, 0.175, letters < 5 ? 0.965 : 1 - 0.0095 * letters);
     fputs("set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
           "set xtics tics; set xtics format ''\n", out);
-    if (has_over)
-        ss_script_write_legend(out, opts, t[0].column, t[n].column);
-    for (size_t i = 0; i < n; i++) {
-        int over = has_over && i == 0;
-        double gap = i + 1 < n ? 0.1 * PANEL : 0;
-        if (i + 1 == n)
-            ss_script_write_time_labels(out, span);
-        ss_script_write_panel(&stack, PANEL - gap, gap, &t[i].label);
-        ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t[i].extent, t[i].scale), 5);
-        ss_print(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s\n",
-                 bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes x1y2 with boxxyerror fill solid noborder "
-                 "lc rgb feature_colour, " : "", i + 1, span->n > 1 ? "lines" : "points pt 7 ps 1",
-                 over ? " title name, $over using 1:2 with lines lw 1 lc rgb over title over_name" : "");
-        fputs(over ? "unset key\n" : "", out);
+    for (size_t k = 0; k < opts->n_over; k++)
+        first[k + 1] = d->layer[k].t[0].column;
+    if (opts->n_over > 0)
+        ss_script_write_legend(out, opts, first);
+    for (size_t i = 0; i < panels; i++) {
+        int is_left = opts->difference && i == 1;
+        size_t column = i > 1 && opts->difference ? i - 1 : i;
+        trace *t = is_left ? &left : &d->t[column];
+        double gap = i + 1 < panels ? 0.1 * PANEL : 0;
+        t->label.font = d->t[0].label.font;
+        if (i + 1 == panels)
+            ss_script_write_time_labels(out, d->span);
+        ss_script_write_panel(&stack, PANEL - gap, gap, &t->label);
+        ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t->extent, t->scale), 5);
+        if (is_left)
+            plot_differences(d);
+        else
+            plot_panel(d, column);
     }
     return ss_script_end(out);
+}
+
+/* --- differences ------------------------------------------------------------------------------------ */
+
+/* A column of another signal, sample by sample. */
+typedef struct cursor {
+    series s;
+    size_t at, n;               /* in the piece */
+    double row, before, value;  /* the number of the sample, the one before, and the sample; NaN behind the end */
+} cursor;
+
+static ss_status
+go_on(cursor *c, ss_error *err)
+{
+    ss_status st = SS_OK;
+    if (c->at == c->n && !(c->row >= 0 && c->n == 0)) {
+        st = ss_series_next(&c->s, &c->n, err);
+        c->at = 0;
+    }
+    c->before = c->value;
+    c->value = c->at < c->n ? c->s.value[c->at++] : NAN;
+    c->row++;
+    return st;
+}
+
+/* Read column x of one signal less column y of another, which begins with it. */
+static ss_status
+read_difference(trace *t, ss_reader *reader, size_t x, ss_reader *over, size_t y, const ss_plot_opts *opts,
+                ss_error *err)
+{
+    ss_plot_opts whole = *opts;
+    whole.from = whole.to = NAN;
+    cursor c = { .row = -1, .value = NAN };
+    series s;
+    size_t n = 1;
+    double row = 0;
+    script_span span;
+    ss_status st = ss_series_begin(&s, reader, &x, 1, NAN, opts, err), other = ss_series_begin(&c.s, over, &y, 1,
+                                   ss_reader_header(reader)->start, &whole, err);
+    st = st == SS_OK ? other : st;
+    if (st == SS_OK && (st = ss_series_rewind(&s, err)) == SS_OK)
+        st = ss_series_rewind(&c.s, err);
+    if (st == SS_OK && !ss_extremes_make(&t->block, BLOCKS, 1))
+        st = ss_fail_memory(err, NULL);
+    for (row = (double)s.first; st == SS_OK && n > 0;) {
+        st = ss_series_next(&s, &n, err);
+        for (size_t i = 0; st == SS_OK && i < n; i++, row++) {
+            double at = row * (c.s.head->rate / s.head->rate), part;
+            while (st == SS_OK && c.row < at)
+                st = go_on(&c, err);
+            part = c.row - at;
+            s.value[i] -= part > 0 ? c.value + part * (c.before - c.value) : c.value;
+        }
+        if (st == SS_OK)
+            ss_extremes_add(&t->block, s.value, n);
+    }
+    t->column = &s.head->column[x];
+    if (st == SS_OK)
+        st = ss_series_span(&span, &s, opts, err);
+    if (st == SS_OK)
+        st = ss_trace_end(t, &s, &span, err);
+    ss_series_free(&s);
+    ss_series_free(&c.s);
+    return st;
+}
+
+/* Read what signal k has over the panels, and what the first panel has beyond it. */
+static ss_status
+read_layer(drawing *d, size_t k, ss_reader *reader, const size_t column[], ss_error *err)
+{
+    const ss_header *head = ss_reader_header(reader);
+    ss_reader *over = d->opts->over[k];
+    layer *l = &d->layer[k];
+    script_span span;
+    size_t *index = malloc(d->n * sizeof *index);
+    l->t = calloc(d->n, sizeof *l->t);
+    l->panel = malloc(d->n * sizeof *l->panel);
+    ss_status st = index != NULL && l->t != NULL && l->panel != NULL ? SS_OK : ss_fail_memory(err, NULL);
+    if (st == SS_OK) {
+        l->n = ss_series_over(index, l->panel, head, column, d->n, ss_reader_header(over), d->opts->alike);
+        st = ss_traces_read(l->t, &span, over, index, l->n, head->start, d->opts, err);
+    }
+    if (st == SS_OK && d->opts->difference && l->panel[0] == 0)
+        st = read_difference(&l->left, reader, column[0], over, index[0], d->opts, err);
+    free(index);
+    return st;
 }
 
 ss_status
@@ -79,30 +267,37 @@ ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n, co
                ss_error *err)
 {
     ss_plot_opts own;
-    script_span span, of_over;
+    script_span span;
     if (out == NULL || reader == NULL || (column == NULL && n > 0))
         return SS_FAIL_NULL(err);
     ss_status st = ss_script_take(&own, opts, err);
+    if (st == SS_OK)
+        st = ss_script_check_over(&own, err);
     if (st != SS_OK)
         return st;
     const ss_header *head = ss_reader_header(reader);
-    size_t panels = n > 0 ? n : head->n_columns;
-    if (panels == 0)
+    drawing d = { .out = out, .opts = &own, .span = &span, .n = n > 0 ? n : head->n_columns };
+    if (d.n == 0)
         return ss_fail(err, SS_EINVAL, "no columns to draw");
-    trace *t = calloc(panels + 1, sizeof *t);
-    size_t *index = malloc(panels * sizeof *index);
-    st = t != NULL && index != NULL ? ss_contour_check_overlay(own.features, err) : ss_fail_memory(err, NULL);
-    for (size_t i = 0; st == SS_OK && i < panels; i++)
+    d.t = calloc(d.n, sizeof *d.t);
+    size_t *index = malloc(d.n * sizeof *index);
+    st = d.t != NULL && index != NULL ? ss_contour_check_overlay(own.features, err) : ss_fail_memory(err, NULL);
+    for (size_t i = 0; st == SS_OK && i < d.n; i++)
         index[i] = n > 0 ? column[i] : i;
     if (st == SS_OK)
-        st = ss_traces_read(t, &span, reader, index, panels, NAN, &own, err);
-    if (st == SS_OK && own.over != NULL)
-        st = ss_traces_read(t + panels, &of_over, own.over, (const size_t[]){ 0 }, 1, head->start, &own, err);
+        st = ss_traces_read(d.t, &span, reader, index, d.n, NAN, &own, err);
+    for (size_t k = 0; st == SS_OK && k < own.n_over; k++)
+        st = read_layer(&d, k, reader, index, err);
     if (st == SS_OK)
-        st = write_panels(out, head, &span, t, panels, &own, err);
-    if (t != NULL)
-        ss_traces_free(t, panels + 1);
+        st = write_panels(&d, head, err);
+    for (size_t k = 0; k < SS_PLOT_OVER; k++) {
+        ss_traces_free(d.layer[k].t, d.layer[k].n);
+        ss_traces_free(&d.layer[k].left, 1);
+        free(d.layer[k].t);
+        free(d.layer[k].panel);
+    }
+    ss_traces_free(d.t, d.t != NULL ? d.n : 0);
+    free(d.t);
     free(index);
-    free(t);
     return st;
 }

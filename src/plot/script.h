@@ -36,10 +36,19 @@ void ss_script_write_frame(FILE *out, double from, double to);
  * SCRIPT_LEGEND [cm] lower, in a picture so much higher. */
 #define SCRIPT_LEGEND 0.4
 void ss_script_write_key(FILE *out);
-/* The legend of a signal and another over it, whose names become the variables name and over_name, above their
- * panel. */
-void ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *signal,
-                            const ss_column *over);
+/* What a signal over another has behind the names of its variables: "", "2", "3", ... */
+extern const char *const ss_script_number[SS_PLOT_OVER];
+/* SS_EINVAL: there are too many over one. */
+ss_status ss_script_check_over(const ss_plot_opts *opts, ss_error *err);
+/* The variables colour, over, over2, ... */
+void ss_script_write_colours(FILE *out, const ss_plot_opts *opts);
+/* The height of the legend of opts->over [cm]; 0: none are drawn. */
+double ss_script_legend(const ss_plot_opts *opts);
+/* This legend above the panel; the names become the variables name, over_name, over_name2, ...  The columns are those
+ * of the signal and of the others. */
+void ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *const column[]);
+/* The same curve again for signal k over it: "$over2 using ..." behind the plot of the first. */
+void ss_script_write_over(FILE *out, size_t k, const char *block, int titled);
 
 /* Panels below one another, with one horizontal axis. */
 typedef struct script_stack {

@@ -8,8 +8,6 @@
 #include "base/error.h"
 #include "signal/gaps.h"
 
-enum { BLOCKS = 2048 };         /* of a column; more than a picture has columns of pixels, even when half full */
-
 /* --- rows ----------------------------------------------------------------------------------- */
 
 /* Of a number of rows that may be less than 0, or more than there are in any file; NaN: all. */
@@ -104,11 +102,27 @@ ss_series_free(series *s)
     free(s->value);
 }
 
+size_t
+ss_series_over(size_t column[], size_t panel[], const ss_header *head, const size_t drawn[], size_t n,
+               const ss_header *over, int alike)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < n && alike; i++) {
+        int same = ss_header_column(over, head->column[drawn[i]].name);
+        if (same >= 0) {
+            column[found] = (size_t)same;
+            panel[found++] = i;
+        }
+    }
+    if (found == 0)
+        column[0] = panel[0] = 0;
+    return found > 0 ? found : 1;
+}
+
 /* --- over time ------------------------------------------------------------------------------ */
 
-/* Find the extent of a trace that has been read, and what follows from it. */
-static ss_status
-end_trace(trace *t, const series *s, const script_span *span, ss_error *err)
+ss_status
+ss_trace_end(trace *t, const series *s, const script_span *span, ss_error *err)
 {
     t->extent = SCRIPT_NO_EXTENT;
     for (size_t i = 0; i < ss_extremes_count(&t->block); i++)
@@ -139,7 +153,7 @@ ss_traces_read(trace t[], script_span *span, ss_reader *reader, const size_t col
     if (st == SS_OK)
         st = ss_series_span(span, &s, opts, err);
     for (size_t c = 0; st == SS_OK && c < n; c++)
-        st = end_trace(&t[c], &s, span, err);
+        st = ss_trace_end(&t[c], &s, span, err);
     ss_series_free(&s);
     return st;
 }

@@ -36,6 +36,13 @@ ss_status ss_series_check(const ss_column *column, script_extent of_values, cons
 ss_status ss_series_rewind(series *s, ss_error *err);
 void ss_series_free(series *s);
 
+/* Which columns of another signal are drawn over these n of a signal, as ss_plot_opts.alike says: column[i] over
+ * panel[i].  Returns their number, 1 to n. */
+size_t ss_series_over(size_t column[], size_t panel[], const ss_header *head, const size_t drawn[], size_t n,
+                      const ss_header *over, int alike);
+
+enum { BLOCKS = 2048 };         /* of a column; more than a picture has columns of pixels, even when half full */
+
 /* A column that is drawn over time, reduced to the extremes of some blocks for each column of pixels. */
 typedef struct trace {
     const ss_column *column;
@@ -50,6 +57,8 @@ typedef struct trace {
  * gnuplot cannot draw a column, or all its values are missing. */
 ss_status ss_traces_read(trace t[], script_span *span, ss_reader *reader, const size_t column[], size_t n,
                          double start, const ss_plot_opts *opts, ss_error *err);
+/* Find the extent of a trace whose column and blocks are there, and what follows from it. */
+ss_status ss_trace_end(trace *t, const series *s, const script_span *span, ss_error *err);
 void ss_traces_free(trace t[], size_t n);
 /* A datablock of time and scaled values, in which gaps are blank lines. */
 void ss_trace_write(FILE *out, const char *name, const trace *t);

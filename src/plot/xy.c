@@ -13,6 +13,7 @@
 #include "base/list.h"
 
 #define ROOM 17.0               /* for labels [ems] */
+#define HEIGHT 6.5              /* [cm] */
 enum { CELLS = 2 * SCRIPT_COLUMNS };    /* along each axis */
 
 /* A line; a point that is NaN stands between two parts of it. */
@@ -137,14 +138,14 @@ write_path(FILE *out, const char *name, const path *p, const script_scale scale[
     fputs("EOD\n", out);
 }
 
-/* The path, and another over it unless it is NULL. */
+/* The path, and those over it. */
 static ss_status
-write_paths(FILE *out, const ss_header *head, const path *p, const path *over, const ss_plot_opts *opts,
-            ss_error *err)
+write_paths(FILE *out, const ss_header *head, const path p[], const ss_plot_opts *opts, ss_error *err)
 {
+    const ss_column *second[SS_PLOT_OVER + 1];
     script_scale scale[2];
     script_label label[2];
-    ss_status st = ss_script_begin(out, opts, head, 6.5, NULL, err);
+    ss_status st = ss_script_begin(out, opts, head, HEIGHT, NULL, err);
     if (st != SS_OK)
         return st;
     for (int k = 0; k < 2; k++) {
@@ -154,23 +155,31 @@ write_paths(FILE *out, const ss_header *head, const path *p, const path *over, c
     ss_script_write_x_label(out, &label[0], "0,0.3");
     ss_script_write_side_label(out, 1, &label[1]);
     ss_script_write_frame(out, 0.175, 0.965);
-    fputs("colour = '" BLUE "'\n", out);
+    ss_script_write_colours(out, opts);
     for (int k = 0; k < 2; k++) {
         script_extent drawn = p->extent[k];
-        if (over != NULL)
-            ss_script_widen(&drawn, over->extent[k]);
+        for (size_t i = 1; i <= opts->n_over; i++)
+            ss_script_widen(&drawn, p[i].extent[k]);
         ss_script_write_tics(out, k == 0 ? "xtics" : "ytics", ss_script_scaled_extent(drawn, scale[k]), 6);
     }
-    write_path(out, "$path", p, scale);
-    if (over != NULL) {
-        fputs("over = '" VERMILION "'\n", out);
-        write_path(out, "$over", over, scale);
-        ss_script_write_legend(out, opts, p->column[1], over->column[1]);
+    for (size_t i = 0; i <= opts->n_over; i++) {
+        char block[16];
+        snprintf(block, sizeof block, i == 0 ? "$path" : "$over%s", i == 0 ? "" : ss_script_number[i - 1]);
+        write_path(out, block, &p[i], scale);
+        second[i] = p[i].column[1];
     }
-    ss_print(out, "unset grid; set tmargin at screen %s; set bmargin at screen 0.16\n"
+    if (opts->n_over > 0)
+        ss_script_write_legend(out, opts, second);
+    ss_print(out, "unset grid; set tmargin at screen %.4g; set bmargin at screen 0.16\n"
              "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
-             "plot $path using 1:2 with lines lw 1 lc rgb colour%s\n", over != NULL ? "0.85" : "0.91",
-             over != NULL ? " title name, $over using 1:2 with lines lw 1 lc rgb over title over_name" : "");
+             "plot $path using 1:2 with lines lw 1 lc rgb colour%s", 0.91 - 0.975 * ss_script_legend(opts) / HEIGHT,
+             opts->n_over > 0 ? " title name" : "");
+    for (size_t i = 0; i < opts->n_over; i++) {
+        char block[24];
+        snprintf(block, sizeof block, "$over%s using 1:2", ss_script_number[i]);
+        ss_script_write_over(out, i, block, 1);
+    }
+    putc('\n', out);
     return ss_script_end(out);
 }
 
@@ -190,21 +199,24 @@ ss_status
 ss_plot_xy(FILE *out, ss_reader *reader, size_t x, size_t y, const ss_plot_opts *opts, ss_error *err)
 {
     ss_plot_opts own;
-    path p = { .n = 0 }, over = { .n = 0 };
+    path p[SS_PLOT_OVER + 1] = { { .n = 0 } };
     size_t column[2] = { x, y };
     if (out == NULL || reader == NULL)
         return SS_FAIL_NULL(err);
     const ss_header *head = ss_reader_header(reader);
     ss_status st = ss_script_take(&own, opts, err);
     if (st == SS_OK)
-        st = read_path(&p, reader, column, NAN, &own, err);
-    if (st == SS_OK && own.over != NULL)
-        st = find_over(column, ss_reader_header(own.over), &p, err);
-    if (st == SS_OK && own.over != NULL)
-        st = read_path(&over, own.over, column, head->start, &own, err);
+        st = ss_script_check_over(&own, err);
     if (st == SS_OK)
-        st = write_paths(out, head, &p, own.over != NULL ? &over : NULL, &own, err);
-    free(p.point);
-    free(over.point);
+        st = read_path(p, reader, column, NAN, &own, err);
+    for (size_t k = 0; st == SS_OK && k < own.n_over; k++) {
+        st = find_over(column, ss_reader_header(own.over[k]), p, err);
+        if (st == SS_OK)
+            st = read_path(&p[k + 1], own.over[k], column, head->start, &own, err);
+    }
+    if (st == SS_OK)
+        st = write_paths(out, head, p, &own, err);
+    for (size_t k = 0; k <= SS_PLOT_OVER; k++)
+        free(p[k].point);
     return st;
 }

@@ -1,7 +1,7 @@
 # Wrong usage is exit 2, wrong data exit 1, each with a line.
 ss-sim -o run.tsv coulomb
 ss-morlet --dyadic run.tsv -o run.h5
-for options in '-o a.gif' '--xy x' '--xy x,' '--xy x,f -c a' '--from x' 'one two' '--nonsense' '--db' \
+for options in '-o a.gif' '--xy x' '--xy x,' '--xy x,f -c a' '--from x' '--map a,b one two' '--nonsense' '--db' \
     '--spectrum --xy x,f' '--resolution 0 --spectrum'; do
     # shellcheck disable=SC2086  # several words
     ss-plot $options > /dev/null || echo $?
