@@ -241,13 +241,15 @@ is_hit(const decay *d)
     return d->n_blocks >= FEW && b[0].left / b[0].free > HIT * fmax(b[1].left / b[1].free, b[2].left / b[2].free);
 }
 
-/* 1: the last block leaves more than those before, by 5 standard deviations: the motion's end is in it. */
+/* 1: the motion's end is in the last block: it leaves more than those before, by 5 standard deviations, or it loses
+ * an e-fold, as no block before a stop does. */
 static int
 is_stop(const decay *d)
 {
     const block *b = d->block + d->n_blocks - 1;
     double usual = fmin(b[-1].left / b[-1].free, b[-2].left / b[-2].free);
-    return d->n_blocks > FEW && b->left / b->free > usual * (1 + 5 * sqrt(2 / b->free));
+    return d->n_blocks > FEW && (b->at.s * (double)(b->end - b->first) > 1
+                                 || b->left / b->free > usual * (1 + 5 * sqrt(2 / b->free)));
 }
 
 /* The noise of each block, from those about it, re the amplitude that is smooth: else those that noise makes large
