@@ -4,6 +4,10 @@ ss-sim compliant-light -o run.tsv
 ss-plot run.tsv -o figure1.pdf
 ss-plot --xy x,f run.tsv -o loop.png
 ss-plot -c a --from 1 --to 2 run.tsv > a.gp
+ss-plot -c a --title '' run.tsv > a.gp
+gnuplot -e "set terminal cairolatex pdf size 8.5cm,4cm" -e "set output 'a.tex'" a.gp 2> warnings
+grep -c 'includegraphics.*{a}' a.tex
+head -c 4 a.pdf; echo; rm a.tex a.pdf warnings
 mkdir squeal
 for f in 1200 2345; do
     ss-signal sine --frequency $f --rate 25600 --duration 1 | ss-noise --snr 20 |

@@ -16,6 +16,7 @@ done
 EOF
 python3 -c 'import numpy' 2> /dev/null || printf '#!/bin/sh\n' > bin/python3
 command -v Rscript > /dev/null || printf '#!/bin/sh\n' > bin/Rscript
+command -v ffmpeg > /dev/null || printf '#!/bin/sh\n[ -s frame0.png ] && [ -s frame4.png ] && : > run.mp4\n' > bin/ffmpeg
 command -v h5dump > /dev/null || printf '#!/bin/sh\n' > bin/h5dump
 # shellcheck disable=SC2016  # for the script written
 command -v sox > /dev/null ||
