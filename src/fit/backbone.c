@@ -326,6 +326,7 @@ static int
 is_known(const decay *d, double w, size_t n)
 {
     double width = 12 / (double)n, lo = INFINITY, hi = 0;
+    double blocks = 2 * M_PI * (double)d->n_blocks / (double)(d->block[d->n_blocks - 1].end - d->block->first);
     int known = 0;
     for (size_t i = 0; i < d->n_blocks; i++) {
         lo = fmin(lo, d->block[i].at.w);
@@ -335,7 +336,7 @@ is_known(const decay *d, double w, size_t n)
         known |= w > h * lo * (1 - (h == 1 ? NEAR : NEAR / 5)) - width
             && w < h * hi * (1 + (h == 1 ? NEAR : NEAR / 5)) + width;
     for (size_t i = 0; i < d->beside.n; i++)
-        known |= fabs(w - d->beside.w[i]) < 4 * d->beside.s[i] + width;
+        known |= fabs(w - d->beside.w[i]) < fmax(4 * d->beside.s[i] + width, blocks);
     return known;
 }
 
@@ -361,23 +362,20 @@ line_decay(double *w, const double *left, size_t n)
     return fmax(-(t_level - t * level / sum) / spread, 0);
 }
 
-/* Add to those beside it the strongest line, if it stands out.  Returns 0 if none does. */
+/* Of the first n samples of what is left, by how much the strongest line that is not known stands out of the
+ * spectrum's median, and its frequency and decay; 0: none is above what matters. */
 static ss_status
-add_line(decay *d, int *found)
+find_beside(const decay *d, const double *left, size_t n, double *ratio, double *w, double *s)
 {
-    size_t n, size = 2, best = 0;
-    double *left = leave(d, &n);
+    size_t size = 2, best = 0;
     real_fft f = { NULL, NULL };
-    *found = 0;
     while (size < 2 * n)
         size *= 2;
-    if (left == NULL || ss_real_fft_new(&f, size, 0) != SS_OK) {
-        free(left);
+    if (ss_real_fft_new(&f, size, 0) != SS_OK)
         return SS_ENOMEM;
-    }
     memset(f.x, 0, size * sizeof *f.x);
-    for (size_t i = 0; i < n; i++)
-        f.x[i] = left[i] * (1 - cos(2 * M_PI * ((double)i + .5) / (double)n));
+    for (size_t i = 0; i < n; i++)              /* other modes die out: what is at the start is not tapered */
+        f.x[i] = left[i] * (1 + cos(M_PI * ((double)i + .5) / (double)n)) / 2;
     ss_real_fft_run(&f);
     double unit = 2 * M_PI / (double)size, *power = f.x;
     for (size_t k = 0; k <= size / 2; k++)
@@ -386,20 +384,38 @@ add_line(decay *d, int *found)
         if (power[k] > power[k - 1] && power[k] > power[k + 1] && power[k] > power[best]
             && !is_known(d, (double)k * unit, n))
             best = k;
-    double w = (double)best * unit, peak = power[best];
+    double peak = power[best], least = FAINT * exp(d->block[d->n_blocks - 1].level) * (double)n / 4;
     size_t some = size / 2 < SOME ? size / 2 : SOME;        /* of the terms tell what is usual */
     for (size_t i = 0; i < some; i++)
         power[i] = power[i * (size / 2 / some)];
     qsort(power, some, sizeof *power, ss_ascending);
-    double least = FAINT * exp(d->block[d->n_blocks - 1].level) * (double)n / 2;
-    if (peak > OUTSTANDING * power[some / 2] && peak > least * least) {
-        *found = 1;
-        d->beside.s[d->beside.n] = line_decay(&w, left, n);
-        d->beside.w[d->beside.n++] = w;
-    }
+    *ratio = best > 0 && peak > least * least ? peak / power[some / 2] : 0;
+    *w = (double)best * unit;
+    *s = line_decay(w, left, n);
     ss_real_fft_free(&f);
-    free(left);
     return SS_OK;
+}
+
+/* Add to those beside it the strongest line, if it stands out, of all that is left or of what is left at first. */
+static ss_status
+add_line(decay *d, int *found)
+{
+    size_t n;
+    double best = OUTSTANDING, ratio, w, s, *left = leave(d, &n);
+    ss_status st = left != NULL ? SS_OK : SS_ENOMEM;
+    *found = 0;
+    for (; st == SS_OK && (double)n * d->w > PARTS * 2 * M_PI; n /= 2) {
+        st = find_beside(d, left, n, &ratio, &w, &s);
+        if (st == SS_OK && ratio > best) {
+            best = ratio;
+            *found = 1;
+            d->beside.w[d->beside.n] = w;
+            d->beside.s[d->beside.n] = s;
+        }
+    }
+    d->beside.n += *found ? 1 : 0;
+    free(left);
+    return st;
 }
 
 /* --- levels without phase -------------------------------------------------------------------- */
@@ -519,7 +535,7 @@ find(decay *d, const double *x, size_t n, decay_source *source)
     st = d->w > 0 ? take_record(d, x, n) : SS_OK;
     if (st == SS_OK && d->w > 0)
         st = find_extent(d);
-    for (int more = d->w > 0; st == SS_OK && more;) {
+    for (int more = d->w > 0, most = LINES_MAX; st == SS_OK && more;) {
         more = 0;
         st = follow(d);
         while (st == SS_OK && is_hit(d)) {
@@ -534,7 +550,10 @@ find(decay *d, const double *x, size_t n, decay_source *source)
             d->stop = "the motion stops";
             st = settle(d);
         }
-        if (st == SS_OK && d->n_blocks >= FEW && d->beside.n < LINES_MAX)
+        if (st == SS_OK && d->n_blocks < FEW && d->beside.n > 0) {
+            most = (int)--d->beside.n;          /* with that line no block tells them apart */
+            more = 1;
+        } else if (st == SS_OK && d->n_blocks >= FEW && (int)d->beside.n < most)
             st = add_line(d, &more);
     }
     return st;
