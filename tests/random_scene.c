@@ -88,6 +88,11 @@ random_scene(uint64_t number)
         s.v0 *= X / largest;
     }
     s.friction = draw(&r, "f_k/(k X)") * s.stiffness * X;
+    if (ss_key_named(s.model, "friction") == NULL) {        /* the rig is a pull alone, near its steady slide */
+        s.base_velocity = (X > 0 ? X : 1) * omega;
+        s.v0 = s.base_velocity * between(&r, .5, 1);
+        s.friction = s.base_amplitude = s.base_frequency = s.phase = s.x0 = 0;
+    }
     draw_own(&r, &s, number >= RANDOM_NEWER);
     double fastest = fastest_of(&s);
     /* ten of the slowest periods, or RANDOM_STEPS of the longest steps if that is less */

@@ -128,7 +128,8 @@ loads_a_shipped_scene_by_its_name_and_a_file_by_its_path(void **state)
     unlink(path);
     snprintf(wanted, sizeof wanted, "%s: no such file, and the shipped scenes are compliant-heavy, "
              "compliant-light, coulomb, state-variable, chaos, dahl, den-hartog-stops, den-hartog, free-decay, "
-             "leine, lugre, pulled-slider, shaw, subharmonic", path);
+             "leine, lugre, pulled-slider, rate-and-state-lab, rate-and-state-mild, "
+             "shaw, subharmonic", path);
     assert_int_equal(ss_scene_load(&b, path, NULL, 0, &err), SS_EIO);
     assert_string_equal(err.text, wanted);
     assert_int_equal(ss_scene_load(&b, "/tmp", NULL, 0, &err), SS_EIO);
@@ -150,7 +151,8 @@ static const struct { const char *text, *setting; ss_status status; const char *
     { "model=compliant\n" GOOD "contact_stiffness = 3\n", NULL, SS_EDATA,
       "my.scene:8: missing key 'contact_damping', which model compliant needs" },
     { "model=sliding\n", NULL, SS_EDATA, "my.scene:1: model is 'sliding', but must be one of "
-      "coulomb, state-variable, compliant, stribeck, lugre, bouc-wen" },
+      "coulomb, state-variable, compliant, stribeck, lugre, bouc-wen, "
+      "rate-and-state" },
     { "model=coulomb\n" GOOD "static_friction = .5\n", NULL, SS_EDATA, "my.scene:7: static_friction is less "
       "than friction, it must be at least as large" },
     { "model=coulomb\nstatic_friction=2\n" GOOD, "friction=3", SS_EINVAL, "static_friction is less than "

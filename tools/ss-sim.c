@@ -95,7 +95,7 @@ static void
 list_scenes(const ss_shipped_scene *s)
 {
     for (; s->name != NULL; s++)
-        printf("%-16s %s\n", s->name, s->summary);
+        printf("%-19s %s\n", s->name, s->summary);
 }
 
 static void TOOL_NORETURN

@@ -46,6 +46,11 @@ typedef enum ss_measure {
     SS_LYAPUNOV,        /* largest Lyapunov exponent [1/s], without that of a shift in time: the rate at
                            which neighbouring motions separate; negative: they approach */
     SS_LYAPUNOV_ERROR,  /* its standard error; 0 for a periodic motion, whose multiplier gives it */
+    /* of the rate-and-state model alone */
+    SS_PEAK_VELOCITY,   /* max x' [m/s] */
+    SS_FORCE_DROP,      /* the spring's greatest force less its least [N] */
+    SS_GROWTH,          /* the rate at which a small difference from the steady slide grows [1/s], negative
+                           where it dies out; known without a cycle */
     SS_MEASURES
 } ss_measure;
 

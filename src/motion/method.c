@@ -85,7 +85,8 @@ ss_method_pair(const ss_scene *scene, int pair, const char *name[2])
     const struct method *first = ss_method_for(scene, pair == 0 ? BEST : USUAL);
     int closed = has_closed_form(scene), m = closed && pair == 1 ? TAYLOR : (int)(first - list);
     name[0] = list[m].name;
-    name[1] = list[m == EXACT ? TAYLOR : m == TAYLOR ? RK8PD : m == RK8PD ? RKCK : MSBDF].name;
+    int implicit = scene->model->next != NULL ? BSIMP : MSBDF;
+    name[1] = list[m == EXACT ? TAYLOR : m == TAYLOR ? RK8PD : m == RK8PD ? RKCK : implicit].name;
     return pair <= closed;
 }
 
@@ -115,6 +116,10 @@ ss_method_named(const struct method **how, const char *name, const ss_scene *sce
     if (kind == MULTISTEP && model->next != NULL && model->derivatives == NULL)
         return ss_fail(err, SS_EINVAL, "method %s does not repeat a step, by which alone %s of "
                        "the %s model are found", name, model->kinks ? "kinks" : "events", model->name);
+    if (i < RK1IMP && model->from_pull && is_stiff(scene))
+        return ss_fail(err, SS_EINVAL, "method %s: its steps would be millions, as between slips the friction of "
+                       "this scene follows the force within %.2g s; %s is implicit", name,
+                       1 / model->quickest(scene), list[BSIMP].name);
     *how = &list[i];
     return SS_OK;
 }

@@ -34,10 +34,19 @@ ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *er
     scale[0] = m->x_scale > 0 ? m->x_scale : 1;     /* 1 where nothing moves */
     scale[1] = scale[0] * fmax(m->omega, own_frequency(m->scene));
     scale[2] = memory > 0 ? memory : 1;
+    if (m->model->scales != NULL)
+        m->model->scales(m, scale);
     for (size_t i = 0; i < m->model->dim; i++)
         if (!(isfinite(scale[i]) && tol * scale[i] > 0))
             return ss_fail(err, SS_ERANGE, "amplitudes of this scene lie beyond double precision");
     return SS_OK;
+}
+
+/* Logarithms as large as 100 keep the tolerance, as far as rounding lets them. */
+double
+ss_motion_relative(const state *m, double tol)
+{
+    return m->model->scales != NULL ? fmax(tol / 100, 32 * DBL_EPSILON) : tol;
 }
 
 /* Let u count from the start of the present step, and positions from where the pulled end of the spring
@@ -111,6 +120,8 @@ enum { CHATTER_EVENTS = 1000 };
 ss_status
 ss_motion_chatters(const motion *m, double lasted, int *in_a_row, ss_error *err)
 {
+    if (m->now.over != NULL)
+        return ss_fail(err, SS_EDATA, "%s: the motion ends at t = %.9g s", m->now.over, m->origin.hi);
     double period = 2 * M_PI / m->now.model->fastest(&m->now, NULL);
     *in_a_row = lasted > CHATTER_PART * period ? 0 : *in_a_row + 1;
     if (*in_a_row <= CHATTER_EVENTS)

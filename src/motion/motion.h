@@ -27,6 +27,10 @@ double ss_step_floor(const state *m);
  * such a tolerance is not above 0. */
 ss_status ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *err);
 
+/* The tolerances are relative to these, times the tolerance, and this part of the state's size: the tolerance
+ * itself, unless the state is logarithms, of which a difference counts however large they are. */
+double ss_motion_relative(const state *m, double tol);
+
 /* The motion at t = 0, before its first mode; exact is 1 if a closed form moves it. */
 motion ss_motion_of(const ss_scene *scene, int exact, double tol);
 int ss_motion_start(motion *m);                     /* enter the first mode; 1 if that is slip */
@@ -54,7 +58,7 @@ motion_sample(const motion *m, turn base, double u, const double q[], const doub
         return;
     s->s += now->drag;
     double pulled = scene->base_velocity * m->origin.hi;
-    s->x += pulled + scene->surface_velocity * u;
+    s->x += pulled + (now->model->from_pull ? scene->base_velocity : scene->surface_velocity) * u;
     s->v += scene->surface_velocity;
     s->z += pulled + scene->base_velocity * u + (scene->base != NULL ? measured_base(now, u) : 0);
 }

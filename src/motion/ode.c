@@ -23,6 +23,9 @@
 /* A curve has room for as many parts of the state as fill a vector register. */
 enum { LANES = 4 };
 
+/* The inside of a long step is a polynomial through its ends and so many steps within. */
+enum { NODES = 12 };
+
 typedef struct ode {
     engine base;
     gsl_odeiv2_system system;
@@ -31,6 +34,10 @@ typedef struct ode {
     int multistep;
     int has_curve;                          /* of the last step; asked for by the first at() in it */
     double curve[2 * ORDERS + 2][LANES];    /* its coefficients in s / h */
+    int has_nodes;                          /* 1: the polynomial keeps the tolerance; -1: it does not; 0: not
+                                               known */
+    double place[NODES + 1], node[NODES + 1][MAX_DIM];
+    double scale[MAX_DIM];
     double h_next;
     double tol;
     double shortest;                        /* the shortest step allowed [s] */
@@ -134,21 +141,22 @@ all_finite(const double q[], size_t n)
  * with steps long enough to need no such replacement.) */
 #define BSIMP_ZERO 0x1p-46
 
-/* One step over h from the start of the present one, in the units for GSL.  dydt, unless it is NULL,
- * becomes the rate of change at its end if the method knows it. */
+/* One step over h from q, s after the start of the present step, in the units for GSL.  dydt, unless it is NULL,
+ * becomes the rate of change at its end if the method knows it.  Returns 1 if its end is finite. */
 static int
-apply(ode *o, gsl_odeiv2_step *step, double h, double y[], double error[], double dydt[])
+apply(ode *o, gsl_odeiv2_step *step, double s, const double q[], const double dqdt[], double h, double y[],
+      double error[], double dydt[])
 {
-    const engine *e = &o->base;
-    const state *m = &e->m->now;
-    double dydt_in[MAX_DIM], v = m->q[1] != 0 ? m->q[1] : e->dq0[1];
-    to_units(o, m->q, y);
-    to_units(o, e->dq0, dydt_in);
-    for (size_t i = 0; i < o->system.dimension; i++)
+    double dydt_in[MAX_DIM], v = q[1] != 0 ? q[1] : dqdt[1];
+    size_t dim = o->system.dimension;
+    to_units(o, q, y);
+    to_units(o, dqdt, dydt_in);
+    for (size_t i = 0; i < dim; i++)
         if (y[i] == 0)
             y[i] = copysign(o->zero[i], v);
-    return gsl_odeiv2_step_apply(step, m->u, h, y, error,
-                                 step->type->can_use_dydt_in ? dydt_in : NULL, dydt, &o->system);
+    int st = gsl_odeiv2_step_apply(step, o->base.m->now.u + s, h, y, error,
+                                   step->type->can_use_dydt_in ? dydt_in : NULL, dydt, &o->system);
+    return st == GSL_SUCCESS && all_finite(y, dim) && all_finite(error, dim);
 }
 
 /* Try steps of decreasing size from the start of the step until one keeps the tolerance. */
@@ -170,15 +178,21 @@ ode_step(engine *e, double h_max, ss_error *err)
     for (;;) {
         double h_adjusted = h / 2;
         int verdict = GSL_ODEIV_HADJ_DEC;
-        int failed = apply(o, step, h, y, error, dydt);
-        if (!failed && all_finite(y, dim) && all_finite(error, dim)) {
+        if (apply(o, step, 0, m->q, e->dq0, h, y, error, dydt)) {
             h_adjusted = h;
             verdict = gsl_odeiv2_control_hadjust(o->driver->c, step, y, error, dydt, &h_adjusted);
         }
         if (verdict != GSL_ODEIV_HADJ_DEC) {
+            from_units(o, y, e->q1);
+            if (step->type->gives_exact_dydt_out)
+                from_units(o, dydt, e->dq1);
+            else
+                rates(o, m->u + h, e->q1, e->dq1);
             if (h >= o->h_next || h_adjusted > o->h_next)
                 o->h_next = h_adjusted;     /* one cut short by h_max does not show the next length */
-            break;
+            if (all_finite(e->dq1, dim))
+                break;
+            h_adjusted = h / 2;
         }
         if (!(h_adjusted >= o->shortest))
             return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the "
@@ -186,15 +200,71 @@ ode_step(engine *e, double h_max, ss_error *err)
                            o->shortest);
         o->h_next = h = h_adjusted;
     }
-    from_units(o, y, e->q1);
-    if (step->type->gives_exact_dydt_out)
-        from_units(o, dydt, e->dq1);
-    else
-        rates(o, m->u + h, e->q1, e->dq1);
     e->h = h;
     e->steps++;
-    o->has_curve = 0;
+    o->has_curve = o->has_nodes = 0;
     return SS_OK;
+}
+
+/* The state at s by a step of its own, or by shorter ones where it fails. */
+static void
+step_to(ode *o, double s, double q[])
+{
+    const engine *e = &o->base;
+    double y[MAX_DIM], error[MAX_DIM], dqdt[MAX_DIM], h = s;
+    memcpy(q, e->m->now.q, sizeof e->q1);
+    memcpy(dqdt, e->dq0, sizeof dqdt);
+    for (double at = 0; at < s && h > o->shortest;) {
+        if (!apply(o, o->side, at, q, dqdt, fmin(h, s - at), y, error, NULL)) {
+            h /= 2;
+            continue;
+        }
+        at += fmin(h, s - at);
+        from_units(o, y, q);
+        if (at < s)
+            rates(o, e->m->now.u + at, q, dqdt);
+    }
+}
+
+/* The polynomial through the nodes, which lie as the extrema of a Chebyshev polynomial do (Berrut and Trefethen,
+ * SIAM Rev. 46, 501, 2004). */
+static void
+read_nodes(const ode *o, double x, double q[])
+{
+    double sum[MAX_DIM] = { 0 }, all = 0;
+    for (int j = 0; j <= NODES; j++) {
+        double far = x - o->place[j], weight = (j % 2 == 0 ? 1 : -1) / (j % NODES == 0 ? 2 * far : far);
+        if (far == 0) {
+            memcpy(q, o->node[j], sizeof o->node[j]);
+            return;
+        }
+        all += weight;
+        for (int i = 0; i < MAX_DIM; i++)
+            sum[i] += weight * o->node[j][i];
+    }
+    for (int i = 0; i < MAX_DIM; i++)
+        q[i] = sum[i] / all;
+}
+
+/* Take the steps, and two more in the widest gaps, where the polynomial serves if it keeps a step's tolerance. */
+static void
+find_nodes(ode *o)
+{
+    const engine *e = &o->base;
+    double q[MAX_DIM], read[MAX_DIM], relative = ss_motion_relative(&e->m->now, o->tol);
+    memcpy(o->node[0], e->m->now.q, sizeof e->q1);
+    memcpy(o->node[NODES], e->q1, sizeof e->q1);
+    for (int j = 1; j < NODES; j++)
+        step_to(o, o->place[j] * e->h, o->node[j]);
+    o->has_nodes = 1;
+    for (int j = NODES / 2; j <= NODES / 2 + 1; j++) {
+        double x = (o->place[j - 1] + o->place[j]) / 2;
+        step_to(o, x * e->h, q);
+        read_nodes(o, x, read);
+        for (size_t i = 0; i < o->system.dimension; i++)
+            if (!(fabs(read[i] - q[i]) <= o->tol * o->scale[i] + relative * fabs(q[i])))
+                o->has_nodes = -1;
+    }
 }
 
 /* The Taylor coefficients in s / h of a state and its derivatives. */
@@ -254,12 +324,14 @@ ode_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
 {
     ode *o = (ode *)e;
     const state *m = &e->m->now;
-    double y[MAX_DIM], error[MAX_DIM];
     (void)where;
     int inside = s > 0 && s < e->h && !e->lands_on_samples;
-    if (inside && o->side != NULL) {
-        apply(o, o->side, s, y, error, NULL);
-        from_units(o, y, q);
+    if (inside && o->side != NULL && m->model->from_pull && o->has_nodes == 0)
+        find_nodes(o);
+    if (inside && o->has_nodes > 0) {
+        read_nodes(o, s / e->h, q);
+    } else if (inside && o->side != NULL) {
+        step_to(o, s, q);
     } else if (inside) {
         if (!o->has_curve)
             draw_curve(o);
@@ -345,14 +417,17 @@ ss_ode_new(engine **out, motion *of, const char *name, int multistep, double tol
     o->multistep = multistep;
     o->tol = tol;
     o->h_next = fmax(ss_step_cap(m), ss_step_floor(m));
+    for (int j = 0; j <= NODES; j++)
+        o->place[j] = pow(sin(M_PI / 2 * j / NODES), 2);
     for (size_t k = 0; k < m->model->dim; k++) {
+        o->scale[k] = scale[k];
         o->unit[k] = ldexp(1, ilogb(scale[k]));
         scale[k] /= o->unit[k];
     }
     if (type == gsl_odeiv2_step_bsimp && m->x_scale > 0 && !m->model->linear)
         set_zeros(o);
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, type, o->h_next,
-                                                   tol, tol, 1, 0, scale);
+                                                   tol, ss_motion_relative(m, tol), 1, 0, scale);
     int sides = m->model->derivatives == NULL && !multistep;
     if (sides)
         o->side = gsl_odeiv2_step_alloc(type, m->model->dim);

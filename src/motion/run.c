@@ -255,7 +255,7 @@ check_length(const sampler *r, const state *m, int exact, ss_error *err)
     const char *what;
     const ss_scene *s = r->scene;
     double length = s->settle + s->duration, end, steps = length / ss_step_cap(m);
-    double slow = fmax(own_frequency(s), m->omega);
+    double own = fmax(own_frequency(s), m->omega), slow = fmin(own, m->model->fastest(m, NULL));
     double least = length * STEPS_PER_PERIOD * slow / (2 * M_PI), most = r->work * (exact ? 10 : 1);
     if (m->model->still != NULL && m->model->still(m, &end))
         return SS_OK;
@@ -267,7 +267,7 @@ check_length(const sampler *r, const state *m, int exact, ss_error *err)
         return SS_OK;
     return ss_fail(err, SS_EBUDGET, "%.3g s are at least %.3g steps of 1/%d of the period of %s: more "
                    "than %.3g are done only if max_steps asks for them", length, least, STEPS_PER_PERIOD,
-                   m->omega >= slow ? "the base" : "the spring", most);
+                   slow < own ? what : m->omega >= slow ? "the base" : "the spring", most);
 }
 
 /* Make a step, at most up to the next knot of a measured base.  *h becomes its length, or the time to the

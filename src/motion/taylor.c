@@ -36,6 +36,7 @@ typedef struct taylor {
     int order;
     double tol;
     double scale[MAX_DIM];                  /* of the state's parts */
+    double relative;                        /* of their size, such a part counts as scale */
     double shortest;                        /* the shortest step allowed in the mode [s] */
     double longest;
     double next;                            /* the length of the next step, about [s] */
@@ -62,7 +63,7 @@ tolerated(const taylor *t)
     double largest = 0, sum = 0;
     for (size_t i = 0; i < MAX_DIM; i++) {
         double term = fabs(last[i]) > fabs(before[i]) ? fabs(last[i]) : fabs(before[i]);
-        double size = term / (t->scale[i] + fabs(q[i]));
+        double size = term / (t->scale[i] + t->relative * fabs(q[i]));
         largest = size > largest ? size : largest;
         sum += last[i] + before[i];
     }
@@ -352,6 +353,7 @@ taylor_keep(engine *e, double tol)
     taylor *t = (taylor *)e;
     t->order = order_of(tol);
     t->tol = tol;
+    t->relative = ss_motion_relative(&e->m->now, tol) / tol;
 }
 
 static const struct engine_type taylor_type = {

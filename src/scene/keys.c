@@ -29,7 +29,7 @@ static const scene_key of_motion[] = {
     KEY_TEXT(base_file, PATH),
     KEY_TEXT(base_column, ANY_TEXT),
 };
-enum { OF_MOTION = sizeof of_motion / sizeof *of_motion };
+enum { OF_MOTION = sizeof of_motion / sizeof *of_motion, OF_EVERY_RIG = 3 };
 
 static const scene_key of_record[] = {
     KEY_NUMBER(settle, OPTIONAL, NOT_NEGATIVE, "s"),
@@ -41,9 +41,10 @@ enum { OF_RECORD = sizeof of_record / sizeof *of_record };
 const scene_key *
 ss_key_at(const ss_model *model, size_t i)
 {
-    if (i < OF_MOTION)
+    size_t rig = model->rig_is_own ? OF_EVERY_RIG : OF_MOTION;
+    if (i < rig)
         return &of_motion[i];
-    i -= OF_MOTION;
+    i -= rig;
     if (i < model->n_keys)
         return &model->keys[i];
     i -= model->n_keys;

@@ -125,11 +125,12 @@ set_own(ss_scene *scene, given *g, struct key_origin last, ss_error *err)
             at.line = -1;               /* the setting that chose the model is at fault, not the file */
         if (k == NULL)
             return fail_at(at, err, "model %s has no key '%s'", model->name, one->key->name);
-        if (!ss_key_is_own(k->offset))
-            continue;
-        if (k->word == NULL)
+        int own = ss_key_is_own(k->offset), good = 1;
+        if (own && k->word == NULL)
             *number_at(scene, k->offset) = one->value;
-        else if (!ss_value_read(scene, k, one->word, wrong))
+        else if (own)
+            good = ss_value_read(scene, k, one->word, wrong);
+        if (!good || !ss_value_check(scene, k, wrong))
             return fail_at(at, err, "%s", wrong);
     }
     return SS_OK;

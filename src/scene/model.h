@@ -64,6 +64,7 @@ typedef struct state {
     double graze;                   /* a contact no farther beyond its limit only touches it [m] */
     double slack;                   /* graze, if the contact has touched in this microstick; else 0 */
     unsigned long touches;          /* so far */
+    const char *over;               /* why the motion ends here; NULL: it goes on */
 
     double theta;                   /* phase of the base at u = 0 [rad] */
     double u;                       /* the instant [s], from an origin that the integrator sets */
@@ -116,6 +117,7 @@ struct ss_model {
     const char *name;               /* in scenes */
     const scene_key *keys;          /* keys that not every scene has (keys.c has the others) */
     size_t n_keys;
+    int rig_is_own;                 /* 1: the rig is among them, all of it but mass and spring */
     const ss_scene_range *ranges;   /* ranges that not every scene has (ranges.c has the others) */
     size_t n_ranges;
     parameter parameter[PARAMETERS];
@@ -130,6 +132,8 @@ struct ss_model {
     int has_contact;                /* 1: it has an elastic contact, with contact_stiffness and
                                        contact_damping */
     int kinks;                      /* 1: modes end where the law has a kink, which is no event */
+    int from_pull;                  /* 1: its position is that relative to the pulled end of the spring, and
+                                       mode 0 is motion slower than this end */
     unsigned force_varies;          /* IN_STICK, IN_SLIP */
 
     /* Change a scene to one with the same motion that keeps the shape of this motion when f_k and Z_e
@@ -142,6 +146,8 @@ struct ss_model {
     double (*fastest)(const state *m, const char **what);
     /* A faster rate, for which the tolerance may shorten steps further [rad/s]; NULL if none. */
     double (*quickest)(const ss_scene *scene);
+    /* Set the scales of the state's numbers; NULL: those of ss_motion_scales serve. */
+    void (*scales)(const state *m, double scale[]);
     /* The longest step from the present state whose error an integrator can estimate; NULL if the
      * cap of `fastest` suffices. */
     double (*sight)(const state *m, const double dqdt[]);
@@ -178,6 +184,10 @@ struct ss_model {
      * base.  The caller fills in t, z and s. */
     void (*sample)(const state *m, double drive, const double q[], const double dqdt[],
                    ss_sample *s);
+    /* The speed of the mass over the surface; NULL: it is the second number of the state. */
+    double (*speed)(const state *m);
+    /* The state of a steady slide with the pull; NULL if the model knows none. */
+    void (*equilibrium)(const ss_scene *scene, double q[]);
     /* The quantity, beside x and v, on which the further motion depends: the third number of the
      * state, if it has one.  *unit becomes its scale.  NULL if there is none. */
     double (*memory)(const state *m, double *unit);
@@ -246,6 +256,18 @@ sight_of(double v, double front, double a, double jerk)
 {
     double far = fabs(v) / 2 + front;
     return 2 * far / (fabs(a) + sqrt(a * a + 2 * fabs(jerk) * far));
+}
+
+static inline double
+speed_of(const state *m)
+{
+    return m->model->speed != NULL ? m->model->speed(m) : m->q[1];
+}
+
+static inline double
+frame_pull(const state *m)                          /* of the spring's end in the frame of the state [m/s] */
+{
+    return m->model->from_pull ? 0 : pull_of(m->scene);
 }
 
 static inline int

@@ -12,7 +12,8 @@
     row(compliant) \
     row(stribeck) \
     row(lugre) \
-    row(bouc_wen)
+    row(bouc_wen) \
+    row(rate_and_state)
 
 #define MODEL_DECLARATION(name) extern const ss_model ss_##name##_model;
 MODEL_LIST(MODEL_DECLARATION)

@@ -9,6 +9,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "scene/model.h"
+#include "scene/scene.h"
 #include "scene/value.h"
 
 const ss_scene ss_scene_defaults = { .duration = 10, .rate = 2000 };
@@ -51,6 +52,9 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
     for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++)
         if ((k->required != TERM || ss_key_is_named(scene, k)) && !ss_value_check(scene, k, wrong))
             return ss_fail(err, SS_EINVAL, "%s", wrong);
+    for (size_t i = 0; model->rig_is_own && (k = ss_key_at(ss_model_at(0), i)) != NULL; i++)
+        if (ss_key_of_field(model, k->offset) == NULL && ss_key_is_named(scene, k))
+            return ss_fail(err, SS_EINVAL, "model %s has no key '%s'", model->name, k->name);
     if ((scene->base != NULL || *scene->base_file != '\0') && scene->base_amplitude != 0)
         return ss_fail(err, SS_EINVAL, TWO_BASES);
     const char *less = ss_scene_static_is_less(scene);

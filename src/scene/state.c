@@ -8,7 +8,7 @@ ss_state_of(const ss_scene *scene, double tol)
     state m = { .scene = scene, .model = scene->model,
                 .omega = 2 * M_PI * scene->base_frequency,
                 .drive = scene->stiffness * scene->base_amplitude,
-                .ramp = scene->stiffness * pull_of(scene),
+                .ramp = scene->model->from_pull ? 0 : scene->stiffness * pull_of(scene),
                 .drag = scene->damping * scene->surface_velocity,
                 .moves = scene->base_velocity != 0 || scene->surface_velocity != 0
                     || scene->base != NULL,

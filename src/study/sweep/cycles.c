@@ -30,7 +30,7 @@ ss_section_of(const motion *at)
 {
     const state *m = &at->now;
     double unit;
-    double x = m->x_ref + m->q[0] - pull_of(m->scene) * m->u;
+    double x = m->x_ref + m->q[0] - frame_pull(m) * m->u;
     return (section){ x, m->q[1], memory_of(m, &unit) };
 }
 
@@ -61,8 +61,11 @@ ss_cycles_begin(cycles *c)
     const state *m = &c->w.m.now;
     c->n = 0;
     c->status = ss_walk_begin(&c->w, c->scene, &sim, c->err);
-    c->unit = (section){ m->x_scale, m->x_scale * fmax(m->omega, own_frequency(m->scene)), 1 };
-    memory_of(m, &c->unit.y);
+    double scale[MAX_DIM] = { m->x_scale, m->x_scale * fmax(m->omega, own_frequency(m->scene)), 1 };
+    memory_of(m, &scale[2]);
+    if (m->model->scales != NULL)
+        m->model->scales(m, scale);
+    c->unit = (section){ scale[0], scale[1], scale[2] };
     if (c->autonomous)
         ss_cycles_go(c, 1, NULL);
 }
@@ -127,7 +130,7 @@ carry(tangent *t, const walk *w)
                 + leg[i][D_V] * before.d[D_V][j];
 }
 
-/* Walk one leg.  Returns 1 if a stick begins at its end. */
+/* Walk one leg.  Returns 1 if at its end a stick begins, or the mass becomes slower than its pull. */
 static int
 go_leg(cycles *c, double longest, meter *r, tangent *t)
 {
@@ -156,7 +159,7 @@ go_leg(cycles *c, double longest, meter *r, tangent *t)
         variation->cross(&w->m.now, mode, &by, q, rates, w->e->dq0, t->d);
     }
     if (!is_event)
-        return 0;
+        return w->m.now.model->from_pull && mode != 0 && w->m.now.mode == 0;
     if (r != NULL)
         ss_meter_event(r, &event);
     return event.kind == SS_STICK;
@@ -178,9 +181,9 @@ static void
 go_to_onset(cycles *c, int n, meter *r, tangent *t)
 {
     const state *m = &c->w.m.now;
-    double own = 2 * M_PI / own_frequency(c->scene), slipped = 0, since = (double)c->w.e->rhs;
+    double own = 2 * M_PI / fmin(own_frequency(c->scene), m->model->fastest(m, NULL)), slipped = 0, since = (double)c->w.e->rhs;
     for (int onsets = 0; onsets < n;) {
-        int slips = m->mode != 0, is_still = !slips && m->model->still != NULL;
+        int slips = m->mode != 0 || m->model->from_pull, is_still = !slips && m->model->still != NULL;
         check_work(c, since, n);
         int sticks = c->status == SS_OK && go_leg(c, is_still ? INFINITY : own, r, t);
         if (c->status != SS_OK)
@@ -378,26 +381,35 @@ ss_tangent_solve(const tangent *t, const double unit[D_MOST], const double r[D_M
 }
 
 ss_status
-ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle)
+ss_eigenvalues(const double *matrix, gsl_complex value[D_MOST])
 {
-    double d[D_MOST][D_MOST], sum = 0;
-    gsl_complex value[D_MOST];
-    gsl_matrix_view matrix = gsl_matrix_view_array(d[0], D_MOST, D_MOST);
+    double d[D_MOST * D_MOST], sum = 0;
+    gsl_matrix_view of = gsl_matrix_view_array(d, D_MOST, D_MOST);
     gsl_vector_complex_view values = gsl_vector_complex_view_array((double *)value, D_MOST);
-    *first = *second = *angle = NAN;
-    memcpy(d, t->d, sizeof d);
     for (int i = 0; i < D_MOST * D_MOST; i++)
-        sum += d[i / D_MOST][i % D_MOST];
+        sum += d[i] = matrix[i];
+    for (int i = 0; i < D_MOST; i++)
+        value[i] = gsl_complex_rect(NAN, NAN);
     if (!isfinite(sum))
         return SS_OK;
     gsl_eigen_nonsymm_workspace *w = gsl_eigen_nonsymm_alloc(D_MOST);
     if (w == NULL)
         return SS_ENOMEM;
     gsl_eigen_nonsymm_params(0, 1, w);          /* balanced: x and v differ by powers of ten */
-    int st = gsl_eigen_nonsymm(&matrix.matrix, &values.vector, w);
+    if (gsl_eigen_nonsymm(&of.matrix, &values.vector, w) != 0)
+        value[0] = gsl_complex_rect(NAN, NAN);
     gsl_eigen_nonsymm_free(w);
-    if (st != 0)
-        return SS_OK;
+    return SS_OK;
+}
+
+ss_status
+ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle)
+{
+    gsl_complex value[D_MOST];
+    ss_status st = ss_eigenvalues(t->d[0], value);
+    *first = *second = *angle = NAN;
+    if (st != SS_OK || isnan(GSL_REAL(value[0])))
+        return st;
     *first = -1;
     for (int i = 0; i < D_MOST; i++) {
         double modulus = gsl_complex_abs(value[i]);

@@ -1,16 +1,18 @@
 /* cycles.h -- a motion cycle by cycle, and its derivative with respect to the state at its start.
  *
  * A cycle is a cycle of the forcing.  In a scene without forcing (autonomous), it goes from one
- * onset of stick to the next, and its duration may vary. */
+ * onset of stick to the next, or where nothing sticks from one time at which the mass becomes slower than
+ * its pull to the next; its duration may vary. */
 #ifndef CYCLES_H
 #define CYCLES_H
 
 #include <float.h>
+#include <gsl/gsl_complex.h>
 #include "motion/method.h"
 #include "study/sweep/meter.h"
 
-/* The state at the start of a cycle: x - U t, v over the surface, and y of the model (memory), 0
- * if it has none. */
+/* The state at the start of a cycle: x - U t, v over the surface (the second number of a state that has none),
+ * and y of the model (memory), 0 if it has none. */
 typedef struct section {
     double x, v, y;
 } section;
@@ -70,6 +72,8 @@ typedef enum derivative_use {
 void ss_cycles_derive(cycles *c, int n, derivative_use use, tangent *t);
 /* d = (I - t)^-1 r, computed in these units; 0 in a direction that t does not change. */
 void ss_tangent_solve(const tangent *t, const double unit[D_MOST], const double r[D_MOST], double d[D_MOST]);
+/* The eigenvalues of a matrix of D_MOST rows and columns; the first is NaN if they are not known.  SS_ENOMEM. */
+ss_status ss_eigenvalues(const double *matrix, gsl_complex value[D_MOST]);
 /* The moduli of the largest and of the second multiplier, and the argument of the largest, 0 ... pi;
  * NaN if t is not finite.  SS_ENOMEM. */
 ss_status ss_tangent_multipliers(const tangent *t, double *first, double *second, double *angle);

@@ -10,15 +10,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { RANGE = 1u << SS_AMPLITUDE | 1u << SS_X_MAX };
+enum { RANGE = 1u << SS_AMPLITUDE | 1u << SS_X_MAX | 1u << SS_FORCE_DROP,
+       FAST = 1u << SS_V_MAX | 1u << SS_PEAK_VELOCITY };
 
 void
 ss_meter_begin(meter *r, unsigned wanted, const state *m)
 {
-    unsigned inside = 1u << SS_V_MAX | 1u << SS_A_MAX | 1u << SS_TRANSITION;
+    unsigned inside = FAST | 1u << SS_A_MAX | 1u << SS_TRANSITION;
     if (m->model->force_varies || pull_of(m->scene) != 0)   /* if not, modes end at all extrema of x */
         inside |= RANGE | 1u << SS_ENERGY;
-    *r = (meter){ .wanted = wanted, .needs_course = (wanted & inside) != 0,
+    *r = (meter){ .wanted = wanted, .stiffness = m->scene->stiffness, .needs_course = (wanted & inside) != 0,
                   .x_lo = INFINITY, .x_hi = -INFINITY, .slip = m->mode, .in_first = 1 };
 }
 
@@ -36,7 +37,7 @@ point_of(walk *w, double s, const double q[], const double dqdt[])
     ss_sample sample;
     m->model->sample(m, base_force(m, m->u + s), q, dqdt, &sample);
     double U = m->scene->base_velocity, S = m->scene->surface_velocity;
-    point p = { s, sample.x - (U - S) * (m->u + s), sample.v - (U - S), sample.v + S, sample.a, 0,
+    point p = { s, sample.x - frame_pull(m) * (m->u + s), sample.v - (U - S), sample.v + S, sample.a, 0,
                 sample.f, sample.x, sample.v };
     if (w->still)
         return p;
@@ -194,8 +195,7 @@ work_between(walk *w, double lo, double hi)
 static void
 measure_part(meter *r, walk *w, const point *lo, const point *hi)
 {
-    static const unsigned by_rate[] = { RANGE, 1u << SS_V_MAX,
-                                        1u << SS_A_MAX | 1u << SS_TRANSITION };
+    static const unsigned by_rate[] = { RANGE, FAST, 1u << SS_A_MAX | 1u << SS_TRANSITION };
     for (rate which = OF_X; which <= OF_A; which++)
         if ((r->wanted & by_rate[which]) && rate_of(lo, which) * rate_of(hi, which) < 0) {
             point p = extremum(w, *lo, *hi, which);
@@ -306,5 +306,7 @@ ss_meter_end(meter *r, int cycles, int closes, double value[])
     value[SS_ENERGY] = r->energy / cycles;
     value[SS_MICROSLIPS] = (double)r->microslips / (2 * cycles);
     value[SS_CYCLE_TIME] = r->time / cycles;
+    value[SS_PEAK_VELOCITY] = r->v_max;
+    value[SS_FORCE_DROP] = r->stiffness * (r->x_hi - r->x_lo);
     value[SS_TRANSITION] = r->spacings > 0 ? (double)r->spacings / (2 * r->spacing) : NAN;
 }

@@ -30,6 +30,7 @@ typedef struct meter {
     unsigned wanted;
     course *course;                 /* NULL: not wanted */
     int needs_course;               /* 1: the inside of the legs is needed, not only their ends */
+    double stiffness;
     double time, stick, x_lo, x_hi, v_max, a_max, energy;
     size_t stops, microslips;
     int slip, first_slip;           /* directions of the last slip, and of the first one if the slip

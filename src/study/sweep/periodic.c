@@ -33,8 +33,8 @@ record_strobes(finder *f, const motion *start, int n)
 {
     ss_cycles_begin_at(&f->c, start);
     for (int i = 0; f->c.status == SS_OK && i < n; i++) {
-        section at = ss_section_of(&f->c.w.m);
-        f->out->strobe[f->out->n_strobes++] = (ss_strobe){ at.x, at.v + f->c.scene->surface_velocity };
+        double v = speed_of(&f->c.w.m.now) + f->c.scene->surface_velocity;
+        f->out->strobe[f->out->n_strobes++] = (ss_strobe){ ss_section_of(&f->c.w.m).x, v };
         ss_cycles_go(&f->c, 1, NULL);
     }
 }
@@ -62,7 +62,7 @@ measure_cycles(finder *f, int n, int period)
     ss_meter_end(&r, n, period > 0, value);
     value[SS_PERIOD] = period;
     value[SS_X_PHASE] = at.x;
-    value[SS_V_PHASE] = at.v + c->scene->surface_velocity;
+    value[SS_V_PHASE] = speed_of(&start.now) + c->scene->surface_velocity;
     if (period > 0 && (o->measures & (FLOQUET | LYAPUNOV))) {
         find_multipliers(f, &start, period);
     } else if (o->measures & LYAPUNOV) {
@@ -458,13 +458,14 @@ settle_as_asked(finder *f)
 enum { APPROACH = 4 };
 
 /* Without forcing, even differences that are small beside x change the time of the next onset so much that
- * finite differences give no derivative: the method must compute it, unless a true stick makes it 0. */
+ * finite differences give no derivative: the method must compute it, unless a true stick makes it 0, or the
+ * differences lie in the section at which cycles begin. */
 int
 ss_periodic_can_shoot(const ss_scene *scene, const struct method *how)
 {
     const ss_model *model = scene->model;
     return model->variation != NULL
-        && (scene->base_frequency > 0 || model->still != NULL || ss_method_follows(how));
+        && (scene->base_frequency > 0 || model->still != NULL || model->from_pull || ss_method_follows(how));
 }
 
 ss_status

@@ -20,13 +20,14 @@ ss_steady_opts_init(ss_steady_opts *opts, size_t size)
 }
 
 /* What a measure needs of a model. */
-enum { STICKS = 1, RINGS = 2, DIFFERS = 4, LIMIT = 8 };
+enum { STICKS = 1, RINGS = 2, DIFFERS = 4, LIMIT = 8, SLIDES = 16 };
 
 static unsigned
 what_has(const ss_model *m)
 {
     return (ss_model_has_events(m) ? STICKS : 0u) | (m->in_transition != NULL ? RINGS : 0u)
-        | (m->variation != NULL ? DIFFERS : 0u) | (m->limit != NULL ? LIMIT : 0u);
+        | (m->variation != NULL ? DIFFERS : 0u) | (m->limit != NULL ? LIMIT : 0u)
+        | (m->equilibrium != NULL ? SLIDES : 0u);
 }
 
 static const struct {
@@ -60,6 +61,9 @@ static const struct {
     [SS_MODEL_ERROR_F_RMS] = { { "model_error_f_rms", "" }, LIMIT },
     [SS_LYAPUNOV] = { { "lyapunov", "1/s" }, DIFFERS },
     [SS_LYAPUNOV_ERROR] = { { "lyapunov_error", "1/s" }, DIFFERS },
+    [SS_PEAK_VELOCITY] = { { "peak_velocity", "m/s" }, SLIDES },
+    [SS_FORCE_DROP] = { { "force_drop", "N" }, SLIDES },
+    [SS_GROWTH] = { { "growth", "1/s" }, SLIDES },
 };
 
 const ss_label *
@@ -199,7 +203,7 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, const struct meth
                        "double precision");
     if (scene->base != NULL)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
-    if (!(what_has(scene->model) & STICKS))
+    if (!(what_has(scene->model) & (STICKS | SLIDES)))
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle, and no stick with "
                        "which one could begin");
     if (scene->base_velocity == scene->surface_velocity)
@@ -214,12 +218,29 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, const struct meth
                    scene->model->name, ss_method_follower_names());
 }
 
+/* The rate at which the fastest growing difference from a steady slide grows; negative: it dies out. */
+static ss_status
+find_growth(const ss_scene *scene, double *growth)
+{
+    state m = ss_state_of(scene, 1);
+    double d[MAX_DIM * MAX_DIM], by_time[MAX_DIM];
+    gsl_complex value[MAX_DIM];
+    m.model->equilibrium(scene, m.q);
+    m.model->jacobian(&m, 0, m.q, d, by_time);
+    ss_status st = ss_eigenvalues(d, value);
+    *growth = GSL_REAL(value[0]);
+    for (int i = 1; i < MAX_DIM; i++)
+        *growth = fmax(*growth, GSL_REAL(value[i]));
+    return st;
+}
+
 ss_status
 ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *given, ss_error *err)
 {
     ss_steady_opts own, *opts = &own;
     if (out == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
+    double growth = NAN;
     ss_status limit = SS_OK, st = ss_options_take(&own, sizeof own, &usual, given, err);
     if (st != SS_OK)
         return st;
@@ -235,7 +256,10 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *give
         return st;
     finder f = { .c = { .scene = scene, .opts = opts, .err = err, .how = method_of(opts, scene) }, .out = out };
     st = check_cycle(scene, opts, f.c.how, err);
-    if (st != SS_OK)
+    if (st == SS_OK && (opts->measures & 1u << SS_GROWTH) && find_growth(scene, &growth) != SS_OK)
+        st = ss_fail_memory(err, NULL);
+    out->value[SS_GROWTH] = growth;
+    if (st != SS_OK || opts->measures == 1u << SS_GROWTH)
         return st;
     st = ss_periodic_find(&f);
     if (st == SS_OK && (opts->measures & MODEL_ERRORS) && out->value[SS_PERIOD] > 0)
@@ -244,6 +268,7 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *give
     for (int i = 0; i < SS_MEASURES; i++)
         if (st != SS_OK || !(opts->measures & 1u << i) || !isfinite(out->value[i]))
             out->value[i] = i == SS_PERIOD && st == SS_OK ? out->value[i] : NAN;
+    out->value[SS_GROWTH] = growth;
     if (limit != SS_OK)
         return limit == SS_ENOMEM ? ss_fail_memory(err, NULL) : SS_EDATA;
     return st == SS_OK ? check_complete(&f) : st;

@@ -4,7 +4,7 @@ rows() { grep -v '^#' | awk -F '\t' '{ for (i = 2; i < NF; i++) printf "%.6f ", 
 gaps() {        # of the events: how long each lasts, from the third on
     grep -v '^#' | awk -F '\t' 'NR > 3 { printf "%s %.6f\n", kind, $1 - t } { t = $1; kind = $2 }' | sort -u
 }
-ss-sim --list | grep -c -e chaos -e hartog -e decay -e leine -e pulled -e shaw -e subharmonic
+ss-sim --list | grep -c -e chaos -e hartog -e decay -e leine -e pulled -e rate-and -e shaw -e subharmonic
 ss-sweep --measure stops,amplitude --vary friction=0.5:0.5:1 den-hartog | rows
 ss-sweep --measure stops,stick,amplitude,floquet --vary friction=0.9:0.9:1 den-hartog-stops | rows
 ss-sim --events pulled-slider | gaps
@@ -18,4 +18,9 @@ ss-sweep --measure stops,amplitude,x_max,floquet --vary base_frequency=0.458:0.4
 ss-sim -c t,s pulled-slider | ss-plot -o slider.png
 ss-sim -c t,x,v leine | ss-plot --xy x,v -o leine.png
 ss-sim -c t,x,v shaw | ss-plot --xy x,v -o shaw.png
-for picture in slider leine shaw; do [ -s $picture.png ] || echo "no picture of $picture"; done
+ss-sweep --measure cycle_time,peak_velocity,force_drop,growth --vary stiffness=1000:2000:3 rate-and-state-mild | rows
+ss-sweep --measure growth --vary stiffness=49500:50600:12 rate-and-state-lab | rows
+ss-sim -c v,f -s settle=60 -s duration=16 -s rate=5000 rate-and-state-lab |
+    awk '/^# columns/ { $0 = "# columns: lnV mu" } !/^#/ { $0 = log($1) "\t" $2 / 100 } 1' |
+    ss-plot --xy lnV,mu -o plane.png
+for picture in slider leine shaw plane; do [ -s $picture.png ] || echo "no picture of $picture"; done

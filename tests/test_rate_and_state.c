@@ -1,0 +1,313 @@
+/* test_rate_and_state.c -- rate-and-state friction as a scene: limit cycles and stability against digits on which
+ * two independent methods agree, and motions against the slider of the inversion and against each other. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stickslip.h>
+
+#include "extremes/runs.h"
+#include "fit/slider.h"
+#include "near.h"
+#include "scene/model.h"
+#include "shipped.h"
+
+#define BIT(m) (1u << (m))
+
+static ss_scene
+scene_of(int is_lab, int is_slip)
+{
+    ss_scene s = read_shipped_named(is_lab ? "rate-and-state-lab" : "rate-and-state-mild");
+    ss_scene_set_text(&s, "law", is_slip ? "slip" : "aging", NULL);
+    return s;
+}
+
+static ss_steady
+steady_of(const ss_scene *scene, unsigned measures, const char *method)
+{
+    ss_steady_opts opts;
+    ss_steady out;
+    ss_error err = { 0 };
+    ss_steady_opts_init(&opts, sizeof opts);
+    opts.measures = measures;
+    opts.method = method;
+    if (ss_steady_find(&out, scene, &opts, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    return out;
+}
+
+/* --- limit cycles and stability ------------------------------------------------------------------ */
+
+/* Each digit is shown by two methods; 1e-8 is asked for, and the digits end at 3e-11 to 7e-10 of the numbers. */
+static void
+cycles_have_the_known_digits(void **unused)
+{
+    static const double truth[2][2][4] = {
+        { { .2274109419237, .02277703794843, .0833701529378, .006273909372853 },
+          { .218276236022, .02034409128259, .0674333444419, .006196666105741 } },
+        { { 15.22062821, .07161155591, .149026635, .00622700604675 },
+          { 10.09465167059, .0464031064637, .096120901988, .005969775974669 } } };
+    static const char *const method[] = { NULL, "bsimp" };
+    const unsigned all = BIT(SS_CYCLE_TIME) | BIT(SS_PEAK_VELOCITY) | BIT(SS_FORCE_DROP) | BIT(SS_X_MAX)
+        | BIT(SS_PERIOD);
+    (void)unused;
+    for (int i = 0; i < 8; i++) {
+        int lab = i & 1, slip = i >> 1 & 1;
+        const double *is = truth[lab][slip];
+        ss_scene s = scene_of(lab, slip);
+        ss_steady at = steady_of(&s, all, method[i >> 2]);
+        near("period", at.value[SS_CYCLE_TIME] / is[0], 1, 1e-9);
+        near("peak V", at.value[SS_PEAK_VELOCITY] / is[1], 1, 1e-9);
+        near("drop", at.value[SS_FORCE_DROP] / ss_scene_get(&s, "normal_force") / is[2], 1, 3.4e-9);
+        near("largest d", at.value[SS_X_MAX] / is[3], 1, 1e-9);
+        assert_true(at.value[SS_PERIOD] == 1);
+    }
+}
+
+static double
+growth_at(ss_scene s, double stiffness)
+{
+    s.stiffness = stiffness;
+    return steady_of(&s, BIT(SS_GROWTH), NULL).value[SS_GROWTH];
+}
+
+/* By the eigenvalues of an independent program; the last digit is its eighth.  Both laws are alike. */
+static void
+a_steady_slide_grows_unstable_as_known(void **unused)
+{
+    static const double by[] = { .98, .99, 1.01, 1.02 }, k_c[] = { 5500, 50050 };
+    static const double truth[2][4] = { { .032344882, .016127049, -.016036907, -.031984311 },
+                                        { .049949527, .024974888, -.024975137, -.049950523 } };
+    (void)unused;
+    for (int i = 0; i < 16; i++) {
+        int lab = i / 8, k = i % 4;
+        near("growth", growth_at(scene_of(lab, i / 4 % 2), by[k] * k_c[lab]), truth[lab][k], 2e-9);
+    }
+    for (int lab = 0; lab < 2; lab++) {         /* k_c = (b - a) N/Dc (1 + m U^2/(a N Dc)) */
+        ss_scene s = scene_of(lab, 0);
+        double lo = .9 * k_c[lab], hi = 1.1 * k_c[lab];
+        for (int i = 0; i < 40; i++)
+            *(growth_at(s, (lo + hi) / 2) > 0 ? &lo : &hi) = (lo + hi) / 2;
+        near("k_c", lo / k_c[lab], 1, 1e-10);
+    }
+}
+
+/* With the pull's speed it slides on as it is; without a cycle, ss-sweep says so and knows the growth alone. */
+static void
+a_stable_slide_stays(void **unused)
+{
+    ss_scene s = scene_of(1, 0);
+    ss_steady_opts opts;
+    ss_steady at;
+    ss_error err = { 0 };
+    (void)unused;
+    s.stiffness = 60000;
+    s.v0 = 0;
+    run r = run_with(&s, NULL, 1e-12, 0);
+    assert_int_equal(r.status, SS_OK);
+    for (size_t i = 0; i < r.n; i++)            /* w = f/(N a) = 60 is rounded to 1e-14 */
+        if (!(fabs(r.sample[i].v / s.base_velocity - 1) < 1e-12))
+            fail_msg("V = %.15g at %g s", r.sample[i].v, r.sample[i].t);
+    run_free(&r);
+    ss_steady_opts_init(&opts, sizeof opts);
+    opts.measures = BIT(SS_CYCLE_TIME) | BIT(SS_GROWTH);
+    opts.max_cycles = 10;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EDATA);
+    assert_non_null(strstr(err.text, "slides on"));
+    assert_true(isnan(at.value[SS_CYCLE_TIME]) && at.value[SS_GROWTH] < 0);
+}
+
+/* --- motions ------------------------------------------------------------------------------------- */
+
+/* Without mass the slider of the inversion is the same law by another program, in ln V and ln theta.  Its load
+ * point leaps within 1e-10 s, the scene begins behind this leap.  Inertia changes mu by m V'/N, of which
+ * V' < V^2/Dc, 1e-13 in all. */
+static void
+slides_without_inertia_as_the_inversion_does(void **unused)
+{
+    enum { N = 400 };
+    const double U = 1e-6, leap = 1e-10;
+    (void)unused;
+    for (int law = 0; law < 2; law++) {
+        double t[N + 2] = { 0, leap }, load[N + 2] = { 0 }, g[N + 2];
+        ss_scene s = scene_of(1, law);
+        s.mass = 1e-8;
+        s.stiffness = 1000;
+        s.base_velocity = U;
+        s.v0 = 10 * U;
+        s.rate = N / 40.;
+        s.duration = 40;
+        ss_scene_set(&s, "normal_force", 1, NULL);
+        ss_scene_set(&s, "evolution_effect", .007, NULL);
+        ss_scene_set(&s, "reference_velocity", U, NULL);
+        s.x0 = -(.6 + .01 * log(10)) / s.stiffness;
+        run r = run_with(&s, "bsimp", 1e-12, 0);
+        assert_int_equal(r.status, SS_OK);
+        load[1] = .01 * log(10) / s.stiffness;
+        for (int i = 1; i < N; i++) {
+            t[i + 1] = r.sample[i].t;
+            load[i + 1] = load[1] + U * t[i + 1];
+        }
+        const slider quiet = { law, .7, 1e-5, 1000 / .01, U };
+        assert_int_equal(ss_slider_run(g, &quiet, t, load, N + 1, 1e-13), SS_OK);
+        double worst = 0;
+        for (int i = 1; i < N; i++)
+            worst = fmax(worst, fabs(r.sample[i].f - (.6 + .01 * g[i + 1])));
+        near(law ? "slip" : "aging", worst, 0, 2e-12);      /* the leap lasts 1e-10 V/Dc of an age */
+        run_free(&r);
+    }
+}
+
+/* The inside of a long step of bsimp against Taylor's, which is the same series as its step.  At 1e-12 a step may
+ * leave 1e-12 of a N/k and of w, which is ln V; a second has a hundred steps. */
+static void
+the_inside_of_steps_agrees_with_taylor(void **unused)
+{
+    (void)unused;
+    for (int law = 0; law < 2; law++) {
+        ss_scene s = scene_of(0, law);
+        s.settle = 0;
+        run a = run_with(&s, "taylor", 1e-13, 0), b = run_with(&s, "bsimp", 1e-12, 0);
+        assert_true(a.status == SS_OK && b.status == SS_OK && a.n == b.n && a.n == 2000);
+        double x = 0, V = 0, f = 0;
+        for (size_t i = 0; i < a.n; i++) {
+            x = fmax(x, fabs(a.sample[i].x - b.sample[i].x));
+            V = fmax(V, fabs(b.sample[i].v / a.sample[i].v - 1));
+            f = fmax(f, fabs(a.sample[i].f - b.sample[i].f));
+        }
+        near("x", x, 0, 1e-14);
+        near("V", V, 0, 1e-10);
+        near("f", f, 0, 1e-11);
+        run_free(&a);
+        run_free(&b);
+    }
+}
+
+/* Steps do not depend on samples, and a sample not on the others; times are rounded to 4e-15 s, V is at most
+ * .07 m/s. */
+static void
+samples_do_not_depend_on_the_rate(void **unused)
+{
+    ss_scene s = scene_of(1, 0);
+    (void)unused;
+    s.duration = 20;
+    run fine = run_with(&s, NULL, 1e-8, 0);
+    s.rate = 10;
+    run coarse = run_with(&s, NULL, 1e-8, 0);
+    assert_true(fine.status == SS_OK && coarse.status == SS_OK && fine.stats.steps == coarse.stats.steps);
+    for (size_t i = 0; i < coarse.n; i++)
+        assert_true(fabs(coarse.sample[i].x - fine.sample[100 * i].x) < 1e-15);
+    run_free(&fine);
+    run_free(&coarse);
+}
+
+/* 53 s took 8 ms in 1e5 right-hand sides; that of a sample costs a few products. */
+static void
+a_laboratory_minute_costs_little(void **unused)
+{
+    (void)unused;
+    for (int law = 0; law < 2; law++) {
+        ss_scene s = scene_of(1, law);
+        s.rate = 1 / s.duration;
+        run r = run_with(&s, NULL, 1e-8, 0);
+        print_message("%lu steps, %lu right-hand sides\n", r.stats.steps, r.stats.rhs);
+        assert_true(r.status == SS_OK && r.stats.rhs < 120000);
+        run_free(&r);
+    }
+}
+
+/* --- what it refuses ------------------------------------------------------------------------------- */
+
+static void
+ends_where_the_spring_goes_slack(void **unused)
+{
+    ss_scene s = scene_of(0, 0);
+    (void)unused;
+    s.settle = 0;
+    s.v0 = 1;                                   /* it would go v0/omega_n, five times d */
+    run r = run_with(&s, NULL, 1e-10, 0);
+    assert_int_equal(r.status, SS_EDATA);
+    assert_non_null(strstr(r.err.text, "the spring is slack"));
+    for (size_t i = 0; i < r.n; i++)
+        assert_true(r.sample[i].s > 0);
+    run_free(&r);
+    s.x0 = 1e-9;
+    r = run_with(&s, NULL, 1e-10, 0);
+    assert_true(r.status == SS_EDATA && r.n == 0);
+    run_free(&r);
+}
+
+static void
+explicit_methods_refuse_millions_of_steps(void **unused)
+{
+    static const char *const method[] = { "rk8pd", "taylor", "rkck" };
+    (void)unused;
+    for (int i = 0; i < 3; i++) {
+        ss_scene lab = scene_of(1, 0), mild = scene_of(0, 0);
+        run a = run_with(&lab, method[i], 1e-8, 0), b = run_with(&mild, method[i], 1e-8, 0);
+        assert_true(a.status == SS_EINVAL && b.status == SS_OK);
+        assert_non_null(strstr(a.err.text, "steps would be millions"));
+        run_free(&a);
+        run_free(&b);
+    }
+}
+
+/* Fields that only other models have must be 0. */
+static void
+has_no_belt_and_no_moving_base(void **unused)
+{
+    ss_scene s = scene_of(0, 0);
+    ss_error err = { 0 };
+    (void)unused;
+    s.surface_velocity = 1;
+    assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
+    assert_string_equal(err.text, "model rate-and-state has no key 'surface_velocity'");
+    s = scene_of(0, 0);
+    s.base_frequency = 1;
+    assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
+    s = scene_of(0, 0);
+    s.base_velocity = 0;
+    assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
+}
+
+/* The Jacobian against differences of the rates, in which half the step's digits are left. */
+static void
+the_jacobian_is_that_of_the_rates(void **unused)
+{
+    static const double q[3] = { -.005, 55, -3 };
+    (void)unused;
+    for (int law = 0; law < 2; law++) {
+        ss_scene s = scene_of(0, law);
+        s.damping = 3;
+        state m = ss_state_of(&s, 1e-12);
+        double d[9], by_time[3], up[3], down[3];
+        m.model->jacobian(&m, 0, q, d, by_time);
+        for (int j = 0; j < 3; j++) {
+            double p[3] = { q[0], q[1], q[2] }, h = 1e-5 * (j == 0 ? 1e-3 : 1);
+            p[j] = q[j] + h;
+            m.model->rates(&m, 0, p, up);
+            p[j] = q[j] - h;
+            m.model->rates(&m, 0, p, down);
+            for (int i = 0; i < 3; i++)
+                near("row, column", (up[i] - down[i]) / (2 * h), d[3 * i + j], 1e-8 * (fabs(d[3 * i + j]) + 1));
+        }
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cycles_have_the_known_digits),
+        cmocka_unit_test(a_steady_slide_grows_unstable_as_known),
+        cmocka_unit_test(a_stable_slide_stays),
+        cmocka_unit_test(slides_without_inertia_as_the_inversion_does),
+        cmocka_unit_test(the_inside_of_steps_agrees_with_taylor),
+        cmocka_unit_test(samples_do_not_depend_on_the_rate),
+        cmocka_unit_test(a_laboratory_minute_costs_little),
+        cmocka_unit_test(ends_where_the_spring_goes_slack),
+        cmocka_unit_test(explicit_methods_refuse_millions_of_steps),
+        cmocka_unit_test(has_no_belt_and_no_moving_base),
+        cmocka_unit_test(the_jacobian_is_that_of_the_rates),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
