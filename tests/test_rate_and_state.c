@@ -215,6 +215,22 @@ a_laboratory_minute_costs_little(void **unused)
     }
 }
 
+/* The Stribeck law in its place drops as far, about, by 2 (f_s - f_k), since inertia carries the slip through; and
+ * Coulomb friction with the same f_s and f_k follows.  Its drop is that of the law of aging within 2 %, and so is the
+ * time in which the pull makes up for it; the slip lasts .03 s, and the nucleation, which it lacks, about .3 s. */
+static void
+a_falling_law_drops_as_far(void **unused)
+{
+    ss_scene lab = scene_of(1, 0), falling, coulomb;
+    (void)unused;
+    assert_string_equal(ss_scene_simpler(&falling, &lab, 0), "stribeck");
+    assert_string_equal(ss_scene_simpler(&coulomb, &lab, 1), "coulomb");
+    near("drop", 2 * (falling.static_friction - falling.friction) / 100 / .149026635, 1, .02);
+    assert_true(coulomb.friction == falling.friction && coulomb.static_friction == falling.static_friction);
+    ss_steady at = steady_of(&coulomb, BIT(SS_CYCLE_TIME) | BIT(SS_STICK_FRACTION), NULL);
+    near("period", at.value[SS_CYCLE_TIME], 15.22062821, .02 * 15.22 + .33);
+}
+
 /* --- what it refuses ------------------------------------------------------------------------------- */
 
 static void
@@ -304,6 +320,7 @@ main(void)
         cmocka_unit_test(the_inside_of_steps_agrees_with_taylor),
         cmocka_unit_test(samples_do_not_depend_on_the_rate),
         cmocka_unit_test(a_laboratory_minute_costs_little),
+        cmocka_unit_test(a_falling_law_drops_as_far),
         cmocka_unit_test(ends_where_the_spring_goes_slack),
         cmocka_unit_test(explicit_methods_refuse_millions_of_steps),
         cmocka_unit_test(has_no_belt_and_no_moving_base),

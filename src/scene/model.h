@@ -203,6 +203,7 @@ struct ss_model {
 };
 
 void ss_to_compliant(ss_scene *scene, double stiffness, double gap);    /* compliant.c: an undamped contact */
+void ss_to_stribeck(ss_scene *scene, double speed);  /* stribeck.c: with f_s and f_k of the scene, and v_s */
 void ss_to_coulomb(ss_scene *scene);                 /* coulomb.c: the limit of most models */
 
 static inline double

@@ -1,5 +1,6 @@
 /* stribeck.c -- friction that falls with speed, in slip; true stick (stick.c):
  * f = sgn(v) (f_k + (f_s - f_k) p(u)), u = |v / v_s|^delta, p = 1 / (1 + u) or exp(-u). */
+#include <string.h>
 #include "scene/models.h"
 
 enum { SPEED, EXPONENT, SHAPE };        /* v_s; delta, 0: it is 1; p */
@@ -195,3 +196,11 @@ MODEL(stribeck) = {
     .still = ss_stick_still, .next = ss_stick_next, .sample = sample, .variation = &ss_stick_variation,
     .drive = drive
 };
+
+void
+ss_to_stribeck(ss_scene *scene, double speed)
+{
+    scene->model = &ss_stribeck_model;
+    memset(scene->own, 0, sizeof scene->own);
+    scene->own[SPEED] = speed;
+}

@@ -181,7 +181,8 @@ static void
 go_to_onset(cycles *c, int n, meter *r, tangent *t)
 {
     const state *m = &c->w.m.now;
-    double own = 2 * M_PI / fmin(own_frequency(c->scene), m->model->fastest(m, NULL)), slipped = 0, since = (double)c->w.e->rhs;
+    double own = 2 * M_PI / fmin(own_frequency(c->scene), m->model->fastest(m, NULL)), slipped = 0;
+    double most = (double)c->opts->max_cycles * (m->model->from_pull ? own / 60 : own), since = (double)c->w.e->rhs;
     for (int onsets = 0; onsets < n;) {
         int slips = m->mode != 0 || m->model->from_pull, is_still = !slips && m->model->still != NULL;
         check_work(c, since, n);
@@ -190,9 +191,11 @@ go_to_onset(cycles *c, int n, meter *r, tangent *t)
             return;
         onsets += sticks;
         slipped = slips && !sticks ? slipped + c->w.h : 0;
-        if (slipped > (double)c->opts->max_cycles * own) {
-            c->status = ss_fail(c->err, SS_EDATA, "it slides on: no stick within %.9g s, %lu own periods",
-                                slipped, c->opts->max_cycles);
+        if (slipped > most) {
+            c->status = m->model->from_pull
+                ? ss_fail(c->err, SS_EDATA, "it slides on with the pull: no cycle within %.9g s", slipped)
+                : ss_fail(c->err, SS_EDATA, "it slides on: no stick within %.9g s, %lu own periods", slipped,
+                          c->opts->max_cycles);
             return;
         }
     }
