@@ -216,8 +216,8 @@ a_laboratory_minute_costs_little(void **unused)
 }
 
 /* The Stribeck law in its place drops as far, about, by 2 (f_s - f_k), since inertia carries the slip through; and
- * Coulomb friction with the same f_s and f_k follows.  Its drop is that of the law of aging within 2 %, and so is the
- * time in which the pull makes up for it; the slip lasts .03 s, and the nucleation, which it lacks, about .3 s. */
+ * Coulomb friction with the same f_s and f_k follows.  Its drop is that of the law of aging within 2 %, and so is
+ * the time in which the pull makes up for it; the slip lasts .03 s, and the nucleation, which it lacks, about .3 s. */
 static void
 a_falling_law_drops_as_far(void **unused)
 {

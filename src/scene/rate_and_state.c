@@ -193,8 +193,8 @@ scales(const state *m, double scale[])
 }
 
 /* By how much friction drops in a slip, about: by twice the sum of what it steadily falls by from U to the
- * greatest speed, that of a free slip, and of what heals in a pause, b ln(b N/(k Dc)).  The shipped laboratory scene
- * drops by .147 so, and by .149 in truth; with the law of slip, which heals less, by .096. */
+ * greatest speed, that of a free slip, and of what heals in a pause, b ln(b N/(k Dc)).  The shipped laboratory
+ * scene drops by .147 so, and by .149 in truth; with the law of slip, which heals less, by .096. */
 typedef struct slip {
     double speed, fall, heals, drop;
 } slip;
