@@ -66,7 +66,7 @@ typedef struct driven_result {
     driven_fit fit[FOLDS + 1];      /* each without the rows of a fold, and of all */
     double loss;                    /* mean square left of each row by the fit without its fold */
     double block[BLOCKS];           /* the parts of this of blocks of time */
-    double *left;                   /* by the fit of all, of each row */
+    double *left, *own;             /* by the fit of all: what is left of each row, and the law's own force */
     double covariance[UNKNOWNS + COLUMNS][UNKNOWNS + COLUMNS];      /* of the fit of all */
 } driven_result;
 

@@ -407,7 +407,7 @@ ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const 
     driven_fit start[FOLDS + 1][KEPT];
     double rows = 0, *slopes = malloc(d->n * (UNKNOWNS + COLUMNS) * sizeof *slopes);
     char *rough_fold = calloc(coarse->n, 1);
-    *out = (driven_result){ .law = law, .left = malloc(d->n * sizeof *out->left) };
+    *out = (driven_result){ .law = law, .left = calloc(2 * d->n, sizeof *out->left) };
     ss_status st = slopes != NULL && rough_fold != NULL && out->left != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
         st = problem_new(&p, law, d, fold);
@@ -425,8 +425,13 @@ ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const 
         p.without = rough.without = k;
         st = fit_fold(out, &p, &rough, start[k], rows);
     }
-    if (st == SS_OK)
+    if (st == SS_OK) {
+        out->own = out->left + d->n;
+        for (size_t k = PART; k < law->parts; k++)
+            for (size_t i = 0; i < d->n; i++)
+                out->own[i] += out->fit[ALL].c[k] * p.column[k][i];
         find_covariance(&p, out, slopes);
+    }
     free(p.room);
     free(rough.room);
     free(rough_fold);

@@ -4,17 +4,22 @@
  * simplest law that is as good as the best is named, unless another law as good does not contain it, or what is
  * left is no noise.
  *
- * * What is left is compared with the noise, which is what differs between two passages through the same place:
- * rows whose position, speed and last two turns of the motion are nearly those of another row.  A law's memory is
- * no longer than that. */
+ * * What is left is compared with the noise, which is unknown, but at most the least of three estimates.  Motions
+ * that repeat: what differs between rows of two passages through nearly the same place, by position, speed and the
+ * last two turns; a law's memory is no longer than that.  Laws that are not in the list: what a free law leaves of
+ * blocks of time to which it was not fitted.  Other motions: noise of short memory is as rough as its power says, and
+ * what a law fails to explain is smoother.  A law is named if its own error is less than the noise: if what it leaves
+ * has less than twice the power. */
 #include "fit/driven.h"
 #include "fit/column.h"
+#include "fit/wander.h"
 
+#include <float.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/least.h"
 #include "base/number.h"
 #include "base/options.h"
 #include "base/progress.h"
@@ -27,7 +32,10 @@ enum { FEWEST = 200 };                  /* rows to be judged */
 #define AS_GOOD 0.03                    /* of the least loss: laws that differ by less are as good */
 #define TURN 0.1                        /* of the rms motion: a turn that a contact remembers */
 #define EXPLAINED 0.8                   /* of the power, by a law that is named */
-#define BEYOND_NOISE 3                  /* times the noise is left: the law is another */
+#define BEYOND_NOISE 2                  /* times the noise is left: the error of the law is as large as the noise */
+#define QUIET 1e-5                      /* of the power: an error of what the motion does between rows */
+#define MEMORY (1. / 16)                /* of noise, at most, in cycles */
+#define SHARED 1e-4                     /* ridge of the terms of a free law, which are alike */
 #define OTHER_RANGE 1.25                /* ratio of the rms motion in two folds that are not alike */
 
 static const ss_motion_opts defaults = { .size = sizeof defaults, .delay = 1 };
@@ -170,49 +178,97 @@ hat(double x, double k)
     return fmax(1 - fabs(x - k), 0);
 }
 
-/* The mean square that no law could explain: what sliders of many lengths, and free functions of the speed and of
- * the place, found in one fold, leave of the other. */
-static ss_status
-find_unexplained(const driven *d, const char *fold, const double *left, double *noise)
+/* The terms of a free law: sliders of many lengths, free functions of the speed, of the place, and of the law's own
+ * force in either direction. */
+enum { SLIDERS = 8, SPEEDS = 6, PLACES = 8, FORCES = 8, TERMS = SLIDERS + SPEEDS + PLACES + 2 * FORCES };
+
+static void
+fill_terms(double (*term)[TERMS], const driven *d, const double *own)
 {
-    enum { SLIDERS = 8, SPEEDS = 6, PLACES = 8, TERMS = SLIDERS + SPEEDS + PLACES };
-    double (*term)[TERMS] = calloc(d->n, sizeof *term), (*some)[TERMS] = calloc(d->n, sizeof *some);
-    double *y = malloc(d->n * sizeof *y), slider[SLIDERS] = { 0 }, c[TERMS], squares, sum = 0, count = 0;
-    ss_status st = term != NULL && some != NULL && y != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t i = 0; st == SS_OK && i < d->n; i++) {
-        double length = 0.02, speed = asinh(fabs(d->v[i]) / 0.05) * SPEEDS / 5;
-        for (int k = 0; k < SLIDERS; k++, length *= 2) {
-            slider[k] = fmax(-1, fmin(slider[k] + (i > 0 ? d->x[i] - d->x[i - 1] : 0) / length, 1));
-            term[i][k] = slider[k];
-        }
-        for (int k = 0; k < SPEEDS; k++)
-            term[i][SLIDERS + k] = copysign(hat(speed, k), d->v[i]);
-        for (int k = 0; k < PLACES; k++)
-            term[i][SLIDERS + SPEEDS + k] = hat((d->x[i] + 2) * PLACES / 4, k + 0.5);
+    double slider[SLIDERS] = { 0 }, least = own[0], most = own[0];
+    for (size_t i = 0; i < d->n; i++) {
+        least = fmin(least, own[i]);
+        most = fmax(most, own[i]);
     }
-    for (int held_out = 0; st == SS_OK && held_out < FOLDS; held_out++) {
-        size_t n = 0;
-        for (size_t i = 0; i < d->n; i++)
-            if (d->used[i] && fold[i] != held_out) {
-                memcpy(some[n], term[i], sizeof *some);
-                y[n++] = left[i];
-            }
-        st = ss_least_linear(*some, y, n, TERMS, c, &squares, NULL);
-        for (size_t i = 0; st == SS_OK && i < d->n; i++) {
+    for (size_t i = 0; i < d->n; i++) {
+        double length = 0.02, speed = asinh(fabs(d->v[i]) / 0.05) * SPEEDS / 5, *at = term[i];
+        for (int k = 0; k < SLIDERS; k++, length *= 2)
+            *at++ = slider[k] = fmax(-1, fmin(slider[k] + (i > 0 ? d->x[i] - d->x[i - 1] : 0) / length, 1));
+        for (int k = 0; k < SPEEDS; k++)
+            *at++ = copysign(hat(speed, k), d->v[i]);
+        for (int k = 0; k < PLACES; k++)
+            *at++ = hat((d->x[i] + 2) * PLACES / 4, k + 0.5);
+        for (int k = 0; k < 2 * FORCES; k++)
+            *at++ = (d->v[i] > 0) == k % 2 && most > least
+                ? hat((own[i] - least) / (most - least) * (FORCES - 1), k / 2) : 0;
+    }
+}
+
+/* Add the products of the terms of some rows with each other and with what is left of these, times `by`. */
+static void
+add_products(double sum[TERMS + 1][TERMS], double (*term)[TERMS], const driven *d, const double *left, size_t from,
+             size_t end, double by)
+{
+    for (size_t i = from; i < end; i++)
+        for (int k = 0; k <= TERMS && d->used[i]; k++)
+            for (int l = 0; l <= k && l < TERMS; l++)
+                sum[k][l] += by * (k < TERMS ? term[i][k] : left[i]) * term[i][l];
+}
+
+/* The mean square that no law could explain: what such terms, fitted to other times, leave of each block. */
+static ss_status
+find_unexplained(const driven *d, const double *left, const double *own, double *noise)
+{
+    double (*term)[TERMS] = malloc(d->n * sizeof *term), sum[TERMS + 1][TERMS] = { { 0 } }, count = 0;
+    if (term == NULL)
+        return SS_ENOMEM;
+    fill_terms(term, d, own);
+    add_products(sum, term, d, left, 0, d->n, 1);
+    *noise = 0;
+    for (size_t b = 0; b < BLOCKS; b++) {
+        const size_t from = b * d->n / BLOCKS, end = (b + 1) * d->n / BLOCKS;
+        double others[TERMS + 1][TERMS];
+        memcpy(others, sum, sizeof sum);
+        add_products(others, term, d, left, from, end, -1);
+        for (int k = 0; k < TERMS; k++)
+            others[k][k] += SHARED * sum[k][k] + DBL_MIN;
+        gsl_matrix_view A = gsl_matrix_view_array(others[0], TERMS, TERMS);
+        gsl_vector_view C = gsl_vector_view_array(others[TERMS], TERMS);
+        gsl_linalg_cholesky_decomp1(&A.matrix);
+        gsl_linalg_cholesky_svx(&A.matrix, &C.vector);
+        for (size_t i = from; i < end; i++) {
             double rest = left[i];
             for (int k = 0; k < TERMS; k++)
-                rest -= c[k] * term[i][k];
-            if (d->used[i] && fold[i] == held_out) {
-                sum += rest * rest;
-                count++;
-            }
+                rest -= others[TERMS][k] * term[i][k];
+            *noise += d->used[i] * rest * rest;
+            count += d->used[i];
         }
     }
-    *noise = sum / count;
+    *noise /= count;
     free(term);
-    free(some);
-    free(y);
-    return st;
+    return SS_OK;
+}
+
+/* The mean square at most of noise with these second differences, if its memory is at most MEMORY of a cycle: of
+ * noise of the first order, and of white noise.  What a law fails to explain is smoother, but for few rows.
+ * room: for 2 * ROWS numbers. */
+static double
+find_rough(const driven *d, const double *predicted, size_t turns, double *room)
+{
+    const double *f = d->f, *p = predicted, memory = MEMORY * 2 * (double)d->n / (double)turns;     /* [rows] */
+    double least = INFINITY;
+    for (size_t lag = 1; (double)lag <= memory; lag *= 2) {
+        const double keep = exp(-(double)lag / memory);
+        size_t n = 0;
+        for (size_t i = lag; i + lag < d->n; i += 1 + d->n / ROWS) {
+            double by = f[i - lag] - p[i - lag] - 2 * (f[i] - p[i]) + f[i + lag] - p[i + lag];
+            if (d->used[i - lag] && d->used[i] && d->used[i + lag])
+                room[n++] = by * by / (6 - 8 * keep + 2 * keep * keep);
+        }
+        if (n > FEWEST / 2)
+            least = fmin(least, ss_wander_variance(room, n));
+    }
+    return least;
 }
 
 /* The correlation of what is left with that of the partners; *noise becomes the mean square that they do not
@@ -286,7 +342,7 @@ append(char *text, size_t room, const char *word)
 
 /* Decide by what the laws leave; *best becomes the row that is named, or that explains most. */
 static void
-decide(ss_motion_ranking *out, const driven_result *r, size_t n, double noise, double power, size_t *best)
+decide(ss_motion_ranking *out, const driven_result *r, size_t n, const double noise[], double power, size_t *best)
 {
     int tied[LAWS_MOST];
     size_t named = n, count = 0;
@@ -308,16 +364,17 @@ decide(ss_motion_ranking *out, const driven_result *r, size_t n, double noise, d
         }
     }
     double explained = 1 - r[*best].loss / power;
-    char number[SS_NUMBER_MAX];
+    char number[SS_NUMBER_MAX], times[SS_NUMBER_MAX];
     ss_number_fixed(number, explained, 4);
     if (tied[0] || explained < EXPLAINED) {
         out->verdict = SS_NONE_FITS;
         snprintf(out->answer, sizeof out->answer, "none of these: %s%s explains %s of the force that was held out",
                  tied[0] ? "no law explains more than the null; " : "", r[*best].law->name, number);
-    } else if (r[count == 1 ? named : *best].fit[ALL].loss > BEYOND_NOISE * noise) {
+    } else if (r[count == 1 ? named : *best].fit[ALL].loss > BEYOND_NOISE * noise[count == 1 ? named : *best]) {
         out->verdict = SS_NONE_FITS;
         snprintf(out->answer, sizeof out->answer, "none of these: %s explains most, %s of the force that was "
-                 "held out, but leaves what repeats from cycle to cycle", r[*best].law->name, number);
+                 "held out, but leaves %s times the noise", r[*best].law->name, number,
+                 ss_number_rounded(times, r[*best].fit[ALL].loss / noise[*best], 3));
     } else if (count > 1) {
         out->verdict = SS_UNDECIDED;
         snprintf(out->answer, sizeof out->answer, "cannot tell: %s", names);
@@ -479,12 +536,13 @@ order_rows(ss_motion_ranking *out, const driven_result *best)
 /* Rank by a record that can show a law. */
 static ss_status
 judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven *coarse, const char *fold,
-      const ss_signal *signal, const size_t of[2], const ss_motion_opts *opts)
+      size_t turns, const ss_signal *signal, const size_t of[2], const ss_motion_opts *opts)
 {
     driven_result *r = calloc(LAWS_MOST, sizeof *r);
     size_t *partner = malloc(rows->n * sizeof *partner), n = 0, best = 0;
-    double noise = INFINITY, power = power_of(rows), quiet = RESIDUE_QUIET * power;
-    ss_status st = r != NULL && partner != NULL ? find_partners(rows, partner) : SS_ENOMEM;
+    double room[2 * ROWS], noise[LAWS_MOST], power = power_of(rows), quiet = QUIET * power;
+    out->predicted = malloc(signal->n * sizeof *out->predicted);
+    ss_status st = r != NULL && partner != NULL && out->predicted != NULL ? find_partners(rows, partner) : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && ss_driven_law(i) != NULL; i++) {
         const driven_law *law = ss_driven_law(i);
         double unshared, unexplained;
@@ -498,19 +556,20 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - r[n].loss / power,
             .explained_error = block_error(r[n].block, NULL) / power, .gain = 1 - r[n].loss / r[0].loss,
             .repeat = find_repeat(rows, partner, r[n].left, &unshared) };
-        if ((st = find_unexplained(rows, fold, r[n].left, &unexplained)) != SS_OK)
+        st = find_unexplained(rows, r[n].left, r[n].own, &unexplained);
+        if (st == SS_OK)
+            st = ss_driven_predict(out->predicted, law, d, &r[n].fit[ALL]);
+        if (st != SS_OK)
             break;
-        noise = fmax(quiet, fmin(noise, fmin(unshared, unexplained)));
+        noise[n] = fmax(quiet, fmin(find_rough(d, out->predicted, turns, room), fmin(unshared, unexplained)));
         n++;
     }
     out->n = n;
     if (st == SS_OK) {
-        for (size_t i = 0; i < n; i++)
-            out->row[i].residual = r[i].fit[ALL].loss / noise;
         decide(out, r, n, noise, power, &best);
-        out->predicted = malloc(signal->n * sizeof *out->predicted);
-        st = out->predicted != NULL
-            ? ss_driven_predict(out->predicted, r[best].law, d, &r[best].fit[ALL]) : SS_ENOMEM;
+        for (size_t i = 0; i < n; i++)
+            out->row[i].residual = r[i].fit[ALL].loss / noise[best];
+        st = ss_driven_predict(out->predicted, r[best].law, d, &r[best].fit[ALL]);
     }
     if (st == SS_OK) {
         out->rows = signal->n;
@@ -540,11 +599,12 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size
 {
     driven d = { 0 }, rows = { 0 }, coarse = { 0 };
     char why[128], *fold = malloc(n + 1);
+    size_t turns = 0;
     ss_status st = fold != NULL ? SS_OK : SS_ENOMEM;
     snprintf(why, sizeof why, "it has %zu rows, fewer than %d", n, FEWEST);
     if (st == SS_OK && n >= FEWEST) {
         st = ss_driven_new(&d, column[0], column[1], column[2], n, opts);
-        const size_t turns = st == SS_OK ? ss_driven_turns(&d, fmax(TURN, d.least), fold) : 0;
+        turns = st == SS_OK ? ss_driven_turns(&d, fmax(TURN, d.least), fold) : 0;
         if (st == SS_OK)
             find_doubt(why, sizeof why, &d, turns);
         if (st == SS_OK && why[0] == '\0')
@@ -561,7 +621,7 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size
         r->verdict = SS_NOT_JUDGED;
         snprintf(r->answer, sizeof r->answer, "not judged: %s", why);
     } else if (st == SS_OK)
-        st = judge(r, &d, &rows, &coarse, fold, signal, of, opts);
+        st = judge(r, &d, &rows, &coarse, fold, turns, signal, of, opts);
     if (st == SS_OK && r->rows > 0)         /* to their places; what is missing leaves nothing */
         for (size_t i = signal->n, k = n; i-- > 0;)
             r->predicted[i] = k > 0 && row[k - 1] == i ? r->predicted[--k] : signal->values[of[1] * signal->n + i];

@@ -12,7 +12,6 @@
 
 #include <float.h>
 #include <gsl/gsl_linalg.h>
-#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +19,7 @@
 #include "base/list.h"
 #include "base/number.h"
 #include "fit/loaded.h"
+#include "fit/wander.h"
 #include "io/record.h"
 #include "signal/header.h"
 
@@ -148,22 +148,16 @@ join(path *p)
     }
 }
 
-/* The variance of the path's noise, from how far rows are off their neighbours, without the farthest tenth; room
- * for n numbers. */
+/* The variance of the path's noise, from how far rows are off their neighbours; room for n numbers. */
 static double
 noise_of(const path *p, double *off)
 {
-    const size_t n = p->n - 2, kept = n - n / 10;
-    double sum = 0;
-    for (size_t i = 1; i <= n; i++) {
+    for (size_t i = 1; i + 1 < p->n; i++) {
         double w = (p->t[i + 1] - p->t[i]) / (p->t[i + 1] - p->t[i - 1]);
         double by = p->x[i] - w * p->x[i - 1] - (1 - w) * p->x[i + 1];
         off[i - 1] = by * by / (1 + w * w + (1 - w) * (1 - w));
     }
-    gsl_sort(off, 1, n);
-    for (size_t i = 0; i < kept; i++)
-        sum += off[i];
-    return sum / (double)kept / 0.623;          /* of Gaussian noise, the other tenth has the rest */
+    return ss_wander_variance(off, p->n - 2);
 }
 
 /* The time at which line k begins: where it meets the one before, if that is near, else its first row. */

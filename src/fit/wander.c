@@ -8,6 +8,8 @@
 
 #include <float.h>
 #include <gsl/gsl_multimin.h>
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -116,4 +118,11 @@ ss_wander_find(wander *w, const double *t, const double *in, size_t n, size_t co
     if (nelder_mead != NULL)
         gsl_multimin_fminimizer_free(nelder_mead);
     return is_room ? SS_OK : SS_ENOMEM;
+}
+
+double
+ss_wander_variance(double squares[], size_t n)
+{
+    gsl_sort(squares, 1, n);
+    return gsl_stats_mean(squares, 1, n - n / 10) / 0.623;      /* the other tenth has the rest of the squares */
 }

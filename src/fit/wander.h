@@ -21,4 +21,8 @@ double ss_wander_whiten(double *white, const wander *w, const double *t, const d
  * what they explain is no noise.  SS_ENOMEM. */
 ss_status ss_wander_find(wander *w, const double *t, const double *in, size_t n, size_t columns);
 
+/* The variance of n Gaussian numbers whose squares these are, by all but the largest tenth, which may be something
+ * else; sorts them. */
+double ss_wander_variance(double squares[], size_t n);
+
 #endif
