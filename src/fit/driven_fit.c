@@ -35,6 +35,7 @@ typedef struct problem {
     int without;                    /* the fold that is not fitted */
     double *column[COLUMNS];        /* of each row; NULL: the law has no such column */
     double *room;
+    double late;                    /* the delay of the columns */
     size_t free[UNKNOWNS], n_free;
     const double *given;            /* the unknowns where the fit starts */
     driven_fit now;                 /* evaluated last */
@@ -43,7 +44,7 @@ typedef struct problem {
 static ss_status
 problem_new(problem *p, const driven_law *law, const driven *d, const char *fold)
 {
-    *p = (problem){ .law = law, .d = d, .fold = fold, .without = ALL };
+    *p = (problem){ .law = law, .d = d, .fold = fold, .without = ALL, .late = NAN };
     p->room = malloc(COLUMNS * d->n * sizeof *p->room);
     if (p->room == NULL)
         return SS_ENOMEM;
@@ -95,20 +96,22 @@ fill_columns(problem *p, const double u[UNKNOWNS])
         if (p->law->parts > 1)
             p->column[PART + 1][i] = part[1];
     }
-    memcpy(p->column[VISCOUS], d->v, d->n * sizeof *d->v);
-    memcpy(p->column[TILT], d->x, d->n * sizeof *d->x);
-    memcpy(p->column[INERTIA], d->a, d->n * sizeof *d->a);
-    for (size_t i = 0; i < d->n; i++) {
+    const int is_same = u[DELAY] == p->late;        /* what stands beside the law depends on the delay only */
+    for (size_t i = 0; i < d->n && !is_same; i++) {
         double angle = (d->middle + d->x[i] * d->length) * d->angle;
+        p->column[VISCOUS][i] = d->v[i];
         p->column[OFFSET][i] = 1;
+        p->column[TILT][i] = d->x[i];
+        p->column[INERTIA][i] = d->a[i];
         if (p->column[SINE] != NULL) {
             p->column[SINE][i] = sin(angle);
             p->column[COSINE][i] = cos(angle);
         }
     }
     for (int k = 0; k < COLUMNS; k++)
-        if (p->column[k] != NULL && k != OFFSET && u[DELAY] != 0)
+        if (p->column[k] != NULL && k != OFFSET && u[DELAY] != 0 && (k < VISCOUS || !is_same))
             delay(d, p->column[k], u[DELAY] * d->step);
+    p->late = u[DELAY];
 }
 
 /* --- the amplitudes ------------------------------------------------------------------------ */
