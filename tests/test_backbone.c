@@ -204,13 +204,74 @@ levels_give_the_damping(void **state)
     ss_signal_free(signal);
 }
 
+/* A resonator of 50,000 periods: blocks of a thousand of samples, a line beside it at 1.3 of its frequency, and each of
+ * the two by --mode.  Amplitudes 1 and .3, damping ratios 1.6e-5 and 4e-5. */
+static void
+long_blocks_and_two_modes(void **state)
+{
+    enum { N = 400000 };
+    static const double w[2] = { 2 * PI / 8, 2.6 * PI / 8 }, zeta[2] = { 1.6e-5, 4e-5 };
+    ss_signal *signal = new_signal(N, 1, 0, "x", "m");
+    ss_backbone_opts opts;
+    (void)state;
+    seed = 21;
+    ss_backbone_opts_init(&opts, sizeof opts);
+    for (size_t i = 0; i < N; i++)
+        signal->values[i] = .003 * gauss() + exp(-zeta[0] * w[0] * (double)i) * cos(w[0] * (double)i)
+            + .3 * exp(-zeta[1] * w[1] * (double)i) * cos(w[1] * (double)i);
+    for (int k = 0; k < 2; k++) {
+        size_t within[2] = { 0 };
+        opts.mode = w[k] / (2 * PI) * 1.03;
+        ss_backbone *b = find(signal, &opts);
+        assert_true(b->n > 50);
+        for (size_t i = 0; i < b->n; i++) {
+            const ss_backbone_row *r = &b->row[i];
+            within[0] += fabs(r->damping_ratio.value - zeta[k]) <= 3 * r->damping_ratio.error;
+            within[1] += fabs(r->frequency.value - w[k] / (2 * PI)) <= 3 * r->frequency.error;
+        }
+        print_message("%zu and %zu of %zu rows, %s\n", within[0], within[1], b->n, ss_mechanism_names[b->mechanism[0]]);
+        assert_true((double)within[0] > .9 * (double)b->n && (double)within[1] > .9 * (double)b->n);
+        assert_int_equal(b->mechanism[0], SS_VISCOUS);
+        ss_backbone_free(b);
+    }
+    ss_signal_free(signal);
+}
+
+/* Amplitudes that squares overflow or vanish at are found as others are, or refused. */
+static void
+extreme_amplitudes(void **state)
+{
+    static const double scale[] = { 1e-300, 1e-200, 1e-160, 1e-100, 1e100, 1e150, 1e200, 1e300 };
+    (void)state;
+    for (size_t k = 0; k < sizeof scale / sizeof *scale; k++) {
+        ss_signal *signal = new_signal(4000, 400, 0, "x", "m");
+        ss_backbone *b = NULL;
+        ss_error err = { 0 };
+        seed = 3;
+        for (size_t i = 0; i < signal->n; i++)
+            signal->values[i] = scale[k] * (exp(-.6 * (double)i / 400) * cos(20 * PI * (double)i / 400) + .003 * gauss());
+        assert_int_equal(ss_backbone_find(&b, signal, 0, NULL, &err), SS_OK);
+        assert_true(b->n > 10);
+        for (size_t i = 0; i < b->n; i++) {
+            double zeta = .6 / hypot(.6, 20 * PI), a = scale[k] * exp(-.6 * b->row[i].t);
+            assert_true(fabs(b->row[i].damping_ratio.value - zeta) <= 4 * b->row[i].damping_ratio.error);
+            assert_true(fabs(b->row[i].amplitude / a - 1) < .02 + .01 * scale[k] / a);
+        }
+        assert_int_equal(b->mechanism[0], SS_VISCOUS);
+        assert_true(fabs(b->noise / scale[k] - .003) < .0006);
+        ss_backbone_free(b);
+        ss_signal_free(signal);
+    }
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bands_hold_and_mechanisms_are_named), cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
         cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),
-        cmocka_unit_test(levels_give_the_damping),
+        cmocka_unit_test(levels_give_the_damping), cmocka_unit_test(long_blocks_and_two_modes),
+        cmocka_unit_test(extreme_amplitudes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

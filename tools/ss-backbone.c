@@ -8,7 +8,7 @@ static const char usage[] =
 "Follow a free decay; write its frequency and damping ratio with standard\n"
 "errors, one row an amplitude, and name the mechanism that damps it.\n"
 "  -c, --column=NAME|N   of the signal (default: a, else the only one)\n"
-"      --mode=HZ         the mode nearest to HZ (default: the strongest)\n"
+"      --mode=HZ         the strongest mode about HZ (default: of all)\n"
 "      --periods=N       of each block (default: chosen)\n"
 "      --mass=KG         of the rig: forces and stiffnesses, too\n"
 "      --fit             write instead the scene that decays as the signal\n"

@@ -25,7 +25,7 @@ extern const char *const ss_mechanism_names[SS_MECHANISMS + 1];     /* "viscous"
 
 typedef struct ss_backbone_opts {
     size_t size;                /* set by ss_backbone_opts_init */
-    double mode;                /* [Hz] the mode nearest to this; 0: the strongest */
+    double mode;                /* [Hz] the strongest mode within 15 % of this; 0: the strongest of all */
     double periods;             /* of a block, 1.5 ... 1e6; 0: chosen */
     double level_frequency;     /* [Hz] > 0: the column is the level [dB] of a decay of this frequency, without
                                    phase; 0: it is the signal itself */

@@ -39,6 +39,7 @@ typedef struct decay {
     const ss_backbone_opts *opts;
     double *x;                  /* what is looked at; NaN: missing */
     size_t n, group;            /* samples, each of so many of the record's */
+    double unit;                /* of x: a power of 2, near the largest sample */
     double w;                   /* per sample: where to look */
     size_t first, end;          /* samples of the decay, nearly */
     lines beside;
@@ -50,8 +51,7 @@ typedef struct decay {
 /* --- where it is ----------------------------------------------------------------------------- */
 
 /* The frequency of the strongest line in n samples, per sample, weighed by frequency, as slow changes have more
- * power than they matter (and an offset has none in differences); or of the one nearest to near > 0 that has a
- * hundredth of its power.  0: there is none. */
+ * power than they matter (and an offset has none in differences); near > 0: of those about it.  0: there is none. */
 static ss_status
 find_line(double *w, const double *x, size_t n, double near)
 {
@@ -70,14 +70,12 @@ find_line(double *w, const double *x, size_t n, double near)
     double unit = 2 * M_PI / (double)size, *power = f.x;
     for (size_t k = 0; k <= size / 2; k++)
         power[k] = (f.x[2 * k] * f.x[2 * k] + f.x[2 * k + 1] * f.x[2 * k + 1]) / (double)(k > 0 ? k : 1);
-    for (int pass = 0; pass < 2; pass++)
-        for (size_t k = (size_t)(2.5 * (double)size / (double)n); k < size / 2; k++)
-            if (k > 0 && power[k] >= power[k - 1] && power[k] > power[k + 1]
-                && (pass == 0 ? power[k] > best : near > 0 && power[k] > best / 100
-                    && fabs((double)k * unit - near) < fabs(*w - near))) {
-                best = pass == 0 ? power[k] : best;
-                *w = (double)k * unit;
-            }
+    for (size_t k = (size_t)(2.5 * (double)size / (double)n); k < size / 2; k++)
+        if (k > 0 && power[k] >= power[k - 1] && power[k] > power[k + 1] && power[k] > best
+            && (near == 0 || fabs((double)k * unit - near) < NEAR * near)) {
+            best = power[k];
+            *w = (double)k * unit;
+        }
     ss_real_fft_free(&f);
     return SS_OK;
 }
@@ -115,9 +113,13 @@ find_extent(decay *d)
 {
     size_t width = (size_t)fmax(round(2 * M_PI / d->w), 1), n = d->n > width ? d->n - width + 1 : 0;
     double complex *turned = malloc((d->n + 1) * sizeof *turned), sum = 0;
+    double re = 1, im = 0, was, c = cos(d->w), s = sin(d->w);
     double *size = malloc((n + 1) * sizeof *size), least = INFINITY;
     for (size_t i = 0; turned != NULL && size != NULL && i < d->n; i++) {
-        turned[i] = isnan(d->x[i]) ? 0 : d->x[i] * cexp(-d->w * (double)i * I);
+        turned[i] = isnan(d->x[i]) ? 0 : d->x[i] * re - d->x[i] * im * I;
+        was = re;
+        re = re * c - im * s;
+        im = was * s + im * c;
         sum += turned[i] - (i >= width ? turned[i - width] : 0);
         if (i + 1 < width)
             continue;
@@ -313,11 +315,7 @@ leave(const decay *d, size_t *n)
     *n = d->block[d->n_blocks - 1].end - first;
     double *left = malloc((*n + 1) * sizeof *left);
     for (size_t i = 0; left != NULL && i < d->n_blocks; i++)
-        for (size_t k = d->block[i].first; k < d->block[i].end; k++) {
-            const block *b = &d->block[i];
-            double x = d->x[k] - creal(cexp(b->level + b->phase * I + ss_bend_at(&b->at, (double)k - b->t)));
-            left[k - first] = isnan(x) ? 0 : x;
-        }
+        ss_block_leave(&d->block[i], d->x, left + d->block[i].first - first);
     return left;
 }
 
@@ -346,10 +344,15 @@ line_decay(double *w, const double *left, size_t n)
 {
     double complex z[PARTS];
     double sum = 0, t = 0, tt = 0, level = 0, t_level = 0, phase = 0, t_phase = 0, last = 0;
+    double re = 1, im = 0, c = cos(*w), s = sin(*w);
     for (size_t i = 0; i < PARTS; i++) {
         z[i] = 0;
-        for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++)
-            z[i] += left[k] * cexp(-*w * (double)k * I);
+        for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++) {
+            double was = re;
+            z[i] += isnan(left[k]) ? 0 : left[k] * re - left[k] * im * I;
+            re = re * c - im * s;
+            im = was * s + im * c;
+        }
         double weight = creal(z[i] * conj(z[i])) + 1e-300, at = (double)i, turn = carg(z[i]);
         turn -= 2 * M_PI * round((turn - last) / (2 * M_PI));
         last = turn;
@@ -363,9 +366,9 @@ line_decay(double *w, const double *left, size_t n)
 }
 
 /* Of the first n samples of what is left, by how much the strongest line that is not known stands out of the
- * spectrum's median, and its frequency and decay; 0: none is above what matters. */
+ * spectrum's median, and its frequency; 0: none is above what matters. */
 static ss_status
-find_beside(const decay *d, const double *left, size_t n, double *ratio, double *w, double *s)
+find_beside(const decay *d, const double *left, size_t n, double *ratio, double *w)
 {
     size_t size = 2, best = 0;
     real_fft f = { NULL, NULL };
@@ -391,7 +394,6 @@ find_beside(const decay *d, const double *left, size_t n, double *ratio, double 
     qsort(power, some, sizeof *power, ss_ascending);
     *ratio = best > 0 && peak > least * least ? peak / power[some / 2] : 0;
     *w = (double)best * unit;
-    *s = line_decay(w, left, n);
     ss_real_fft_free(&f);
     return SS_OK;
 }
@@ -401,16 +403,16 @@ static ss_status
 add_line(decay *d, int *found)
 {
     size_t n;
-    double best = OUTSTANDING, ratio, w, s, *left = leave(d, &n);
+    double best = OUTSTANDING, ratio, w, *left = leave(d, &n);
     ss_status st = left != NULL ? SS_OK : SS_ENOMEM;
     *found = 0;
     for (; st == SS_OK && (double)n * d->w > PARTS * 2 * M_PI; n /= 2) {
-        st = find_beside(d, left, n, &ratio, &w, &s);
+        st = find_beside(d, left, n, &ratio, &w);
         if (st == SS_OK && ratio > best) {
             best = ratio;
             *found = 1;
+            d->beside.s[d->beside.n] = line_decay(&w, left, n);
             d->beside.w[d->beside.n] = w;
-            d->beside.s[d->beside.n] = s;
         }
     }
     d->beside.n += *found ? 1 : 0;
@@ -495,7 +497,7 @@ make_rows(ss_backbone *out, const decay *d, const decay_source *source)
         double whole = hypot(b->at.s, b->at.w), w0 = sqrt(b->at.w * b->at.w + b->lag);
         double es = b->error[LEVEL], ew = b->error[PHASE], ew0 = hypot(b->at.w * ew, b->lag_error / 2) / w0;
         out->row[out->n] = (ss_backbone_row){
-            .t = (b->t + .5 - .5 / (double)d->group) / unit, .amplitude = exp(b->level),
+            .t = (b->t + .5 - .5 / (double)d->group) / unit, .amplitude = exp(b->level) * d->unit,
             .frequency = { w0 * unit / (2 * M_PI), ew0 * unit / (2 * M_PI) },
             .damping_ratio = { b->at.s / whole, b->at.w * hypot(b->at.w * es, b->at.s * ew) / pow(whole, 3) },
             .periods = (double)(b->end - b->first) * b->at.w / (2 * M_PI),
@@ -526,13 +528,22 @@ no_decay(const decay *d)
 static ss_status
 find(decay *d, const double *x, size_t n, decay_source *source)
 {
+    double strongest = 0;
     ss_status st = find_line(&d->w, x, n, 2 * M_PI * d->opts->mode / source->rate);
+    if (st == SS_OK && d->opts->mode > 0)
+        st = find_line(&strongest, x, n, 0);
     if (st != SS_OK)
         return st;
     d->group = (size_t)fmax(floor(2 * M_PI / d->w / RICH), 1);
     d->w *= (double)d->group;
     source->rate /= (double)d->group;
     st = d->w > 0 ? take_record(d, x, n) : SS_OK;
+    strongest *= (double)d->group;
+    if (st == SS_OK && d->w > 0 && fabs(strongest - d->w) > NEAR * d->w && strongest < 3 && d->opts->mode > 0) {
+        d->beside.n = 1;                        /* a mode that is weaker is not seen without the strongest */
+        d->beside.s[0] = line_decay(&strongest, d->x, d->n);
+        d->beside.w[0] = strongest;
+    }
     if (st == SS_OK && d->w > 0)
         st = find_extent(d);
     for (int more = d->w > 0, most = LINES_MAX; st == SS_OK && more;) {
@@ -559,6 +570,21 @@ find(decay *d, const double *x, size_t n, decay_source *source)
     return st;
 }
 
+/* The same of samples in a unit whose squares neither overflow nor vanish. */
+static ss_status
+find_scaled(decay *d, const double *x, size_t n, decay_source *source)
+{
+    double most = 0, *scaled = malloc((n + 1) * sizeof *scaled);
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(x[i]));
+    d->unit = source->unit = most > 0 ? ldexp(1, ilogb(most)) : 1;
+    for (size_t i = 0; scaled != NULL && i < n; i++)
+        scaled[i] = x[i] / d->unit;
+    ss_status st = scaled != NULL ? find(d, scaled, n, source) : SS_ENOMEM;
+    free(scaled);
+    return st;
+}
+
 ss_status
 ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, const ss_backbone_opts *opts,
                  ss_error *err)
@@ -577,7 +603,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
         return ss_fail(err, SS_EINVAL, "an option is out of its range");
     const ss_column *of = &signal->head->column[column];
     decay_source source = { signal->head->rate, !(own.level_frequency > 0), of->unit, ss_motion_order(of->unit),
-                            own.mass };
+                            own.mass, 1 };
     if (own.mass > 0 && source.order < 0)
         return ss_fail(err, SS_EINVAL, "a mass needs a column in m, m/s or m/s^2, and %s is in '%s'", of->name,
                        of->unit);
@@ -585,18 +611,18 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EDATA, "column %s has a value that is not finite", of->name);
-    decay d = { .opts = &own, .start = "the largest amplitude", .stop = "end of the record" };
+    decay d = { .opts = &own, .unit = 1, .start = "the largest amplitude", .stop = "end of the record" };
     ss_backbone *b = calloc(1, sizeof *b);
     if (b == NULL)
         st = SS_ENOMEM;
     else
-        st = source.has_phase ? find(&d, x, signal->n, &source) : find_levels(&d, x, signal->n, source.rate);
+        st = source.has_phase ? find_scaled(&d, x, signal->n, &source) : find_levels(&d, x, signal->n, source.rate);
     if (st == SS_OK) {
         b->why = no_decay(&d);
         b->start = d.start;
         b->stop = d.stop;
         b->chi2_dof = NAN;
-        b->noise = d.n_blocks > 0 ? sqrt(d.block[d.n_blocks - 1].noise * (double)d.group) : NAN;
+        b->noise = d.n_blocks > 0 ? sqrt(d.block[d.n_blocks - 1].noise * (double)d.group) * d.unit : NAN;
     }
     if (st == SS_OK && b->why == NULL)
         st = (b->row = calloc(d.n_blocks, sizeof *b->row)) != NULL ? SS_OK : SS_ENOMEM;

@@ -2,7 +2,6 @@
 #ifndef BACKBONE_H
 #define BACKBONE_H
 
-#include <complex.h>
 #include <stddef.h>
 #include <stickslip/backbone.h>
 
@@ -11,8 +10,6 @@
 typedef struct bend {
     double s, w, ds, dw, dds, ddw;
 } bend;
-/* ln A + i phase at t, less those at the middle. */
-double complex ss_bend_at(const bend *at, double t);
 
 /* What stands beside the decay: lines of a hum or of other modes, exp(-s t) cos(w t + p) each. */
 enum { LINES_MAX = 3 };
@@ -42,6 +39,9 @@ typedef struct block {
  * found. */
 int ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, const lines *beside,
                  int is_near);
+
+/* What the smooth oscillation leaves of a block's samples, 0 for those that are missing. */
+void ss_block_leave(const block *b, const double *x, double *left);
 
 /* What is tracked through blocks: (y, rate, p) and constants. */
 enum { STATES = 10 };
@@ -76,6 +76,7 @@ typedef struct decay_source {
     const char *column;         /* its unit */
     int order;                  /* of the derivative of x in SI units that it is; -1: it is none */
     double mass;                /* [kg]; 0: unknown */
+    double unit;                /* of amplitudes in the column's unit */
 } decay_source;
 
 /* 0, 1, 2 for a unit of x, x' or x'' in SI units; -1: it is none. */

@@ -13,27 +13,18 @@
 
 enum { ROOM = 17, AT_ONCE = 64, LANES = 8, STEPS = 8 };         /* ROOM: columns, with x, which comes last */
 
-double complex
-ss_bend_at(const bend *at, double t)
-{
-    return t * (-at->s + at->w * I + t / 2 * (-at->ds + at->dw * I + t / 3 * (-at->dds + at->ddw * I)));
-}
-
 /* The columns of a block, one after the other, as factors that turn by themselves. */
 typedef struct turner {
     double complex now, turn, bend, twist;      /* now *= turn, turn *= bend, bend *= twist */
 } turner;
 
+/* ln A and i times the phase grow by (-s + i w) t + (-ds + i dw) t^2/2 + (-dds + i ddw) t^3/6. */
 static turner
 turner_at(bend at, double t)
 {
-    double complex c[4];                /* and their differences, of rising order */
-    for (int i = 0; i < 4; i++)
-        c[i] = ss_bend_at(&at, t + i);
-    for (int order = 1; order < 4; order++)
-        for (int i = 3; i >= order; i--)
-            c[i] -= c[i - 1];
-    return (turner){ cexp(c[0]), cexp(c[1]), cexp(c[2]), cexp(c[3]) };
+    double complex rate = -at.s + at.w * I, more = -at.ds + at.dw * I, twist = -at.dds + at.ddw * I;
+    return (turner){ cexp(t * (rate + t / 2 * (more + t / 3 * twist))), cexp(rate + more * (t + .5) + twist * (t * t + t + 1 / 3.) / 2),
+                     cexp(more + twist * (t + 1)), cexp(twist) };
 }
 
 /* Finite factors need not ask for the infinities that C's own product looks after. */
@@ -51,6 +42,17 @@ turned(turner *g)
     g->turn = times(g->turn, g->bend);
     g->bend = times(g->bend, g->twist);
     return now;
+}
+
+void
+ss_block_leave(const block *b, const double *x, double *left)
+{
+    turner g = turner_at(b->at, (double)b->first - b->t);
+    g.now *= cexp(b->level + b->phase * I);
+    for (size_t k = b->first; k < b->end; k++) {
+        double of = creal(turned(&g));
+        *left++ = isnan(x[k]) ? 0 : x[k] - of;
+    }
 }
 
 /* Add the products of AT_ONCE samples of the columns to the lower half of the normal matrix.  Lanes let the

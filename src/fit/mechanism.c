@@ -489,6 +489,6 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         out->row[i].named[1] = out->n_mechanisms == 1 ? -rate[LEVEL] / hypot(rate[LEVEL], at) : NAN;
     }
     if (out->n_mechanisms > 0)
-        add_numbers(out, best, source, w / unit, unit * source->rate, exp(ln_a));
+        add_numbers(out, best, source, w / unit, unit * source->rate, exp(ln_a) * source->unit);
     return SS_OK;
 }
