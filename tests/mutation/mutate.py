@@ -40,6 +40,8 @@ TESTS = {
     "plot": "test_contour test_plot cli/contour cli/plot",
 }
 
+LIMIT = 300     # s; what a mutant hangs in, it dies of
+
 OPERATORS = {
     "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&",
     "+": "-", "-": "+", "*": "/", "/": "*", "+=": "-=", "-=": "+=", "++": "--", "--": "++",
@@ -47,7 +49,7 @@ OPERATORS = {
 TOKEN = re.compile(
     r"""(?P<text>"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*')|(?P<number>\b(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?\b(?![xX\w]))"""
     r"""|(?P<word>\w+)|(?P<operator><<=?|>>=?|->|[-+*/%&|^]=|\+\+|--|[<>=!]=|&&|\|\||[-+*/<>])""")
-STATEMENT = re.compile(r"^ +(?!return|break|continue|goto|case|default|else|if|for|while|do\b|switch|static|const\b|struct|enum"
+STATEMENT = re.compile(r"^ +(?! |return|break|continue|goto|case|default|else|if|for|while|do\b|switch|static|const\b|struct|enum"
                        r"|typedef|extern|double |int |size_t |char |void |ss_\w+ \**\w+[ ,;=]|h\w+_t \**\w+ =)"
                        r"[^{}]*[-+)\w\]]\s*;\s*$")
 
@@ -132,36 +134,40 @@ def expand(names):
             yield name
 
 
-def order_tests(tree, folders):
-    """The tests of each folder that pass without a mutant, the quickest first, each with its time."""
-    seconds = {}
-    for test in sorted({t for f in folders for t in expand(TESTS[f])}):
-        before = os.times().elapsed
-        if tree.run(test, 600):
-            seconds[test] = os.times().elapsed - before
-        else:
-            print(f"mutate.py: {test} fails or is skipped without a mutant: not used", file=sys.stderr)
-    return {f: sorted(((seconds[t], t) for t in expand(TESTS[f]) if t in seconds)) for f in folders}
+class Judge:
+    """Runs the tests of a mutant's folder, in the order of the list, until one fails that passes without the mutant."""
 
+    def __init__(self):
+        self.sound, self.lock = {}, threading.Lock()
 
-def judge(tree, tests, mutant):
-    file, number, new = mutant
-    path = tree.where / file
-    lines = path.read_text().split("\n")
-    old = lines[number]
-    lines[number] = new
-    path.write_text("\n".join(lines))
-    try:
-        if not tree.build(tree.library, tree.shared):
-            return "no program", "", old
-        for seconds, test in tests[file.split("/")[1]]:
-            if not tree.run(test, int(10 + 10 * seconds)):
-                return "dead", test, old
-        return "alive", "", old
-    finally:
-        lines[number] = old
-        path.write_text("\n".join(lines))
-        tree.build(tree.library, tree.shared)
+    def is_sound(self, tree, test):
+        if test not in self.sound:
+            sound = tree.run(test, LIMIT)
+            with self.lock:
+                self.sound[test] = sound
+                if not sound:
+                    print(f"mutate.py: {test} fails without a mutant: not used", file=sys.stderr)
+        return self.sound[test]
+
+    def judge(self, tree, mutant):
+        """dead, alive or no program; the test; the line before."""
+        file, number, new = mutant
+        path = tree.where / file
+        text = path.read_text()
+        lines = text.split("\n")
+        old, lines[number] = lines[number], new
+        tests = [t for t in expand(TESTS[file.split("/")[1]]) if self.sound.get(t, True)]
+        while True:
+            path.write_text("\n".join(lines))
+            built = tree.build(tree.library, tree.shared)
+            failed = next((t for t in tests if not tree.run(t, LIMIT)), None) if built else None
+            path.write_text(text)
+            tree.build(tree.library, tree.shared)
+            if failed is None:
+                return ("alive" if built else "no program"), "", old
+            if self.is_sound(tree, failed):
+                return "dead", failed, old
+            tests.remove(failed)
 
 
 def main():
@@ -194,7 +200,7 @@ def main():
                 (trees[i].where / trees[i].library).unlink()
                 if not trees[i].build("all", *programs):
                     sys.exit("mutate.py: a copy of the tree is not built")
-        tests = order_tests(trees[0], folders)
+        judge = Judge()
 
         def work(tree):
             while True:
@@ -205,7 +211,7 @@ def main():
                     if mutant is None:
                         return
                     sums["begun"] += 1
-                what, by, old = judge(tree, tests, mutant)
+                what, by, old = judge.judge(tree, mutant)
                 old, new = old.strip(), mutant[2].strip()
                 if what == "alive" and (mutant[0], old, new) in known:
                     what, by = "the same", known[mutant[0], old, new]
