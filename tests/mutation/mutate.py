@@ -2,7 +2,7 @@
 """mutate.py -- how many small errors in src the tests see.
 
 Draws COUNT mutants of src by SEED: an operator that becomes another, a constant that is changed, a statement that is
-left out.  Each is compiled, and the tests of its folder (below) run until one fails: then the mutant is dead.  Writes
+left out.  Each is compiled, and the tests of its folder (below) run until one fails: then it is dead.  Writes
 a row a mutant (what, by which test, file, line, the line before and after), and their sums.  Mutants that change no
 result are in equivalent.tsv beside this file: file, line before, line after, the reason.
 
@@ -117,37 +117,36 @@ class Tree:
         return subprocess.run([*self.make, *targets], cwd=self.where, env=self.env, stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL).returncode == 0
 
-    def run(self, test, limit):
-        """Does a test pass?"""
-        env = dict(self.env, CC="gcc", CCLD="gcc -O1", BUILD="build", MAKE="make", ONLY=test, LIMIT=str(limit), JOBS="1",
-                   LIBS="", INCLUDES="", TOOL_PARTS="", SAN="", LONG="")
-        command = "ulimit -f 4000000; ulimit -v 16000000; exec sh tests/run.sh none"
-        return subprocess.run(["sh", "-c", command], cwd=self.where, env=env, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.DEVNULL).returncode == 0
-
-
-def expand(names):
-    for name in names.split():
-        if name.startswith("cli/"):
-            yield from sorted(str(p.relative_to(ROOT / "tests").with_suffix("")) for p in (ROOT / "tests" / name).glob("*.sh"))
+    def run(self, test):
+        """The tests that fail: of a program itself, or of the scripts of a directory."""
+        limits = "ulimit -f 4000000; ulimit -v 16000000; "
+        if not test.startswith("cli/"):
+            command = f"exec timeout {LIMIT} build/tests/{test}"
         else:
-            yield name
+            command = "exec sh tests/run.sh none"
+        scripts = sorted(str(p.relative_to(ROOT / "tests").with_suffix("")) for p in (ROOT / "tests" / test).glob("*.sh"))
+        env = dict(self.env, CC="gcc", CCLD="gcc -O1", BUILD="build", MAKE="make", ONLY=" ".join(scripts), LIMIT=str(LIMIT), JOBS="1",
+                   LIBS="", INCLUDES="", TOOL_PARTS="", SAN="", LONG="")
+        done = subprocess.run(["sh", "-c", limits + command], cwd=self.where, env=env, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        failed = re.findall(r"^FAIL  ([^:]*):", done.stdout.decode(errors="replace"), re.M) if scripts else [test]
+        return [] if done.returncode == 0 else failed
 
 
 class Judge:
-    """Runs the tests of a mutant's folder, in the order of the list, until one fails that passes without the mutant."""
+    """Runs the tests of a mutant's folder, in the order of the list, until some fail that pass without the mutant."""
 
     def __init__(self):
-        self.sound, self.lock = {}, threading.Lock()
+        self.failing, self.lock = {}, threading.Lock()     # what fails without a mutant, of the tests that were asked
 
-    def is_sound(self, tree, test):
-        if test not in self.sound:
-            sound = tree.run(test, LIMIT)
+    def fails_anyway(self, tree, test):
+        if test not in self.failing:
+            failing = tree.run(test)
             with self.lock:
-                self.sound[test] = sound
-                if not sound:
-                    print(f"mutate.py: {test} fails without a mutant: not used", file=sys.stderr)
-        return self.sound[test]
+                self.failing[test] = failing
+                if failing:
+                    print("mutate.py: without a mutant fails, and is not used:", *failing, file=sys.stderr)
+        return self.failing[test]
 
     def judge(self, tree, mutant):
         """dead, alive or no program; the test; the line before."""
@@ -156,18 +155,24 @@ class Judge:
         text = path.read_text()
         lines = text.split("\n")
         old, lines[number] = lines[number], new
-        tests = [t for t in expand(TESTS[file.split("/")[1]]) if self.sound.get(t, True)]
-        while True:
-            path.write_text("\n".join(lines))
-            built = tree.build(tree.library, tree.shared)
-            failed = next((t for t in tests if not tree.run(t, LIMIT)), None) if built else None
-            path.write_text(text)
-            tree.build(tree.library, tree.shared)
-            if failed is None:
-                return ("alive" if built else "no program"), "", old
-            if self.is_sound(tree, failed):
-                return "dead", failed, old
-            tests.remove(failed)
+        killers, built = {}, False
+        for test in TESTS[file.split("/")[1]].split():
+            if not built:
+                path.write_text("\n".join(lines))
+                built = tree.build(tree.library, tree.shared)
+            failed = tree.run(test) if built else []
+            if failed or not built:
+                path.write_text(text)
+                tree.build(tree.library, tree.shared)
+                if not built:
+                    return "no program", "", old
+                built = False
+                killers = set(failed) - set(self.fails_anyway(tree, test))
+            if killers:
+                return "dead", min(killers), old
+        path.write_text(text)
+        tree.build(tree.library, tree.shared)
+        return "alive", "", old
 
 
 def main():
@@ -190,7 +195,7 @@ def main():
             where = os.path.join(scratch, str(i))
             os.mkdir(where) if i == 0 else shutil.copytree(trees[0].where, where, symlinks=True)
             trees.append(Tree(where))
-            programs = sorted({"build/tests/" + t for f in folders for t in expand(TESTS[f]) if not t.startswith("cli/")})
+            programs = sorted({"build/tests/" + t for f in folders for t in TESTS[f].split() if not t.startswith("cli/")})
             if i == 0 and not trees[0].build("all", *programs):
                 sys.exit("mutate.py: the tree without a mutant is not built")
             if i > 0:           # the programs name the library by its path
