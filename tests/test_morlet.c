@@ -387,10 +387,12 @@ static void
 engines_agree_and_damage_is_seen(void **state)
 {
     enum { N = 3000 };
-    double x[N], difference = NAN;
+    double x[N], noise[N], difference = NAN;
     ss_morlet_opts opts = ss_morlet_defaults;
     (void)state;
     make(WEAK_BURST, x, N);
+    for (int i = 0; i < N; i++)
+        noise[i] = (i * 7919 + i * i * 104729LL) % 1009 / 1009. - 0.5;
     for (opts.engine = SS_ENGINE_AUTO; opts.engine <= SS_ENGINE_FFT; opts.engine++) {
         ss_morlet *plan = plan_of(N, 2000, &opts);
         double *w = transform(plan, x);
@@ -401,6 +403,17 @@ engines_agree_and_damage_is_seen(void **state)
         assert_int_equal(ss_morlet_compare(plan, x, w, 10, &difference, NULL), SS_OK);
         assert_true(difference > 5e-4);
         assert_int_equal(ss_morlet_compare(plan, x, w, 0, &difference, NULL), SS_EINVAL);
+        free(w);
+        const ss_grid *grid = ss_morlet_grid(plan);
+        w = transform(plan, noise);
+        for (size_t i = 0, first = 0; i < grid->n_scales; first += grid->scale[i++].n) {   /* of one scale alone */
+            for (size_t c = 2 * first; c < 2 * (first + grid->scale[i].n); c++)
+                w[c] *= 2;
+            assert_int_equal(ss_morlet_compare(plan, noise, w, 10, &difference, NULL), SS_OK);
+            assert_true(difference > 0.05);
+            for (size_t c = 2 * first; c < 2 * (first + grid->scale[i].n); c++)
+                w[c] /= 2;
+        }
         free(w);
         ss_morlet_free(plan);
     }

@@ -1,6 +1,7 @@
 # What is told and what is not; columns are as many as their names.
 answer() {
     ss-rank --long "$@" > rows && sed -n 's/^# answer: //p' rows | sed 's/[0-9.e+]* \(times\|%\)/N \1/g'
+    ! grep '#.*#' rows           # each note is a line
     awk -F '\t' '/^# columns:/ { n = split($0, name, " ") - 2 }
                  !/^#/ { rows++; if (NF != n) print "columns", NF, n }
                  END { if (rows != 4) print "rows", rows + 0 }' rows
