@@ -616,6 +616,30 @@ motions(int variant)
     return st;
 }
 
+/* A decay, one with a mode beside it, and the level of one. */
+static ss_status
+decays(int variant)
+{
+    enum { ROWS = 1500 };
+    static double values[ROWS];
+    static ss_column column = { (char *)"x", (char *)"m" };
+    static ss_header head = { .rate = 100, .n_columns = 1, .column = &column };
+    const ss_signal decay = { &head, ROWS, values };
+    ss_backbone *made = NULL;
+    ss_backbone_opts opts;
+    ss_backbone_opts_init(&opts, sizeof opts);
+    opts.level_frequency = variant == 2 ? 10 : 0;
+    opts.mode = variant == 1 ? 7 : 0;
+    for (int i = 0; i < ROWS; i++)
+        values[i] = variant == 2 ? -0.01 * i + 0.1 * sin(i * i)
+            : exp(-0.003 * i) * (cos(0.44 * i) + variant * 2 * cos(0.6 * i)) + 0.001 * sin(i * i);
+    ss_status st = ss_backbone_find(&made, &decay, 0, &opts, &err);
+    if (st == SS_OK && made->n < 3)
+        fail_msg("%s", made->why);
+    ss_backbone_free(made);
+    return st;
+}
+
 static ss_status
 fits(int variant)
 {
@@ -826,7 +850,7 @@ static const struct row {
     { "reading wisdom", read_wisdom, 1, 30 }, { "features", features, 2, 30 },
     { "streams of features", feature_streams, 2, 10 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
-    { "rankings", rankings, 1, 4 }, { "motions", motions, 1, 10 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
+    { "rankings", rankings, 1, 4 }, { "motions", motions, 1, 10 }, { "decays", decays, 3, 20 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
     { "reading tables", read_tables, 2, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 6, 30 },
     { "reductions", reductions, 3, 100 },
     { "overviews", overviews, 2, 30 },

@@ -456,14 +456,15 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     if (out->n_mechanisms > 0) {
         block *smooth = calloc(n, sizeof *smooth);
         double whole = 0;
+        st = smooth != NULL ? SS_OK : SS_ENOMEM;
         for (const fitted *x = f; x < f + SS_MECHANISMS; x++)
             whole += is_among(out, x->kind) ? exp((best->bic - x->bic) / 2) : 0;
-        for (const fitted *x = f; smooth != NULL && st == SS_OK && x < f + SS_MECHANISMS; x++) {
+        for (const fitted *x = f; st == SS_OK && x < f + SS_MECHANISMS; x++) {
             trial of = { x->kind, p, n, source->has_phase ? 2 : 1, w / unit, what };
             if (is_among(out, x->kind))
                 st = smooth_about(smooth, &of, x, b, unit, ln_a, exp((best->bic - x->bic) / 2) / whole);
         }
-        for (size_t i = 0; smooth != NULL && st == SS_OK && i < n; i++) {
+        for (size_t i = 0; st == SS_OK && i < n; i++) {
             const block *from = &smooth[i];
             b[i].level = from->level;
             b[i].at.s = from->at.s, b[i].at.ds = from->at.ds, b[i].at.dds = from->at.dds;
@@ -480,6 +481,8 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     }
     free(p);
     free(what);
+    if (st != SS_OK)
+        return st;
     for (size_t i = 0; i < n; i++) {
         trial of = { best->kind, NULL, 0, 0, w / unit, NULL };
         double rate[TRACKS], ignore, at = frequency(&of, best->u, exp(b[i].level - ln_a));
