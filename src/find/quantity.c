@@ -6,6 +6,7 @@
 #include "find/quantity.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <string.h>
 #include "signal/header.h"
 
@@ -50,8 +51,9 @@ ss_column_quantity(const ss_column *column)
         return QUANTITY_FORCE;
     /* a unit of length, by whatever time: m, mm/s, (m/s^2), in */
     const char *unit = column->unit + (column->unit[0] == '(');
-    static const char *const lengths[] = { "m", "mm", "um", "nm", "cm", "km", "in", "ft", NULL };
-    if (is_one_of(lengths, unit, strcspn(unit, "/)")) && strcmp(unit, "M") != 0)
+    char length[16];
+    snprintf(length, sizeof length, "%.*s", (int)strcspn(unit, "/)"), unit);
+    if (ss_unit_in_si(length, 'm') > 0)
         return QUANTITY_MOTION;
     return has_word(column->name, force_words) ? QUANTITY_FORCE
         : has_word(column->name, motion_words) ? QUANTITY_MOTION : QUANTITY_UNKNOWN;

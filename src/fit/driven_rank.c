@@ -251,7 +251,7 @@ find_unexplained(const driven *d, const double *left, const double *own, double 
 
 /* The mean square at most of noise with these second differences, if its memory is at most MEMORY of a cycle: of
  * noise of the first order, and of white noise.  What a law fails to explain is smoother, but for few rows.
- * room: for 2 * ROWS numbers. */
+ * room: for ROWS numbers. */
 static double
 find_rough(const driven *d, const double *predicted, size_t turns, double *room)
 {
@@ -540,7 +540,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
 {
     driven_result *r = calloc(LAWS_MOST, sizeof *r);
     size_t *partner = malloc(rows->n * sizeof *partner), n = 0, best = 0;
-    double room[2 * ROWS], noise[LAWS_MOST], power = power_of(rows), quiet = QUIET * power;
+    double room[ROWS], noise[LAWS_MOST], power = power_of(rows), quiet = QUIET * power;
     out->predicted = malloc(signal->n * sizeof *out->predicted);
     ss_status st = r != NULL && partner != NULL && out->predicted != NULL ? find_partners(rows, partner) : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && ss_driven_law(i) != NULL; i++) {

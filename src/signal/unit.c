@@ -53,7 +53,7 @@ ss_unit_in_si(const char *unit, char dimension)
         { "kgf", 'N', 9.80665 }, { "gf", 'N', 9.80665e-3 }, { "dyn", 'N', 1e-5 }, { "dyne", 'N', 1e-5 },
         { "m", 'm', 1 }, { "cm", 'm', 1e-2 }, { "mm", 'm', 1e-3 }, { "um", 'm', 1e-6 }, { "\xc2\xb5m", 'm', 1e-6 },
         { "\xce\xbcm", 'm', 1e-6 }, { "micron", 'm', 1e-6 }, { "microns", 'm', 1e-6 }, { "nm", 'm', 1e-9 },
-        { "in", 'm', 0.0254 }, { "ft", 'm', 0.3048 } };
+        { "in", 'm', 0.0254 }, { "ft", 'm', 0.3048 }, { "km", 'm', 1e3 } };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (known[i].dimension == dimension && strcmp(known[i].name, unit) == 0)
             return known[i].si;
