@@ -116,27 +116,32 @@ reads_long_records_as_well(void **state)
     }
 }
 
-/* Stiff and soft, light and heavy: within bounds, or refused. */
+/* Stiff and soft, light and heavy: within bounds, or refused.  In noise of 40 dB a sensor cannot be told from the
+ * stiffest: what it would ring where a slip begins is hidden. */
 static void
 reads_stiff_and_soft_contacts(void **state)
 {
     static const double K_y[] = { 6e4, 6e5, 6e6, 2e7 }, damping[] = { 0.005, 0.05, 0.2 };
-    int refused = 0;
+    static const struct { double snr; int refused; } noise[] = { { 40, 6 }, { 60, 2 } };
     (void)state;
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 3; j++) {
-            ss_scene scene = scene_of("compliant-light");
-            ss_scene_set(&scene, "contact_stiffness", K_y[i], NULL);
-            ss_scene_set(&scene, "contact_damping", damping[j] * 2 * sqrt(stiffness(&scene) * scene.mass), NULL);
-            ss_features *f = features_of(&scene, 40, 1);
-            double K = f->number[SS_TOTAL_STIFFNESS].value / stiffness(&scene) - 1;
-            double z = f->number[SS_DAMPING_RATIO].value / damping[j] - 1;
-            refused += isnan(K);
-            if (fabs(K) > 5e-3 || fabs(z) > 0.05)       /* not a number: refused */
-                fail_msg("K_y %g, ratio %g: off by %g, %g", K_y[i], damping[j], K, z);
-            ss_features_free(f);
-        }
-    assert_true(refused <= 3);
+    for (int l = 0; l < 2; l++) {
+        int refused = 0;
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 3; j++) {
+                ss_scene scene = scene_of("compliant-light");
+                ss_scene_set(&scene, "contact_stiffness", K_y[i], NULL);
+                ss_scene_set(&scene, "contact_damping", damping[j] * 2 * sqrt(stiffness(&scene) * scene.mass),
+                             NULL);
+                ss_features *f = features_of(&scene, noise[l].snr, 1);
+                double K = f->number[SS_TOTAL_STIFFNESS].value / stiffness(&scene) - 1;
+                double z = f->number[SS_DAMPING_RATIO].value / damping[j] - 1;
+                refused += isnan(K);
+                if (fabs(K) > 5e-3 || fabs(z) > 0.05)       /* not a number: refused */
+                    fail_msg("K_y %g, ratio %g: off by %g, %g", K_y[i], damping[j], K, z);
+                ss_features_free(f);
+            }
+        assert_true(refused <= noise[l].refused);
+    }
 }
 
 /* Half a cycle of these bases leaves sticks of 0.3 to 1.5 periods. */
