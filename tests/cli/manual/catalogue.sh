@@ -20,7 +20,10 @@ ss-sim -c t,x,v leine | ss-plot --xy x,v -o leine.png
 ss-sim -c t,x,v shaw | ss-plot --xy x,v -o shaw.png
 ss-sweep --measure cycle_time,peak_velocity,force_drop,growth --vary stiffness=1000:2000:3 rate-and-state-mild | rows
 ss-sweep --measure growth --vary stiffness=49500:50600:12 rate-and-state-lab | rows
-ss-sim -c v,f -s settle=60 -s duration=16 -s rate=5000 rate-and-state-lab |
-    awk '/^# columns/ { $0 = "# columns: lnV mu" } !/^#/ { $0 = log($1) "\t" $2 / 100 } 1' |
-    ss-plot --xy lnV,mu -o plane.png
+ss-sim -c t,s -s settle=100 -s duration=200 -s rate=200 rate-and-state-lab | ss-features |
+    awk 'BEGIN { truth["drop:"] = 14.9026635; truth["recurrence_time:"] = 15.22062821; truth["loading_slope:"] = 1 }
+        $2 in truth { print $2, ($3 - truth[$2]) ^ 2 < $4 ^ 2 }'
+ss-sim -c v,f -s settle=60 -s duration=16 -s rate=5000 --format csv rate-and-state-lab |
+    awk -F, 'NR == 1 { print "lnV,mu"; next } { print log($1) "," $2 / 100 }' |
+    ss-plot --rate 5000 --xy lnV,mu -o plane.png
 for picture in slider leine shaw plane; do [ -s $picture.png ] || echo "no picture of $picture"; done
