@@ -104,7 +104,7 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
                     at[i + 1].p[k][j] += q * at[i].walk[k][j];
             }
         }
-        likelihood += w == 0 && states > 3 ? log(WALKS - 1) : 0;
+        likelihood += w == 0 && states > 3 ? log(WALKS - 1) : 0;    /* a law is exact as likely as not */
         double ease = likelihood > best ? exp(best - likelihood) : 1;
         best = fmax(best, likelihood);
         double weight = exp(likelihood - best);

@@ -163,7 +163,6 @@ make_points(point *p, const block *b, size_t n, double unit, double ln_a, double
         double before_it = i > 0 ? b[i - 1].at.s : 0, behind = i + 1 < n ? b[i + 1].at.s : 0;
         double s = fmax(b[i].at.s, fmax(before_it, behind)) / unit;
         double step = i > 0 ? (b[i].t - b[i - 1].t) * unit : 0;
-        double uneven = fabs(b[i].at.ds) / b[i].at.w / 2 / unit;
         p[i].t = b[i].t * unit;
         p[i].y[LEVEL] = b[i].y[LEVEL] - ln_a;
         p[i].y[PHASE] = b[i].y[PHASE] - w * (b[i].t - b->t);
@@ -172,8 +171,7 @@ make_points(point *p, const block *b, size_t n, double unit, double ln_a, double
         p[i].rate[PHASE] = (b[i].rate[PHASE] - w) / unit;
         for (int c = 0; c < TRACKS; c++) {
             const double *cov = b[i].cov[c];
-            double trust = hypot(TRUST * s, c == PHASE ? uneven : uneven * M_PI * M_PI * b[i].at.s / b[i].at.w);
-            double before = walked[c] + trust * trust * step * step, whole = before + b[i].noise * cov[0];
+            double trust = TRUST * s, before = walked[c] + trust * trust * step * step, whole = before + b[i].noise * cov[0];
             p[i].whole[c] = sqrt(whole);
             p[i].gain[c] = before / whole;
             walked[c] = before * (1 - p[i].gain[c]);
@@ -318,10 +316,15 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
 
 /* --- what is smooth about it ----------------------------------------------------------------- */
 
-/* What is smooth through the blocks about the mechanism f, whose unknowns are constants beside: each track twice,
- * as the constants that the other one finds are where it starts.  Weighs less by `weight` than what is there. */
+/* Of a block, weighed over mechanisms: ln A, and mean and square of its rates and of what damping takes from w^2. */
+typedef struct mixed {
+    double level, mean[3], square[3];
+} mixed;
+
+/* Add what is smooth through the blocks about the mechanism f, whose unknowns are constants beside: each track
+ * twice, as what the other one finds of the constants is where it starts. */
 static ss_status
-smooth_about(block *smooth, const trial *of, const fitted *f, const block *b, double unit, double ln_a, double weight)
+smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, double unit, double weight)
 {
     size_t n = of->n, states = 3, which[UNKNOWNS];
     double start[STATES][STATES] = { { 0 } }, x[STATES] = { 0 };
@@ -379,46 +382,18 @@ smooth_about(block *smooth, const trial *of, const fitted *f, const block *b, do
         ss_blocks_track(&p[c * n], n, states, other->x, other->p, &ignore);
     }
     for (size_t i = 0; i < n; i++) {
-        const place *level = &p[i], *phase = &p[n + i];
-        const double h = .02;
-        double near[3][TRACKS], slope[TRACKS], curve[TRACKS], ignore;
-        for (int j = 0; j < 3; j++)
-            rates(of, f->u, at[i].y[LEVEL] + (j - 1) * h, near[j], &ignore);
-        for (size_t c = 0; c < TRACKS; c++) {
-            slope[c] = (near[2][c] - near[0][c]) / (2 * h);
-            curve[c] = (near[2][c] - 2 * near[1][c] + near[0][c]) / (h * h);
+        const place *level = &p[i], *phase = of->tracks > 1 ? &p[n + i] : level;
+        double mean[3] = { at[i].rate[LEVEL] + level->mean[1], at[i].rate[PHASE] + phase->mean[1],
+                           at[i].lag + level->mean[2] };
+        double variance[3] = { level->square[1], phase->square[1], level->square[2] };
+        sum[i].level += weight * (at[i].y[LEVEL] + level->mean[0]);
+        for (int k = 0; k < 3; k++) {
+            sum[i].mean[k] += weight * mean[k];
+            sum[i].square[k] += weight * (variance[k] + mean[k] * mean[k]);
         }
-        double fall = near[1][LEVEL];
-        block *to = &smooth[i];
-        to->level += weight * (ln_a + at[i].y[LEVEL] + level->mean[0]);
-        double s = -unit * (at[i].rate[LEVEL] + level->mean[1]), variance = unit * unit * level->square[1];
-        to->at.s += weight * s;
-        to->error[LEVEL] += weight * (variance + s * s);
-        double lag = unit * unit * (at[i].lag + level->mean[2]);
-        to->lag += weight * lag;
-        to->lag_error += weight * (pow(unit, 4) * level->square[2] + lag * lag);
-        to->at.ds += weight * unit * unit * (-fall * slope[LEVEL] + level->mean[2]);
-        to->at.dds += weight * pow(unit, 3) * -fall * (slope[LEVEL] * slope[LEVEL] + fall * curve[LEVEL]);
-        if (of->tracks == 1)
-            continue;
-        to->phase += weight * (at[i].y[PHASE] + phase->mean[0] + of->w * (of->p[i].t - of->p->t));
-        double w = unit * (at[i].rate[PHASE] + phase->mean[1]);
-        to->at.w += weight * w;
-        to->error[PHASE] += weight * (unit * unit * phase->square[1] + w * w);
-        to->at.dw += weight * unit * unit * fall * slope[PHASE];
-        to->at.ddw += weight * pow(unit, 3) * fall * (slope[LEVEL] * slope[PHASE] + fall * curve[PHASE]);
     }
     free(at), free(by), free(p);
     return SS_OK;
-}
-
-static int
-is_among(const ss_backbone *b, ss_mechanism kind)
-{
-    for (size_t i = 0; i < b->n_mechanisms; i++)
-        if (b->mechanism[i] == kind)
-            return 1;
-    return 0;
 }
 
 ss_status
@@ -447,38 +422,36 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         best++;
     best = best->p < REJECT ? f : best;
     out->chi2_dof = best->squares / best->free;
-    for (const fitted *x = best; best->p >= REJECT && x < f + SS_MECHANISMS; x++) {
+    mixed *sum = calloc(n, sizeof *sum);
+    double whole = 0, error[3];
+    st = sum != NULL ? SS_OK : SS_ENOMEM;
+    for (const fitted *x = best; st == SS_OK && best->p >= REJECT && x < f + SS_MECHANISMS; x++) {
         int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY;
         unsigned is_more = laws[x->kind].contains >> best->kind & 1;
-        if (x == best || (is_near && (!is_more || best->squares - x->squares > GAIN * (best->free - x->free))))
-            out->mechanism[out->n_mechanisms++] = x->kind;
-    }
-    if (out->n_mechanisms > 0) {
-        block *smooth = calloc(n, sizeof *smooth);
-        double whole = 0;
-        st = smooth != NULL ? SS_OK : SS_ENOMEM;
-        for (const fitted *x = f; x < f + SS_MECHANISMS; x++)
-            whole += is_among(out, x->kind) ? exp((best->bic - x->bic) / 2) : 0;
-        for (const fitted *x = f; st == SS_OK && x < f + SS_MECHANISMS; x++) {
+        if (x == best || (is_near && (!is_more || best->squares - x->squares > GAIN * (best->free - x->free)))) {
             trial of = { x->kind, p, n, source->has_phase ? 2 : 1, w / unit, what };
-            if (is_among(out, x->kind))
-                st = smooth_about(smooth, &of, x, b, unit, ln_a, exp((best->bic - x->bic) / 2) / whole);
+            double weight = exp((best->bic - x->bic) / 2);
+            out->mechanism[out->n_mechanisms++] = x->kind;
+            whole += weight;
+            st = smooth_about(sum, &of, x, b, unit, weight);
         }
-        for (size_t i = 0; st == SS_OK && i < n; i++) {
-            const block *from = &smooth[i];
-            b[i].level = from->level;
-            b[i].at.s = from->at.s, b[i].at.ds = from->at.ds, b[i].at.dds = from->at.dds;
-            b[i].error[LEVEL] = sqrt(fmax(from->error[LEVEL] - from->at.s * from->at.s, 0));
-            b[i].lag = from->lag;
-            b[i].lag_error = sqrt(fmax(from->lag_error - from->lag * from->lag, 0));
-            if (!source->has_phase)
-                continue;
-            b[i].phase = from->phase;
-            b[i].at.w = w + from->at.w, b[i].at.dw = from->at.dw, b[i].at.ddw = from->at.ddw;
-            b[i].error[PHASE] = sqrt(fmax(from->error[PHASE] - from->at.w * from->at.w, 0));
-        }
-        free(smooth);
     }
+    for (size_t i = 0; st == SS_OK && whole > 0 && i < n; i++) {
+        for (int k = 0; k < 3; k++) {
+            sum[i].mean[k] /= whole;
+            error[k] = sqrt(fmax(sum[i].square[k] / whole - sum[i].mean[k] * sum[i].mean[k], 0));
+        }
+        b[i].level = ln_a + sum[i].level / whole;
+        b[i].at.s = -unit * sum[i].mean[LEVEL];
+        b[i].lag = unit * unit * sum[i].mean[2];
+        b[i].lag_error = unit * unit * error[2];
+        b[i].error[LEVEL] = unit * error[LEVEL];
+        if (source->has_phase) {
+            b[i].at.w = w + unit * sum[i].mean[PHASE];
+            b[i].error[PHASE] = unit * error[PHASE];
+        }
+    }
+    free(sum);
     free(p);
     free(what);
     if (st != SS_OK)
