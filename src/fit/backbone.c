@@ -51,7 +51,8 @@ typedef struct decay {
 /* --- where it is ----------------------------------------------------------------------------- */
 
 /* The frequency of the strongest line in n samples, per sample, weighed by frequency, as slow changes have more
- * power than they matter (and an offset has none in differences); near > 0: of those about it.  0: there is none. */
+ * power than they matter (and an offset has none in differences); near > 0: of those about it.  0: there is
+ * none. */
 static ss_status
 find_line(double *w, const double *x, size_t n, double near)
 {
@@ -243,8 +244,8 @@ is_hit(const decay *d)
     return d->n_blocks >= FEW && b[0].left / b[0].free > HIT * fmax(b[1].left / b[1].free, b[2].left / b[2].free);
 }
 
-/* 1: the motion's end is in the last block: it leaves more than those before, by 5 standard deviations, or it loses
- * an e-fold, as no block before a stop does. */
+/* 1: the motion's end is in the last block: it leaves more than those before, by 5 standard deviations, or it
+ * loses an e-fold, as no block before a stop does. */
 static int
 is_stop(const decay *d)
 {
@@ -616,7 +617,8 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     if (b == NULL)
         st = SS_ENOMEM;
     else
-        st = source.has_phase ? find_scaled(&d, x, signal->n, &source) : find_levels(&d, x, signal->n, source.rate);
+        st = source.has_phase ? find_scaled(&d, x, signal->n, &source)
+            : find_levels(&d, x, signal->n, source.rate);
     if (st == SS_OK) {
         b->why = no_decay(&d);
         b->start = d.start;

@@ -23,8 +23,9 @@ static turner
 turner_at(bend at, double t)
 {
     double complex rate = -at.s + at.w * I, more = -at.ds + at.dw * I, twist = -at.dds + at.ddw * I;
-    return (turner){ cexp(t * (rate + t / 2 * (more + t / 3 * twist))), cexp(rate + more * (t + .5) + twist * (t * t + t + 1 / 3.) / 2),
-                     cexp(more + twist * (t + 1)), cexp(twist) };
+    return (turner){ cexp(t * (rate + t / 2 * (more + t / 3 * twist))),
+                     cexp(rate + more * (t + .5) + twist * (t * t + t + 1 / 3.) / 2), cexp(more + twist * (t + 1)),
+                     cexp(twist) };
 }
 
 /* Finite factors need not ask for the infinities that C's own product looks after. */

@@ -171,7 +171,8 @@ make_points(point *p, const block *b, size_t n, double unit, double ln_a, double
         p[i].rate[PHASE] = (b[i].rate[PHASE] - w) / unit;
         for (int c = 0; c < TRACKS; c++) {
             const double *cov = b[i].cov[c];
-            double trust = TRUST * s, before = walked[c] + trust * trust * step * step, whole = before + b[i].noise * cov[0];
+            double trust = TRUST * s, before = walked[c] + trust * trust * step * step;
+            double whole = before + b[i].noise * cov[0];
             p[i].whole[c] = sqrt(whole);
             p[i].gain[c] = before / whole;
             walked[c] = before * (1 - p[i].gain[c]);
@@ -316,7 +317,8 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
 
 /* --- what is smooth about it ----------------------------------------------------------------- */
 
-/* Of a block, weighed over mechanisms: ln A, and mean and square of its rates and of what damping takes from w^2. */
+/* Of a block, weighed over mechanisms: ln A, and mean and square of its rates and of what damping takes from
+ * w^2. */
 typedef struct mixed {
     double level, mean[3], square[3];
 } mixed;
@@ -338,6 +340,7 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
     for (size_t c = 0; c < of->tracks; c++)
         for (size_t i = 0; i < n; i++) {
             place *to = &p[c * n + i];
+            const double *cov = b[i].cov[c];
             double s = fmax(-at[i].rate[LEVEL], 1e-9), rate = c == LEVEL ? -s : 1;
             double t = i + 1 < n ? of->p[i + 1].t - of->p[i].t : 0;
             double lost = i + 1 < n ? fmax(at[i].y[LEVEL] - at[i + 1].y[LEVEL], 1e-9) : 0;
@@ -347,8 +350,8 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
             to->tie = of->p[i].tie[c];
             to->seen[0] = of->p[i].y[c] - at[i].y[c];
             to->seen[1] = of->p[i].rate[c] - at[i].rate[c] - to->tie * to->seen[0];
-            to->variance[0] = b[i].cov[c][0] * b[i].noise;
-            to->variance[1] = (b[i].cov[c][2] - b[i].cov[c][1] * b[i].cov[c][1] / b[i].cov[c][0]) * b[i].noise / unit / unit;
+            to->variance[0] = cov[0] * b[i].noise;
+            to->variance[1] = (cov[2] - cov[1] * cov[1] / cov[0]) * b[i].noise / unit / unit;
             ss_place_walk(to, lost);
         }
     for (size_t k = 0; k < UNKNOWNS; k++) {
@@ -364,9 +367,10 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
                 p[c * n + i].see[1][states] = (by[i].rate[c] - at[i].rate[c]) * 10;
             }
         which[states - 3] = k;
-        for (size_t j = 3; j <= states; j++) {
-            double of_j = f->covariance[which[j - 3] * UNKNOWNS + which[j - 3]];
-            start[j][states] = start[states][j] = (double)(4 * n) * f->covariance[k * UNKNOWNS + which[j - 3]] / sigma / sqrt(of_j);
+        for (size_t j = 3; j <= states; j++) {          /* as little known as by one number of all 4 n */
+            const double *cov = f->covariance, own = cov[which[j - 3] * (UNKNOWNS + 1)];
+            start[j][states] = start[states][j]
+                = (double)(4 * n) * cov[k * UNKNOWNS + which[j - 3]] / sigma / sqrt(own);
         }
         states++;
     }
