@@ -19,7 +19,7 @@
 enum {
     RICH = 32,                  /* samples a period that are enough */
     FEW = 3,                    /* blocks that are a decay */
-    REFITS = 3,                 /* smooth curves, each through blocks fitted about the last */
+    REFITS = 2,                 /* smooth curves, each through blocks fitted about the last */
     PARTS = 8,                  /* in which a line is looked at */
     SOME = 1024,                /* terms of a spectrum that tell what is usual */
     HARMONICS = 9,              /* of the decay, which are no lines */
@@ -50,27 +50,39 @@ typedef struct decay {
 
 /* --- where it is ----------------------------------------------------------------------------- */
 
+/* The power of n samples at k 2 pi / size, k = 0 ... size / 2, in f->x, which the caller frees: of their
+ * differences, which have no offset, or tapered towards the end, as what dies out is at the start. */
+static ss_status
+spectrum(real_fft *f, size_t *size, const double *x, size_t n, int is_tapered)
+{
+    for (*size = 2; *size < (is_tapered ? 2 * n : n);)
+        *size *= 2;
+    if (ss_real_fft_new(f, *size, 0) != SS_OK)
+        return SS_ENOMEM;
+    memset(f->x, 0, *size * sizeof *f->x);
+    for (size_t i = 0; i < n; i++)
+        f->x[i] = is_tapered ? x[i] * (1 + cos(M_PI * ((double)i + .5) / (double)n)) / 2
+            : i > 0 ? x[i] - x[i - 1] : 0;
+    ss_real_fft_run(f);
+    for (size_t k = 0; k <= *size / 2; k++)
+        f->x[k] = f->x[2 * k] * f->x[2 * k] + f->x[2 * k + 1] * f->x[2 * k + 1];
+    return SS_OK;
+}
+
 /* The frequency of the strongest line in n samples, per sample, weighed by frequency, as slow changes have more
- * power than they matter (and an offset has none in differences); near > 0: of those about it.  0: there is
- * none. */
+ * power than they matter; near > 0: of those about it.  0: there is none. */
 static ss_status
 find_line(double *w, const double *x, size_t n, double near)
 {
-    size_t size = 2;
+    size_t size;
     real_fft f;
     double best = 0;
-    while (size < n)
-        size *= 2;
     *w = 0;
-    if (ss_real_fft_new(&f, size, 0) != SS_OK)
+    if (spectrum(&f, &size, x, n, 0) != SS_OK)
         return SS_ENOMEM;
-    memset(f.x, 0, size * sizeof *f.x);
-    for (size_t i = 1; i < n; i++)
-        f.x[i] = x[i] - x[i - 1];
-    ss_real_fft_run(&f);
     double unit = 2 * M_PI / (double)size, *power = f.x;
-    for (size_t k = 0; k <= size / 2; k++)
-        power[k] = (f.x[2 * k] * f.x[2 * k] + f.x[2 * k + 1] * f.x[2 * k + 1]) / (double)(k > 0 ? k : 1);
+    for (size_t k = 1; k <= size / 2; k++)
+        power[k] /= (double)k;
     for (size_t k = (size_t)(2.5 * (double)size / (double)n); k < size / 2; k++)
         if (k > 0 && power[k] >= power[k - 1] && power[k] > power[k + 1] && power[k] > best
             && (near == 0 || fabs((double)k * unit - near) < NEAR * near)) {
@@ -371,19 +383,11 @@ line_decay(double *w, const double *left, size_t n)
 static ss_status
 find_beside(const decay *d, const double *left, size_t n, double *ratio, double *w)
 {
-    size_t size = 2, best = 0;
-    real_fft f = { NULL, NULL };
-    while (size < 2 * n)
-        size *= 2;
-    if (ss_real_fft_new(&f, size, 0) != SS_OK)
+    size_t size, best = 0;
+    real_fft f;
+    if (spectrum(&f, &size, left, n, 1) != SS_OK)
         return SS_ENOMEM;
-    memset(f.x, 0, size * sizeof *f.x);
-    for (size_t i = 0; i < n; i++)              /* other modes die out: what is at the start is not tapered */
-        f.x[i] = left[i] * (1 + cos(M_PI * ((double)i + .5) / (double)n)) / 2;
-    ss_real_fft_run(&f);
     double unit = 2 * M_PI / (double)size, *power = f.x;
-    for (size_t k = 0; k <= size / 2; k++)
-        power[k] = f.x[2 * k] * f.x[2 * k] + f.x[2 * k + 1] * f.x[2 * k + 1];
     for (size_t k = (size_t)(3 * (double)size / (double)n); k < size / 2; k++)
         if (power[k] > power[k - 1] && power[k] > power[k + 1] && power[k] > power[best]
             && !is_known(d, (double)k * unit, n))

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WALKS = 12, PASSES = 6, PARTS = 4 };
+enum { WALKS = 12, PASSES = 4, PARTS = 4 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
 #define FAR 1.0                 /* the most by which ln s and p change in a pass */
 #define SMALL .005              /* damping over its mean below which its logarithm is none */
