@@ -44,7 +44,7 @@ typedef struct ss_sim_stats {   /* what a run cost, from the start of settling *
 /* Simulate the scene from the start of settling to the end of the record, in constant memory.  The
  * events do not depend on rate.  stats may be NULL.  SS_EINVAL: the scene or an option is out of
  * its range; SS_ERANGE: a value is not finite; SS_ETOL, SS_ECHATTER, SS_EBUDGET: err gives a
- * diagnosis; SS_STOP. */
+ * diagnosis; SS_EDATA: a rate-and-state motion ends where its spring goes slack; SS_STOP. */
 ss_status ss_sim_run(const ss_scene *scene, const ss_sim_opts *opts, ss_sim_stats *stats,
                      ss_error *err);
 

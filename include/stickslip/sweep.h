@@ -13,7 +13,8 @@ SS_BEGIN_DECLARATIONS
 
 /* What can be measured, over one period of the motion.  A cycle is a forcing cycle; or if
  * base_frequency is 0 and a base or a surface pulls, the time from one onset of stick to the next
- * (compliant: of a microstick after a slip).  A model without sticks has no stops, no stick
+ * (compliant: of a microstick after a slip), or of rate and state from one time at which the mass becomes
+ * slower than the pull to the next.  A model without sticks has no stops, no stick
  * fraction and no micro-slips.  Only the compliant and the state-variable model have a transition.
  */
 typedef enum ss_measure {
@@ -104,7 +105,8 @@ typedef struct ss_steady {
  *
  * The state (x - U t, v, and y or theta) at the start of each cycle is compared with the state 1,
  * 2, ... max_period cycles before.  The unit of x is the largest of Z_e, |x0|, |v0|/omega_n and
- * f_k/k; that of v is this times omega_n or Omega; that of y is f_k/K_y, and that of theta f_k.
+ * f_k/k; that of v is this times omega_n or Omega; that of y is f_k/K_y, and that of theta f_k.  With rate and
+ * state a N/k is that of x, and ln V and ln theta stand in place of v and y.
  * The motion is periodic when the difference is at most tol and the state lies within tol of its
  * limit, as the rate at which the differences shrink tells.  In shooting, Newton's last step and
  * residual are at most tol.
