@@ -346,6 +346,45 @@ filter_sharply(double *x, size_t n, double corner)
     }
 }
 
+/* A resonator of this frequency re the rate and this quality, by the bilinear transform. */
+static void
+resonate(double *x, size_t n, double f, double quality)
+{
+    double k = tan(M_PI * f), norm = 1 / (1 + k / quality + k * k);
+    double now[3] = { x[0], x[0], x[0] }, y[2] = { x[0], x[0] };
+    for (size_t i = 0; i < n; i++) {
+        now[2] = now[1], now[1] = now[0], now[0] = x[i];
+        x[i] = norm * (k * k * (now[0] + 2 * now[1] + now[2]) - 2 * (k * k - 1) * y[0]
+                       - (1 - k / quality + k * k) * y[1]);
+        y[1] = y[0], y[0] = x[i];
+    }
+}
+
+/* A sensor that resonates rings behind each jump as a contact does, but where a slip begins, too. */
+static void
+the_ringing_of_a_sensor_is_no_contact(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        ss_scene scene = scene_of("coulomb");
+        ss_signal *signal = NULL;
+        ss_features *f = NULL;
+        scene.friction *= 0.6 + 0.05 * (k % 6);
+        scene.duration = 10;
+        scene.rate = 2000;
+        assert_int_equal(ss_sim_signal(&signal, &scene, NULL), SS_OK);
+        size_t column = (size_t)ss_header_column(signal->head, "a"), n = signal->n;
+        double *a = signal->values + column * n;
+        resonate(a, n, 0.02 * (1 + k % 4), 3 + k);
+        ss_noise_add_once(a, n, ss_noise_rms(a, n, 50), 1 + (unsigned long)k, NULL);
+        assert_int_equal(ss_features_find(&f, signal, column, NULL, NULL), SS_OK);
+        if (!isnan(f->number[SS_TRANSITION_FREQUENCY].value))
+            fail_msg("%d: %g Hz", k, f->number[SS_TRANSITION_FREQUENCY].value);
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
+}
+
 /* A filter rings behind each jump, at its corner; a slider without a contact does not. */
 static void
 the_ringing_of_a_filter_is_no_contact(void **state)
@@ -660,6 +699,7 @@ main(void)
         cmocka_unit_test(the_forcing_is_no_harmonic),
         cmocka_unit_test(rings_beside_larger_jumps),
         cmocka_unit_test(the_ringing_of_a_filter_is_no_contact),
+        cmocka_unit_test(the_ringing_of_a_sensor_is_no_contact),
         cmocka_unit_test(single_events_have_an_extent),
         cmocka_unit_test(no_slip_rate_where_repetitions_have_no_transition),
         cmocka_unit_test(reads_the_slope_of_force_over_displacement),
