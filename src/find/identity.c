@@ -27,7 +27,7 @@
 #define BARELY 0.577            /* s / w at a damping ratio of one half */
 #define AROUND 2.0              /* periods on either side of the middle of a stretch */
 #define CONTACT 5.0             /* log likelihood of the contact over the sensor: less is the sensor, or chance */
-#define SENSOR 2.5              /* times as much the contact leaves where a slip ends, as it leaves less elsewhere */
+#define SENSOR 2.5              /* what the contact leaves over what the sensor leaves where a slip ends, at least */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
 enum { RATE = 24 };             /* most samples of a period that are used */
 enum { STICKS = 8, TRIED = 3 }; /* sticks that are looked behind; places in each where a slip may begin */
