@@ -98,7 +98,7 @@ static ss_status
 write_differences(drawing *d, trace *label, ss_error *err)
 {
     trace all = { .extent = SCRIPT_NO_EXTENT };
-    static char name[] = "difference";
+    char name[] = "difference";
     for (size_t k = 0; k < d->opts->n_over; k++)
         if (d->layer[k].left.column != NULL)
             ss_script_widen(&all.extent, d->layer[k].left.extent);
