@@ -11,7 +11,7 @@ static const char usage[] =
 "Draw a signal: one panel a column over time, or one column over another; of\n"
 "several files, one over the other; or a map of a sweep.\n"
 "  -c, --column=NAME|N  draw this column (repeatable, in this order), default all\n"
-"      --over=FILE      draw its first column over the first panel, or its X and Y\n"
+"      --over=FILE      draw its first column over the first panel, or X and Y\n"
 "      --difference     and the difference of the first panel in a panel below\n"
 "      --features=FILE  shade the transitions that ss-features found\n"
 "      --xy=X,Y         Y over X instead: a phase plane, a friction loop\n"

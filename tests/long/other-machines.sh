@@ -23,7 +23,7 @@ packages() {    # ARCHITECTURE
 check() {       # ARCHITECTURE TRIPLE EMULATOR
     packages "$1"
     root=$PWD/$1
-    # shellcheck disable=SC2086  # a list of names
+    # shellcheck disable=SC2046,SC2086  # lists of names
     env -i PATH="$PATH" HOME="$PWD" PKG_CONFIG_SYSROOT_DIR="$root" \
         PKG_CONFIG_LIBDIR="$root/usr/lib/$2/pkgconfig:$root/usr/share/pkgconfig" \
         "$MAKE" -s -j "$(getconf _NPROCESSORS_ONLN)" -C tree BUILD="build-$1" INSTALL_DEPS=0 \
