@@ -314,7 +314,7 @@ names_none_of_these(void **unused)
         r.f[i] = slider(&y, dx, 0.1) / 0.1 + slider(&z, dx, 2) / 2;
     }
     add_noise(r.f, 0.005, 7);
-    assert_answer(&r, SS_NONE_FITS, "repeats");
+    assert_answer(&r, SS_NONE_FITS, "times the noise");
     ss_signal_free(r.signal);
 }
 
