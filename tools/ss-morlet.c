@@ -266,8 +266,9 @@ invert(const request *req, const char *path)
     const ss_progress progress = { tool_progress, &error };
     check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, progress, &err), &err,
           path);
-    tool_note("%zu samples, error about %.2g between %.4g and %.4g Hz", signal->n, error,
-              coef->scale[0].f, coef->scale[coef->n_scales - 1].f);
+    const char *norm = ss_header_find_note(coef->head, "norm");
+    tool_note("%zu samples from coefficients of the norm %s, error about %.2g between %.4g and %.4g Hz", signal->n,
+              norm != NULL ? norm : "l2", error, coef->scale[0].f, coef->scale[coef->n_scales - 1].f);
     tool_write(signal, req->output, req->kind);
     ss_signal_free(signal);
     ss_coefficients_free(coef);
