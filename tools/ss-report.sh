@@ -17,6 +17,7 @@ of all.  The same files give the same bytes.
       --threshold=DB, --norm=l2|l1, --fmin=HZ, --mass=KG, --stiffness=N/m,
       --displacement=NAME|N, --force=NAME|N, --drop=HEIGHT
                           as in ss-features
+      --decay             what ss-backbone finds of free decays, too
 Of reading, as in ss-cat:
       --time=NAME|N, --time-unit=UNIT, --rate=HZ, --table=N, --gaps=HOW,
       --resample=HZ, --from=S, --to=S, --scale=[NAME=]F, --unit=[NAME=]U
@@ -127,12 +128,22 @@ run() {
     return 1
 }
 
+decay() {       # FILE
+    echo '<h2>Free decay</h2>'
+    eval "run ss-backbone -q $options $backbone -o \"\$work/decay.tsv\" -- \"\$1\"" || return
+    escape < "$work/decay.tsv" | awk '/^# (mechanism|decay): / { own = 1 } /^# columns: / { exit }
+        own { print "<p>" substr($0, 3) "</p>" }'
+    grep -q '^[0-9]' "$work/decay.tsv" || return
+    eval "run ss-backbone -q $options $backbone -o \"\$work/decay.svg\" -- \"\$1\"" && inline decay
+    printf '<div class="wide"><table>\n%s</table></div>\n' "$(events "$work/decay.tsv")"
+}
+
 page() {        # ROW FILE
     commands=''
     begin "$(escape_line "${2##*/}")"
     printf '<p><a href="index.html">All recordings</a></p><h1>%s</h1>\n' "$(escape_line "$2")"
     eval "run ss-features -q $options $finding -o \"\$work/features.tsv\" -- \"\$2\"" ||
-        { foot "$2"; return; }
+        { [ -z "$decays" ] || decay "$2"; foot "$2"; return; }
     column=$(sed -n 's/^# column: //p' "$work/features.tsv")
     printf '<p>Column %s</p>\n<h2>Signal</h2>\n' "$(escape_line "$column")"
     eval "run ss-plot -q $options --column=\"\$column\" --features \"\$work/features.tsv\" \
@@ -147,6 +158,7 @@ local maxima. Shaded: the ends of the record (cone of influence).</p>'
     escape < "$work/features.tsv" | sed -n 's/^# about_\([a-z]*\): \(.*\)/<p class="why">\1: \2<\/p>/p
         s/^# \(spikes: .*\)/<p>\1<\/p>/p'
     printf '<h2>Transitions</h2>\n<div class="wide"><table>\n%s</table></div>\n' "$(events "$work/features.tsv")"
+    [ -z "$decays" ] || decay "$2"
     foot "$2"
 }
 
@@ -161,7 +173,7 @@ write() { printf '%s\n' "$2" > "$new/$1" || die 1 "$dir/$1: not written"; }
 
 newline='
 '
-options='' finding='' dir='' jobs='' quiet='' row=0
+options='' finding='' backbone='' decays='' dir='' jobs='' quiet='' row=0
 while [ $# -gt 0 ]; do
     case $1 in
     --) shift; break ;;
@@ -174,14 +186,17 @@ while [ $# -gt 0 ]; do
     -h|--help) { usage; } 2> /dev/null || die 1 'write error'; exit ;;
     --version) { echo "ss-report (libstickslip) $version"; } 2> /dev/null || die 1 'write error'; exit ;;
     -[qv]|--quiet|--verbose) quiet=$name; shift; continue ;;
+    --decay) decays=1; shift; continue ;;
     esac
     case $name in
     -o|--output) dir=${value%/} ;;
     -j|--jobs) jobs="--jobs=$(quote "$value")" ;;
-    -c|--column) finding="$finding --column=$(quote "$value")" ;;
+    -c|--column|--mass)
+        [ "$name" != -c ] || name=--column
+        finding="$finding $name=$(quote "$value")" backbone="$backbone $name=$(quote "$value")" ;;
     --time|--time-unit|--rate|--table|--gaps|--resample|--from|--to|--scale|--unit)
         options="$options $name=$(quote "$value")" ;;
-    --threshold|--norm|--fmin|--mass|--stiffness|--displacement|--force|--drop)
+    --threshold|--norm|--fmin|--stiffness|--displacement|--force|--drop)
         finding="$finding $name=$(quote "$value")" ;;
     *) die 2 "unrecognized option '$name'" ;;
     esac
