@@ -759,7 +759,7 @@ static void
 names_each_format_that_is_written(void **state)
 {
     static const ss_format_info known[] = { { SS_TSV, "tsv", 1 }, { SS_AU, "au", 0 }, { SS_CSV, "csv", 1 },
-                                            { SS_JSON, "json", 1 } };
+                                            { SS_JSON, "json", 1 }, { SS_WAV, "wav", 0 } };
     ss_format_info found;
     size_t i = 0;
     (void)state;

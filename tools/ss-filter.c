@@ -16,8 +16,8 @@ static const char usage[] =
 "  -c, --column=NAME|N  filter and write only this column (repeatable)\n"
 "      --name=OLD=NEW   give a column this name (repeatable)\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE    write to FILE.tsv, .au, .csv, .json or .h5\n"
-"      --format=FORM    on standard output: tsv (default), au, csv, json\n"
+"  -o, --output=FILE    write to FILE.tsv, .au, .csv, .json, .wav or .h5\n"
+"      --format=FORM    on standard output: tsv (default), au, csv, json, wav\n"
 "  -q, --quiet          no warnings\n"
 "  -v, --verbose        report the filter\n"
 "  -h, --help           show this text and exit\n"

@@ -18,8 +18,8 @@ static const char usage[] =
 "      --range=R        the converter spans -R to R, in each column's unit\n"
 "  -c, --column=NAME|N  only this column (repeatable), default all\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE    write to FILE.tsv, .au, .csv, .json or .h5\n"
-"      --format=FORM    on standard output: tsv (default), au, csv, json\n"
+"  -o, --output=FILE    write to FILE.tsv, .au, .csv, .json, .wav or .h5\n"
+"      --format=FORM    on standard output: tsv (default), au, csv, json, wav\n"
 "  -q, --quiet          no warnings\n"
 "  -v, --verbose        report the noise that was added\n"
 "  -h, --help           show this text and exit\n"

@@ -21,8 +21,8 @@ static const char usage[] =
 "      --damping=D      ringdown: damping ratio, 0 <= D < 1, default 0.05\n"
 "      --at=T           sine, impulse, step, ringdown: default 0 s\n"
 "      --seed=N         noise: default 1\n"
-"  -o, --output=FILE    write to FILE.tsv, .au, .csv, .json or .h5\n"
-"      --format=FORM    on standard output: tsv (default), au, csv, json\n"
+"  -o, --output=FILE    write to FILE.tsv, .au, .csv, .json, .wav or .h5\n"
+"      --format=FORM    on standard output: tsv (default), au, csv, json, wav\n"
 "  -q, --quiet          no warnings; -v, --verbose: report the length\n"
 "  -h, --help           show this text; --version: show the version\n";
 

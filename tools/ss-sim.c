@@ -22,8 +22,8 @@ static const char usage[] =
 "      --max-steps=N     stop after N integration steps\n"
 "  -l, --list            list the shipped scenes and the methods; with SCENE, all\n"
 "                        its keys and values, a scene to edit\n"
-"  -o, --output=FILE     .tsv, .au, .csv, .json or .h5, complete or absent\n"
-"      --format=FORM     of standard output: tsv (default), au, csv, json\n"
+"  -o, --output=FILE     .tsv, .au, .csv, .json, .wav or .h5, complete or absent\n"
+"      --format=FORM     of standard output: tsv (default), au, csv, json, wav\n"
 "  -q, --quiet           no warnings, no progress\n"
 "  -v, --verbose         report the method, the work and the cost\n"
 "  -h, --help            show this text; --version: show the version\n";

@@ -178,13 +178,14 @@ typedef enum ss_format {
     SS_AU,                      /* Sun AU with 64-bit floats and the header as its annotation */
     SS_CSV,                     /* for other programs: a line of names, then rows with commas */
     SS_H5,                      /* HDF5, which is no stream: see stickslip/store.h */
-    SS_JSON                     /* for other programs: an object a row; null is what is not known */
+    SS_JSON,                    /* for other programs: an object a row; null is what is not known */
+    SS_WAV                      /* signals of a rate in whole Hz, as 64-bit floats without names, start or notes */
 } ss_format;
 
 /* A format in which streams can be written. */
 typedef struct ss_format_info {
     ss_format format;
-    const char *name;           /* also the ending of its files: "tsv", "au", "csv", "json" */
+    const char *name;           /* also the ending of its files: "tsv", "au", "csv", "json", "wav" */
     int has_words;              /* 0: it holds only numbers */
 } ss_format_info;
 /* Store the i-th of them in *out and return 1; 0: there are not so many. */

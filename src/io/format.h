@@ -42,6 +42,8 @@ struct format {
     ss_status (*begin)(FILE *out, const ss_header *head, const char *magic, ss_error *err);
     /* Write a cell of at most SS_NUMBER_MAX bytes; last: 1 if it ends its row.  Returns its length. */
     size_t (*number)(char *to, double x, int last);
+    /* Complete what begin has written, behind the last of the rows; NULL: it is complete. */
+    ss_status (*end)(FILE *out, double rate, size_t columns, size_t rows, ss_error *err);
     int has_time;               /* 1: it has a column of time, like the other columns */
     int has_notes;              /* 1: lines "# key: value" are allowed everywhere */
     char separator;             /* of cells that may be words; '\0': it holds numbers only */
@@ -69,7 +71,7 @@ FORMAT_LIST(FORMAT_DECLARATION)
 enum { FORMAT_LIST(FORMAT_NUMBER) FORMATS };
 #undef FORMAT_NUMBER
 _Static_assert((int)SS_TSV == FORMAT_tsv && (int)SS_AU == FORMAT_au && (int)SS_CSV == FORMAT_delimited
-               && (int)SS_JSON == FORMAT_json,
+               && (int)SS_JSON == FORMAT_json && (int)SS_WAV == FORMAT_wav,
                "the list has the order of ss_format");
 
 /* Begins the table of a format, FORMAT(au) = { ... };.  Without a row of the list it does not compile. */

@@ -1,10 +1,12 @@
-/* wav.c -- reading WAV: PCM of 8 to 32 bits and floating point, little-endian.
+/* wav.c -- WAV: PCM of 8 to 32 bits and floating point, little-endian; 64-bit floating point is written.
  *
  * A WAV file consists of chunks.  A chunk has a name, a length, and so many bytes, padded to an
  * even number.  "fmt " describes the contents of "data"; other chunks are skipped.  A program that
  * writes to a pipe does not know the lengths and writes a number near 2^31 or 2^32, or zero.  The
  * data then end with the file, unless it has so many bytes.  A length is refused if the file
  * continues behind it with something that is not a chunk, as in AU. */
+#include <fcntl.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include "base/error.h"
@@ -147,4 +149,83 @@ open_wav(ss_source **out, const struct opening *o, ss_error *err)
     return ss_refuse_clock(in->name, f->base.head->rate, o->opts, err);
 }
 
-FORMAT(wav) = { .name = "wav", .magic = "RIFF????WAVE", .open = open_wav };
+/* --- writing ------------------------------------------------------------------------------- */
+
+enum { WRITTEN_HEADER = 58, WIDTH = sizeof(double) };
+
+static char *
+encode(char *to, uint64_t x, size_t bytes)
+{
+    for (size_t i = 0; i < bytes; i++, x >>= 8)
+        *to++ = (char)(x & 0xff);
+    return to;
+}
+
+/* Store a name and the number behind it. */
+static char *
+encode_named(char *to, const char *name, uint64_t x)
+{
+    size_t n = strlen(name);
+    memcpy(to, name, n);
+    return encode(to + n, x, 4);
+}
+
+/* Write the header of so many rows; rows < 0: they are not known. */
+static void
+write_header(FILE *out, uint32_t rate, size_t channels, int64_t rows)
+{
+    char header[WRITTEN_HEADER], *to = header;
+    size_t frame = channels * WIDTH;
+    uint64_t length = rows < 0 ? UNKNOWN_FROM : (uint64_t)rows * frame;
+    to = encode_named(to, "RIFF", length + WRITTEN_HEADER - CHUNK_HEADER);
+    to = encode_named(to, "WAVEfmt ", FMT_LEAST + 2);
+    to = encode(encode(to, CODE_FLOAT, 2), channels, 2);
+    to = encode(encode(to, rate, 4), rate * frame, 4);
+    to = encode(encode(encode(to, frame, 2), 8 * WIDTH, 2), 0, 2);
+    to = encode(encode_named(to, "fact", 4), length / frame, 4);
+    encode_named(to, "data", length);
+    fwrite(header, 1, sizeof header, out);
+}
+
+static ss_status
+begin_wav(FILE *out, const ss_header *head, const char *magic, ss_error *err)
+{
+    char rate[SS_NUMBER_MAX];
+    ss_number_format(rate, head->rate);
+    if (strcmp(magic, ss_kind_magic(SS_KIND_SIGNAL)) != 0)
+        return ss_fail(err, SS_EINVAL, "WAV holds signals alone, no coefficients");
+    if (head->n_columns < 1 || head->n_columns > MAX_CHANNELS)
+        return ss_fail(err, SS_EINVAL, "WAV holds 1 to %d columns", MAX_CHANNELS);
+    if (!(head->rate * (double)(head->n_columns * WIDTH) <= UINT32_MAX) || head->rate < rint(head->rate)
+        || head->rate > rint(head->rate))
+        return ss_fail(err, SS_EINVAL, "WAV holds rates of whole Hz, at most 2^32 bytes per second, not %s Hz; AU "
+                       "keeps any rate, --resample HZ changes it", rate);
+    write_header(out, (uint32_t)head->rate, head->n_columns, -1);
+    return ferror(out) ? SS_EIO : SS_OK;
+}
+
+/* A pipe, and a file to which others have written before, keep the unknown length. */
+static ss_status
+end_wav(FILE *out, double rate, size_t columns, size_t rows, ss_error *err)
+{
+    off_t all = WRITTEN_HEADER + (off_t)(rows * columns * WIDTH);
+    if (ftello(out) != all || (fileno(out) >= 0 && (fcntl(fileno(out), F_GETFL) & O_APPEND) != 0))
+        return SS_OK;
+    if (all > UINT32_MAX)
+        return ss_fail(err, SS_EDATA, "WAV holds 4 GiB at most; AU and HDF5 hold more");
+    fseeko(out, 0, SEEK_SET);
+    write_header(out, (uint32_t)rate, columns, (int64_t)rows);
+    return fseeko(out, all, SEEK_SET) == 0 ? SS_OK : SS_EIO;
+}
+
+static size_t
+encode_number(char *to, double x, int last)
+{
+    (void)last;
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return (size_t)(encode(to, bits, sizeof bits) - to);
+}
+
+FORMAT(wav) = { .name = "wav", .magic = "RIFF????WAVE", .open = open_wav, .begin = begin_wav,
+                .number = encode_number, .end = end_wav };

@@ -156,6 +156,8 @@ end_stream(ss_writer *w, size_t samples, ss_error *err)
         s->out.used += s->format->number(s->out.buffer + s->out.used, i == 2 ? (double)(samples - 1) / s->rate : 0,
                                          i + 1 == COEFFICIENT_COLUMNS);
     ss_status st = drain(s, err);
+    if (st == SS_OK && s->format->end != NULL)
+        st = s->format->end(s->out.file, s->rate, s->columns, s->row, err);
     if (st == SS_OK && ss_output_flush(s->out.file) != SS_OK)
         st = ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO));
     return st;

@@ -9,7 +9,7 @@ ss-signal sine -o x.dat || echo $?
 ss-noise --snr 1 --rms 1 || echo $?
 ss-noise || echo $?
 ss-cat --time t --rate 5 || echo $?
-ss-cat --format wav || echo $?
+ss-cat --format aiff || echo $?
 ss-signal impulse --at 100 || echo $?
 ss-signal impulse --at -1 || echo $?
 ss-signal impulse --at 9.9997 | grep -c '	1$'
