@@ -116,6 +116,26 @@ ss_cell_read(char *cell, char separator, double *x)
     return *cell >= '0' && *cell <= '9' && ss_stamp_read(cell).parts != 0 ? CELL_STAMP : CELL_TEXT;
 }
 
+int
+ss_cell_is_grouped(const char *cell)
+{
+    static const char *const mark[] = { ",", ".", "'", " ", "_", "\u00a0", "\u2009", "\u202f", "\u2019" };
+    const char *p = cell + (*cell == '-' || *cell == '+');
+    size_t digits = strspn(p, "0123456789"), groups = 0;
+    if (digits < 1 || digits > 3)
+        return 0;
+    for (size_t i = 0; groups == 0 && i < sizeof mark / sizeof *mark; i++) {
+        size_t n = strlen(mark[i]);
+        const char *rest = p + digits;
+        for (; strncmp(rest, mark[i], n) == 0 && strspn(rest + n, "0123456789") == 3; rest += n + 3)
+            groups++;
+        if (groups > 0)
+            p = rest;
+    }
+    p += *p == '.' || *p == ',';
+    return groups > 0 && p[strspn(p, "0123456789")] == '\0';
+}
+
 char *
 ss_text_shape(struct text *x, const char *line, char separator, size_t *numbers)
 {

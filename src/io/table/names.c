@@ -235,8 +235,9 @@ check_mixed(struct text *x, enum row_kind before, ss_error *err)
         }
     if (bad == n || !(begins || !has_words || (before == ROW_NAMES && !is_key(x->cell[0]))))
         return SS_OK;
-    return ss_fail(err, x->cell[bad][0] != '\0' ? SS_EDATA : SS_EGAPS, "%s:%lu: column %zu: '%.40s' is not a number",
-                   x->t.name, line->number, bad + 1, x->cell[bad]);
+    return ss_fail(err, x->cell[bad][0] != '\0' ? SS_EDATA : SS_EGAPS, "%s:%lu: column %zu: '%.40s' is not a number%s",
+                   x->t.name, line->number, bad + 1, x->cell[bad],
+                   ss_cell_is_grouped(x->cell[bad]) ? ": it has separators of thousands; remove them" : "");
 }
 
 static ss_status

@@ -256,8 +256,9 @@ read_cell(struct text *x, size_t i, double *value, ss_error *err)
         return check_mark(x, i, err);
     const char *what = c->kind == COLUMN_STAMPS ? "time as those above it" : kind == CELL_NOT_FINITE
         ? "finite number" : "number";
-    return ss_fail(err, missing ? SS_EGAPS : SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %s",
-                   x->t.name, x->in->line, name, cell, what);
+    return ss_fail(err, missing ? SS_EGAPS : SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %s%s",
+                   x->t.name, x->in->line, name, cell, what,
+                   ss_cell_is_grouped(cell) ? ": it has separators of thousands; remove them" : "");
 }
 
 /* Read a row of plain numbers only, as most are.  Returns 0 if the row must be read cell by cell. */
@@ -335,6 +336,13 @@ begin_table(struct text *x, const char *row, ss_error *err)
         st = ss_sheet_mark_spare(t, err);
     if (st != SS_OK)
         return st;
+    if (ss_text_split(x, row, x->separator) == NONE)        /* the cells were those of the names */
+        return SS_ENOMEM;
+    for (size_t i = 0; i < t->n_columns; i++)
+        if (t->column[i].kind == COLUMN_TEXT && t->opts->n_needed == 0 && ss_cell_is_grouped(x->cell[i]))
+            return ss_fail(err, SS_EDATA, "%s:%lu: column %zu (\"%s\"): '%.40s' is not a number: it has separators of "
+                           "thousands; remove them, or choose columns with --column", t->name, x->in->line, i + 1,
+                           t->names->column[i].name, x->cell[i]);
     for (size_t i = 0; i < t->n_columns; i++)
         if (t->column[i].kind == COLUMN_TEXT && !(x->labview && row[0] == '\t' && i == 0))
             ss_sheet_warn(t, SS_OK, "%s:%lu: column %zu (\"%s\") %s; it was skipped", t->name, x->in->line, i + 1,
