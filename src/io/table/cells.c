@@ -122,7 +122,7 @@ ss_cell_is_grouped(const char *cell)
     static const char *const mark[] = { ",", ".", "'", " ", "_", "\u00a0", "\u2009", "\u202f", "\u2019" };
     const char *p = cell + (*cell == '-' || *cell == '+');
     size_t digits = strspn(p, "0123456789"), groups = 0;
-    if (digits < 1 || digits > 3)
+    if (*p == '0' || digits < 1 || digits > 3)
         return 0;
     for (size_t i = 0; groups == 0 && i < sizeof mark / sizeof *mark; i++) {
         size_t n = strlen(mark[i]);

@@ -213,6 +213,10 @@ check_mark(struct text *x, size_t column, ss_error *err)
 {
     const char *cell = x->cell[column];
     char mark = cell[strcspn(cell, x->separator == ',' ? "." : ".,")];
+    if (x->mark == '\0' && x->t.rows.n > 0 && ss_cell_is_grouped(cell) && (mark == ',' || x->separator == ';'))
+        ss_sheet_warn(&x->t, SS_OK, "%s:%lu: column %s: '%.40s' is read with a decimal %s; no number above it has "
+                      "one, so if it separates thousands, remove it", x->t.name, x->in->line,
+                      x->t.names->column[column].name, cell, mark == ',' ? "comma" : "point");
     if (x->mark == '\0')
         x->mark = mark;
     if (mark == '\0' || mark == x->mark)
@@ -340,8 +344,8 @@ begin_table(struct text *x, const char *row, ss_error *err)
         return SS_ENOMEM;
     for (size_t i = 0; i < t->n_columns; i++)
         if (t->column[i].kind == COLUMN_TEXT && t->opts->n_needed == 0 && ss_cell_is_grouped(x->cell[i]))
-            return ss_fail(err, SS_EDATA, "%s:%lu: column %zu (\"%s\"): '%.40s' is not a number: it has separators of "
-                           "thousands; remove them, or choose columns with --column", t->name, x->in->line, i + 1,
+            return ss_fail(err, SS_EDATA, "%s:%lu: column %zu (\"%s\"): '%.40s' is not a number: it has separators "
+                           "of thousands; remove them, or choose columns with --column", t->name, x->in->line, i + 1,
                            t->names->column[i].name, x->cell[i]);
     for (size_t i = 0; i < t->n_columns; i++)
         if (t->column[i].kind == COLUMN_TEXT && !(x->labview && row[0] == '\t' && i == 0))

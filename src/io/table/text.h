@@ -38,7 +38,8 @@ struct text {
 char *ss_cell_trim(char *p);
 /* The number in a cell, with a decimal comma unless commas separate cells. */
 enum cell_kind ss_cell_read(char *cell, char separator, double *number);
-/* 1 if the cell has separators of thousands, 1,234.5 or 1'234.  For cells that ss_cell_read calls text. */
+/* 1 if the cell has separators of thousands, 1,234.5 or 1'234; a number such as 1,234 may be one that
+ * has a decimal comma. */
 int ss_cell_is_grouped(const char *cell);
 /* May a cell of a row be empty? */
 int ss_text_may_lack(const struct text *x);

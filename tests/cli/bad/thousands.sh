@@ -19,3 +19,7 @@ ss-cat -c x run.csv | tail -n 1
 printf 't_s,x,version,a,b,c\n0,3,1.2.3,"1,23","1234,567.8","1,234.567.8"\n1,4,1.2.3,"1,23","1,23","1,23"\n' | ss-cat | tail -n 1
 echo "-- a decimal comma"
 printf 't_s;x\n0;1,234\n1;2,234\n2;3,25\n' | ss-cat | tail -n 1
+for rows in '999\n1;1,234' '999\n1;1.234' '999\n1;0,234' '999\n1;1,25' '1,234\n1;2,234'; do
+    printf "t_s;x\n0;$rows\n2;3\n" | ss-cat | sed -n '6p'
+done
+printf 't_s\tx\n0\t999\n1\t1.234\n' | ss-cat | tail -n 1      # a point is no sign of thousands there
