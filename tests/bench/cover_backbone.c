@@ -3,9 +3,10 @@
  * Decays of six mechanisms by tests/decay.c, which has no code of the library: parameters, sampling (8 to 200 points
  * a period), start and noise are drawn.  The truth of a row is that of the turns of the simulated motion.
  * A row a mechanism and noise level (amplitude at the start over the noise's standard deviation), then one a
- * disturbance at 40 dB over all mechanisms, of those that close modes and a modulation have time to beat twice: records, rows, the share of damping ratios and of frequencies within 1 and
- * 2 of their errors, the median and rms relative error of the damping ratio in percent; and of records how many
- * were named rightly, not told, other, and wrongly.
+ * disturbance at 40 dB over all mechanisms, of those that close modes and a modulation have time to beat twice:
+ * records, rows, the share of damping ratios and of frequencies within 1 and 2 of their errors, the median and rms
+ * relative error of the damping ratio in percent; and of records how many were named rightly, not told, other, and
+ * wrongly.
  * usage: cover_backbone [RECORDS [SEED [CONDITION]]] */
 #include <complex.h>
 #include <math.h>
