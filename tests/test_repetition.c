@@ -263,6 +263,17 @@ fill_hummed(gsl_rng *rng, double *x)
     return f;
 }
 
+/* Ramps that fall back at once, whose period is so nearly a whole number of samples that each lasts as many. */
+static double
+fill_in_step(gsl_rng *rng, double *x)
+{
+    double n = 8 + (double)gsl_rng_uniform_int(rng, 23), samples = floor(N / n);
+    double f = RATE / (samples + (gsl_rng_uniform(rng) - 0.5) / n), start = gsl_rng_uniform(rng);
+    for (size_t i = 0; i < N; i++)
+        x[i] = fmod(start + f * (double)i / RATE, 1);
+    return f;
+}
+
 /* share: of the draws that must have a number. */
 static void
 errors_cover(double (*fill)(gsl_rng *rng, double *x), const char *name, double share)
@@ -313,6 +324,13 @@ errors_cover_hum(void **state)
     errors_cover(fill_hummed, "hummed", 0.5);
 }
 
+static void
+errors_cover_jumps_in_step(void **state)
+{
+    (void)state;
+    errors_cover(fill_in_step, "jumps in step", 0.8);
+}
+
 int
 main(void)
 {
@@ -321,6 +339,7 @@ main(void)
         cmocka_unit_test(errors_cover_drift),
         cmocka_unit_test(errors_cover_jitter),
         cmocka_unit_test(errors_cover_hum),
+        cmocka_unit_test(errors_cover_jumps_in_step),
     };
     return cmocka_run_group_tests_name("repetition", tests, NULL, NULL);
 }

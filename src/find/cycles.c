@@ -14,7 +14,9 @@
  *   Neighbours that are correlated by rho count as (1 - rho) / (1 + rho);
  * - the drift of the waveform.  A change from cycle to cycle that doubles over two cycles is not noise
  *   and may shift the lags of all cycles alike, by its rms over the rms of the derivative;
- * - the difference of the median of the lags from their mean: lags from jump to jump are whole samples;
+ * - the difference of the median of the lags from their mean: lags from jump to jump are whole samples.  They
+ *   may all be the same, so where the signal jumps, the first jump and the last may lie anywhere within a
+ *   sample, over the number of cycles between them;
  * - the largest difference of a half, a quarter or an eighth of the lag over two, four or eight cycles from
  *   the lag over one: a steady hum pulls every lag towards a multiple of its own period;
  * - the error of the interpolation between samples, from the vertices of two parabolas.
@@ -75,6 +77,8 @@ typedef struct cycle {
     double noise;               /* mean square of the shift that noise makes, as white as what the lag
                                    leaves [samples^2] */
     double bend;                /* error of the lag between samples, by two parabolas [samples] */
+    double jump;                /* 1: the difference grows with the distance from the lag, as of a signal that
+                                   jumps; 0: with its square */
     int may_be_sooner;          /* it is alike after some part of its length, if less so */
     unsigned parts;             /* bit p: it repeats after 1/p of its length as well as after all of it, to
                                    within a sample */
@@ -224,6 +228,8 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
     double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);
     c.rate = 1 / ((double)lag + near);
     c.bend = fabs(near - far) / 3;
+    double by_one = d[1] + d[3] - 2 * d[2], by_two = d[0] + d[4] - 2 * d[2];
+    c.jump = by_one > 0 ? fmax(0, fmin(1, 2 - 0.5 * by_two / by_one)) : 0;
 
     double slopes = difference(fine, first, 1, whole);
     c.noise = slopes > 0 ? difference(fine, first, lag, whole) / (slopes * (double)whole) : 0;
@@ -324,7 +330,9 @@ overtones(const double *x, size_t n, double period)
 static void
 summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
 {
-    double f = median_of(c, n, &c->rate, v), drift = median_of(c, n, &c->drift, v), bend = 0, lags = 0, pull = 0;
+    double f = median_of(c, n, &c->rate, v), drift = median_of(c, n, &c->drift, v);
+    double jump = median_of(c, n, &c->jump, v) * sqrt(1. / 6) / (double)n;      /* 1/12 for each end */
+    double bend = 0, lags = 0, pull = 0;
     for (int k = 0; k < LAGS; k++)
         pull = fmax(pull, fabs(median_of(c, n, &c->pull[k], v)));
     for (size_t i = 0; i < n; i++) {
@@ -342,7 +350,7 @@ summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
         variance = pow(gsl_stats_median(v, 1, n) / GAUSS_MEDIAN, 2);
     }
     double by_noise = median_of(c, n, &c->noise, v) * pow(f, 4);
-    double scatter = student * sqrt(M_PI / 2 * variance / free_ones), skew = fabs(lags - 1 / f);
+    double scatter = student * sqrt(M_PI / 2 * variance / free_ones), skew = hypot(lags - 1 / f, jump);
     drift = drift > 0 ? sqrt(drift) : 0;
     out->frequency = (ss_value){ f, hypot(scatter, hypot(hypot(pull, skew), hypot(drift, bend)) * f * f) };
     out->wander = variance > SIGMAS * SIGMAS * by_noise ? scatter / f : 0;
