@@ -15,7 +15,7 @@
  * with a cubic p and an event at 0, which is sought.  The end of a slip is a sensor's by this, whatever rings.
  * Some other stretch must be the contact's.
  *
- * The rig's own spring rings with sqrt(k/m) while it slips.
+ * A filter's corner has no peak, and the spectrum ends there.  The rig's own spring rings with sqrt(k/m) while it slips.
  */
 #include "find/identity.h"
 
@@ -23,12 +23,18 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
+#include <stickslip/spectrum.h>
 
 #define BARELY 0.577            /* s / w at a damping ratio of one half */
 #define AROUND 2.0              /* periods on either side of the middle of a stretch */
-#define CONTACT 5.0             /* log likelihood of the contact over the sensor: less is the sensor, or chance */
+#define CONTACT 2.0             /* log likelihood of the contact over the sensor: less is the sensor, or chance */
 #define SENSOR 2.5              /* what the contact leaves over what the sensor leaves where a slip ends, at least */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
+#define FLAT 1.3                /* power re the power law: with more there is a peak */
+#define STEEP 3.2               /* power law re the power beyond: with more there is a corner */
+#define STEP 1.67               /* from band to band, each from 1 / WIDE to WIDE of its middle */
+#define WIDE 1.18
+#define FINE (1 / 32.)          /* resolution re the oscillation; coarser in records of under four segments */
 enum { RATE = 24 };             /* most samples of a period that are used */
 enum { STICKS = 8, TRIED = 3 }; /* sticks that are looked behind; places in each where a slip may begin */
 
@@ -42,6 +48,36 @@ is_spring(const search *s, const ss_value all[2])
     double error = hypot(all[0].value * all[0].error, all[1].value * all[1].error) / r;
     double w = r * s->rate, total = m * w * w;
     return m > 0 && k > 0 && fabs(total - k) <= SIGMAS * 2 * total * error / r;
+}
+
+/* --- a filter --------------------------------------------------------------------------------- */
+
+/* The mean density in the band about f. */
+static double
+mean_about(const ss_spectrum *s, double f)
+{
+    double sum = 0, n = 0;
+    for (double k = ceil(f / WIDE / s->step); k <= f * WIDE / s->step && k < (double)s->n; k++, n++)
+        sum += s->density[(size_t)k];
+    return n > 0 ? sum / n : NAN;
+}
+
+/* Does the spectrum of n samples x end at f [1/sample] without a peak there?  Not in a record that is too short to
+ * show this. */
+static ss_status
+is_edge(const double *x, size_t n, double f, int *is)
+{
+    ss_spectrum *s = NULL;
+    ss_status st = ss_spectrum_new(&s, x, n, 1, fmax(FINE * f, 6 / (double)n), NULL);
+    *is = 0;
+    if (st == SS_ENOMEM)
+        return st;
+    if (st != SS_OK)
+        return SS_OK;
+    double at = mean_about(s, f), before = mean_about(s, f / STEP), law = before / mean_about(s, f / STEP / STEP);
+    *is = at < FLAT * law * before && STEEP * mean_about(s, f * STEP) < law * at;
+    ss_spectrum_free(s);
+    return SS_OK;
 }
 
 /* --- a sensor -------------------------------------------------------------------------------- */
@@ -173,11 +209,15 @@ is_sensor(const search *s, const ringdown *r, int *is)
 ss_status
 ss_identity_of(const search *s, const ringdown *r, const char **why)
 {
-    int of_sensor = 0;
+    int of_sensor = 0, at_edge = 0;
     *why = r->all[1].value > BARELY * r->all[0].value ? "what recurs is damped so much that a filter may make it"
         : !(r->all[1].value > 0) ? "what recurs does not decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
     ss_status st = *why != NULL || s->out->reverses ? SS_OK : is_sensor(s, r, &of_sensor);
+    if (st == SS_OK && *why == NULL && !s->out->reverses)
+        st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
+    if (at_edge)
+        *why = "it rings where the spectrum ends without a peak, as a filter does";
     if (of_sensor)
         *why = "it rings on where slips begin, as a sensor, a filter or a hum does";
     return st;
