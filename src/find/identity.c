@@ -27,7 +27,7 @@
 
 #define BARELY 0.577            /* s / w at a damping ratio of one half */
 #define AROUND 2.0              /* periods on either side of the middle of a stretch */
-#define CONTACT 2.0             /* log likelihood of the contact over the sensor: less is the sensor, or chance */
+#define CONTACT 2.0             /* of n samples this many n-ths more are left by the sensor: less is the sensor, or chance */
 #define SENSOR 2.5              /* what the contact leaves over what the sensor leaves where a slip ends, at least */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
 #define FLAT 1.3                /* power re the power law: with more there is a peak */
