@@ -15,7 +15,8 @@
  * with a cubic p and an event at 0, which is sought.  The end of a slip is a sensor's by this, whatever rings.
  * Some other stretch must be the contact's.
  *
- * A filter's corner has no peak, and the spectrum ends there.  The rig's own spring rings with sqrt(k/m) while it slips.
+ * A filter's corner has no peak, and the spectrum ends there.  The rig's own spring rings with sqrt(k/m) while it
+ * slips.
  */
 #include "find/identity.h"
 
@@ -27,7 +28,7 @@
 
 #define BARELY 0.577            /* s / w at a damping ratio of one half */
 #define AROUND 2.0              /* periods on either side of the middle of a stretch */
-#define CONTACT 2.0             /* of n samples this many n-ths more are left by the sensor: less is the sensor, or chance */
+#define CONTACT 2.0             /* n-ths, for n samples, that the sensor leaves more: less is it, or chance */
 #define SENSOR 2.5              /* what the contact leaves over what the sensor leaves where a slip ends, at least */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
 #define FLAT 1.3                /* power re the power law: with more there is a peak */
