@@ -44,7 +44,7 @@ static const struct foreign {
     { "FEA1", "a Feather file", PANDAS("feather") },
     { "{\"", JSON }, { "{\n", JSON }, { "{\r", JSON }, { "{ ", JSON }, { "[{", JSON }, { "[[", JSON },
     { "\200\002", PICKLE }, { "\200\003", PICKLE }, { "\200\004", PICKLE }, { "\200\005", PICKLE },
-    { "\037\213", "a gzip file", "; gunzip -c FILE | ss-cat reads it" },
+    { "\037\213", "a gzip file", "; read what gunzip -c FILE gives" },
     { "\377\376", UTF16 }, { "\376\377", UTF16 },
     { "PK\003\004", "a workbook or another zip archive", "; save its sheet as CSV, or an array of it by numpy.save" },
     { "\320\317\021\340", "a workbook", "; save its sheet as CSV" },

@@ -199,7 +199,7 @@ begin_wav(FILE *out, const ss_header *head, const char *magic, ss_error *err)
     if (!(head->rate * (double)(head->n_columns * WIDTH) <= UINT32_MAX) || head->rate < rint(head->rate)
         || head->rate > rint(head->rate))
         return ss_fail(err, SS_EINVAL, "WAV holds rates of whole Hz, at most 2^32 bytes per second, not %s Hz; AU "
-                       "keeps any rate, --resample HZ changes it", rate);
+                       "keeps any rate; resample it to whole Hz", rate);
     write_header(out, (uint32_t)head->rate, head->n_columns, -1);
     return ferror(out) ? SS_EIO : SS_OK;
 }

@@ -345,7 +345,7 @@ begin_table(struct text *x, const char *row, ss_error *err)
     for (size_t i = 0; i < t->n_columns; i++)
         if (t->column[i].kind == COLUMN_TEXT && t->opts->n_needed == 0 && ss_cell_is_grouped(x->cell[i]))
             return ss_fail(err, SS_EDATA, "%s:%lu: column %zu (\"%s\"): '%.40s' is not a number: it has separators "
-                           "of thousands; remove them, or choose columns with --column", t->name, x->in->line, i + 1,
+                           "of thousands; remove them, or choose other columns", t->name, x->in->line, i + 1,
                            t->names->column[i].name, x->cell[i]);
     for (size_t i = 0; i < t->n_columns; i++)
         if (t->column[i].kind == COLUMN_TEXT && !(x->labview && row[0] == '\t' && i == 0))
