@@ -144,6 +144,31 @@ reads_stiff_and_soft_contacts(void **state)
     }
 }
 
+/* A displacement sticks at another level each time: both slips of a cycle count, with a unit or by the name alone. */
+static void
+counts_the_slips_of_a_displacement(void **state)
+{
+    static const char *const units[] = { "m", "" };
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        ss_scene scene = scene_of("coulomb");
+        ss_signal *signal = NULL;
+        ss_features *f = NULL;
+        scene.friction = 0.9;
+        scene.duration = 8;
+        assert_int_equal(ss_sim_signal(&signal, &scene, NULL), SS_OK);
+        size_t column = (size_t)ss_header_column(signal->head, "x"), n = signal->n;
+        double *x = signal->values + column * n;
+        strcpy(signal->head->column[column].unit, units[i]);
+        ss_noise_add_once(x, n, ss_noise_rms(x, n, 80), 1, NULL);
+        assert_int_equal(ss_features_find(&f, signal, column, NULL, NULL), SS_OK);
+        assert_true(fabs(f->number[SS_SLIPS].value - 2 * scene.base_frequency * scene.duration) <= 1);
+        assert_true(fabs(f->number[SS_SLIP_RATE].value - 2 * scene.base_frequency) < 0.01);
+        ss_features_free(f);
+        ss_signal_free(signal);
+    }
+}
+
 /* Half a cycle of these bases leaves sticks of 0.3 to 1.5 periods. */
 static void
 refuses_sticks_under_two_periods(void **state)
@@ -690,6 +715,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reads_stiffness_and_damping),
         cmocka_unit_test(reads_long_records_as_well),
+        cmocka_unit_test(counts_the_slips_of_a_displacement),
         cmocka_unit_test(reads_stiff_and_soft_contacts),
         cmocka_unit_test(refuses_sticks_under_two_periods),
         cmocka_unit_test(compliant_contacts_have_local_maxima_and_others_not),

@@ -152,7 +152,7 @@ ss_status
 ss_force_find(search *s, int *decided)
 {
     *decided = 0;
-    if (s->opts->drop == 0 && (s->quantity == QUANTITY_MOTION || s->n < 8))
+    if (s->opts->drop == 0 && (s->quantity >= QUANTITY_DISPLACEMENT || s->n < 8))
         return SS_OK;
     double *x = malloc(s->n * sizeof *x);
     if (x == NULL)

@@ -10,9 +10,8 @@
 #include <string.h>
 #include "signal/header.h"
 
-static const char *const motion_words[] = { "velocity", "acceleration", "displacement", "position",
-                                            "slip", "speed", "stroke", "vel", "acc", "disp", "pos",
-                                            "x", "v", "a", NULL };
+static const char *const displacement_words[] = { "displacement", "position", "stroke", "disp", "pos", "x", NULL };
+static const char *const motion_words[] = { "velocity", "acceleration", "slip", "speed", "vel", "acc", "v", "a", NULL };
 static const char *const force_words[] = { "force", "friction", "load", "traction", "f", "fx", "fy",
                                            "fz", "fn", "ft", NULL };
 
@@ -54,7 +53,8 @@ ss_column_quantity(const ss_column *column)
     char length[16];
     snprintf(length, sizeof length, "%.*s", (int)strcspn(unit, "/)"), unit);
     if (ss_unit_in_si(length, 'm') > 0)
-        return QUANTITY_MOTION;
+        return strchr(unit, '/') != NULL ? QUANTITY_MOTION : QUANTITY_DISPLACEMENT;
     return has_word(column->name, force_words) ? QUANTITY_FORCE
+        : has_word(column->name, displacement_words) ? QUANTITY_DISPLACEMENT
         : has_word(column->name, motion_words) ? QUANTITY_MOTION : QUANTITY_UNKNOWN;
 }

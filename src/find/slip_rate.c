@@ -273,7 +273,8 @@ ss_slip_rate_find(search *s)
     int repeats = !isnan(out->number[SS_REPETITION_FREQUENCY].value);
     int rings = !isnan(out->number[SS_TRANSITION_FREQUENCY].value);
     ss_rests rests = { 0, NULL, 0 };
-    ss_status st = out->loading != NULL || out->reverses || rings ? SS_OK : ss_rests_find(s->x, s->n, &rests);
+    int has_level = out->loading == NULL && !out->reverses && !rings && s->quantity != QUANTITY_DISPLACEMENT;
+    ss_status st = has_level ? ss_rests_find(s->x, s->n, &rests) : SS_OK;
     double *t = malloc((out->n + rests.n + 1) * sizeof *t);
     if (st != SS_OK || t == NULL) {
         free(rests.rest);
