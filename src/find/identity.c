@@ -28,8 +28,8 @@
 
 #define BARELY 0.577            /* s / w at a damping ratio of one half */
 #define AROUND 2.0              /* periods on either side of the middle of a stretch */
-#define CONTACT 2.0             /* n-ths, for n samples, that the sensor leaves more: less is it, or chance */
-#define SENSOR 2.5              /* what the contact leaves over what the sensor leaves where a slip ends, at least */
+#define CONTACT 1.03            /* what the sensor leaves over what the contact leaves: less is the sensor */
+#define SENSOR 2.5              /* what the contact leaves over what the sensor leaves where a slip ends */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
 #define FLAT 1.3                /* power re the power law: with more there is a peak */
 #define STEEP 3.2               /* power law re the power beyond: with more there is a corner */
@@ -198,7 +198,7 @@ is_sensor(const search *s, const ringdown *r, int *is)
         used++;
     }
     *is = st == SS_OK && used > 1
-        && gsl_stats_median(contact, 1, used) < (decays ? 1 + CONTACT / (double)n : SENSOR)
+        && gsl_stats_median(contact, 1, used) < (decays ? CONTACT : SENSOR)
         && (!decays || gsl_stats_median(sensor, 1, used) > SENSOR * gsl_stats_median(contact, 1, used));
     free(of.room);
     return st;
@@ -215,11 +215,11 @@ ss_identity_of(const search *s, const ringdown *r, const char **why)
         : !(r->all[1].value > 0) ? "what recurs does not decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
     ss_status st = *why != NULL || s->out->reverses ? SS_OK : is_sensor(s, r, &of_sensor);
+    if (of_sensor)
+        *why = "it rings on where slips begin, as a sensor, a filter or a hum does";
     if (st == SS_OK && *why == NULL && !s->out->reverses)
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
     if (at_edge)
         *why = "it rings where the spectrum ends without a peak, as a filter does";
-    if (of_sensor)
-        *why = "it rings on where slips begin, as a sensor, a filter or a hum does";
     return st;
 }
