@@ -33,30 +33,6 @@ ss_rank_opts_take(ss_rank_opts *own, const ss_rank_opts *given, ss_error *err)
         ? ss_fail(err, SS_EINVAL, "the quantity is no known choice") : st;
 }
 
-/* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
- * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of
- * which may share a sample. */
-#define ALLOWED 1.2
-#define UNCERTAIN (3 * 2.3)
-
-double
-ss_residue_excess(const residue *r, double noise)
-{
-    return r->left / fmax(fmin(noise, r->white), RESIDUE_QUIET * r->power);
-}
-
-int
-ss_residue_explains(const residue *r, double noise)
-{
-    return r->compared > 0 && ss_residue_excess(r, noise) <= ALLOWED * (1 + UNCERTAIN / sqrt(r->compared));
-}
-
-double
-ss_residue_lead(const residue *r, const residue *other, double noise)
-{
-    return r->compared * (ss_residue_excess(other, noise) - ss_residue_excess(r, noise));
-}
-
 static int
 is_missing(const rank_record *r, size_t i, size_t n)
 {

@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 #include <stickslip/rank.h>
+#include "fit/verdict.h"
 
 #define RANK_SPREAD 0.3             /* the usual spread of a rig's parameters */
 
@@ -17,27 +18,6 @@ typedef struct rank_record {
     double noise;               /* variance, an upper bound: see ss_record_noise */
     double steps;               /* variance that a converter's steps leave */
 } rank_record;
-
-/* What a fit leaves of the samples that it explains. */
-typedef struct residue {
-    double left;                /* mean square of the residuals */
-    double power;               /* the same of the samples about their mean */
-    double white;               /* variance of the white noise in the residuals: an upper bound */
-    double compared;            /* samples; 0: there is no fit */
-} residue;
-
-/* Twice the difference of two log-likelihoods, or the square of a difference in standard errors, beyond
- * which it is significant. */
-#define RESIDUE_DECISIVE 25
-/* The part of the power below which a residual means nothing: simulation methods differ by a tenth of it. */
-#define RESIDUE_QUIET 1e-6
-
-/* The residual over noise of this variance, or over less if it is not white. */
-double ss_residue_excess(const residue *r, double noise);
-/* 1 if the residual is no more than noise, within the error of its estimate. */
-int ss_residue_explains(const residue *r, double noise);
-/* How much less than another leaves, in standard errors squared. */
-double ss_residue_lead(const residue *r, const residue *other, double noise);
 
 /* own becomes the caller's options, or the defaults for NULL.  SS_EINVAL. */
 ss_status ss_rank_opts_take(ss_rank_opts *own, const ss_rank_opts *given, ss_error *err);

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/rank.h>
+#include "fit/verdict.h"
 #include "scene/model.h"
 
 /* The unknowns on which the force does not depend linearly.  Lengths are in units of the rms motion, speeds in
@@ -11,7 +12,9 @@
 enum { LENGTH, OTHER_LENGTH, GAP, EXPONENT, BETA, RISE, SPEED, SHAPE, DELAY, UNKNOWNS };
 /* The columns of the force, which is linear in them.  The law's parts and the viscous part are not negative. */
 enum { PART, VISCOUS = PART + DRIVEN_PARTS, OFFSET, TILT, INERTIA, SINE, COSINE, COLUMNS };
-enum { BLOCKS = 24, LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
+enum { LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
+enum { DRIVEN_ROWS = 2000 };        /* rows that fits look at */
+#define DRIVEN_TURN 0.1             /* of the rms motion: a turn that a contact remembers */
 
 /* A law that a motion may drive: a model, the unknowns that it frees, and the numbers that they make. */
 enum { LAW_NUMBERS = 8 };
@@ -76,5 +79,18 @@ ss_status ss_driven_fit(driven_result *out, const driven_law *law, const driven 
                         const driven *coarse, const driven_result others[], size_t n);
 /* What a fit makes of each row. */
 ss_status ss_driven_predict(double out[], const driven_law *law, const driven *d, const driven_fit *fit);
+
+/* Upper bounds of the mean square of the noise, and what is left beside it. */
+typedef struct driven_noise {
+    double rough, unshared, unexplained;    /* by its roughness, by repetition, by a free law */
+    double better;                  /* errors by which the free law predicts more than the law */
+    double repeat;                  /* correlation of what is left with that of the nearest other passage */
+} driven_noise;
+/* driven_noise.c: for each row the row of another passage that is nearest to it, or the row itself if it is left
+ * out; SS_ENOMEM. */
+ss_status ss_driven_partners(const driven *d, size_t *partner);
+/* The noise by what a law leaves; rows: the record d of `turns` turns, thinned, to which the law was fitted. */
+ss_status ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner,
+                          const driven *d, const double *predicted, size_t turns);
 
 #endif

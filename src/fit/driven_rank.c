@@ -1,21 +1,10 @@
 /* driven_rank.c -- which friction law a recording of motion and force follows.
  *
  * * Each law is fitted to one fold of the recording and judged by what it leaves of the other (driven_fit.c).  The
- * simplest law that is as good as the best is named, unless another law as good does not contain it, or what is
- * left is no noise.
- *
- * * What is left is compared with the noise, which is unknown, but at most the least of three estimates.  Motions
- * that repeat: what differs between rows of two passages through nearly the same place, by position, speed and the
- * last two turns; a law's memory is no longer than that.  Laws that are not in the list: what a free law leaves of
- * blocks of time to which it was not fitted.  Other motions: noise of short memory is as rough as its power says, and
- * what a law fails to explain is smoother.  A law is named if its own error is less than the noise: if what it leaves
- * has less than twice the power. */
+ * verdict (verdict.c) compares what is left with the noise and with what a free law leaves (driven_noise.c). */
 #include "fit/driven.h"
-#include "fit/column.h"
-#include "fit/wander.h"
+#include "fit/verdict.h"
 
-#include <float.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,15 +16,8 @@
 #include "signal/gaps.h"
 #include "signal/header.h"
 
-enum { ROWS = 2000, COARSE = 800 };     /* rows that fits and searches look at */
+enum { COARSE = 800 };                  /* rows that searches look at */
 enum { FEWEST = 200 };                  /* rows to be judged */
-#define AS_GOOD 0.03                    /* of the least loss: laws that differ by less are as good */
-#define TURN 0.1                        /* of the rms motion: a turn that a contact remembers */
-#define EXPLAINED 0.8                   /* of the power, by a law that is named */
-#define BEYOND_NOISE 2                  /* times the noise is left: the error of the law is as large as the noise */
-#define QUIET 1e-5                      /* of the power: an error of what the motion does between rows */
-#define MEMORY (1. / 16)                /* of noise, at most, in cycles */
-#define SHARED 1e-4                     /* ridge of the terms of a free law, which are alike */
 #define OTHER_RANGE 1.25                /* ratio of the rms motion in two folds that are not alike */
 
 static const ss_motion_opts defaults = { .size = sizeof defaults, .delay = 1 };
@@ -117,198 +99,9 @@ find_doubt(char *why, size_t room, const driven *d, size_t turns)
     for (size_t b = 0; b < BLOCKS; b++)
         most = fmax(most, range[b][1] - range[b][0]);
     for (size_t b = 0; b < BLOCKS; b++)
-        moving += range[b][1] - range[b][0] > TURN * most;
+        moving += range[b][1] - range[b][0] > DRIVEN_TURN * most;
     if (2 * moving < BLOCKS)
         snprintf(why, room, "the motion is mostly rest");
-}
-
-/* --- what is left, and the noise ----------------------------------------------------------- */
-
-/* For each row the row of another passage that is nearest to it, or the row itself if it is left out. */
-static ss_status
-find_partners(const driven *d, size_t *partner)
-{
-    double (*place)[4] = malloc(d->n * sizeof *place);
-    size_t *passage = malloc(d->n * sizeof *passage), turns = 0;
-    char *is_turn = malloc(d->n);
-    if (place == NULL || passage == NULL || is_turn == NULL) {
-        free(place);
-        free(passage);
-        free(is_turn);
-        return SS_ENOMEM;
-    }
-    ss_driven_turns(d, fmax(TURN, d->least), is_turn);
-    for (size_t i = 0, last = 0, before = 0; i < d->n; i++) {
-        if (is_turn[i]) {
-            before = last;
-            last = i;
-            turns++;
-        }
-        place[i][0] = d->x[i];
-        place[i][1] = d->v[i];
-        place[i][2] = d->x[last];
-        place[i][3] = d->x[before];
-        passage[i] = turns;
-    }
-    for (size_t i = 0; i < d->n; i++) {
-        double nearest = INFINITY;
-        partner[i] = i;
-        for (size_t j = 0; j < d->n && d->used[i]; j++) {
-            double distance = 0;
-            if (!d->used[j] || (passage[j] <= passage[i] + 1 && passage[i] <= passage[j] + 1))
-                continue;
-            for (int k = 0; k < 4; k++)
-                distance += (place[i][k] - place[j][k]) * (place[i][k] - place[j][k]);
-            if (distance < nearest) {
-                nearest = distance;
-                partner[i] = j;
-            }
-        }
-    }
-    free(place);
-    free(passage);
-    free(is_turn);
-    return SS_OK;
-}
-
-/* A hat function of the k-th knot, at k, of x. */
-static double
-hat(double x, double k)
-{
-    return fmax(1 - fabs(x - k), 0);
-}
-
-/* The terms of a free law: sliders of many lengths, free functions of the speed, of the place, and of the law's own
- * force in either direction. */
-enum { SLIDERS = 8, SPEEDS = 6, PLACES = 8, FORCES = 8, TERMS = SLIDERS + SPEEDS + PLACES + 2 * FORCES };
-
-static void
-fill_terms(double (*term)[TERMS], const driven *d, const double *own)
-{
-    double slider[SLIDERS] = { 0 }, least = own[0], most = own[0];
-    for (size_t i = 0; i < d->n; i++) {
-        least = fmin(least, own[i]);
-        most = fmax(most, own[i]);
-    }
-    for (size_t i = 0; i < d->n; i++) {
-        double length = 0.02, speed = asinh(fabs(d->v[i]) / 0.05) * SPEEDS / 5, *at = term[i];
-        for (int k = 0; k < SLIDERS; k++, length *= 2)
-            *at++ = slider[k] = fmax(-1, fmin(slider[k] + (i > 0 ? d->x[i] - d->x[i - 1] : 0) / length, 1));
-        for (int k = 0; k < SPEEDS; k++)
-            *at++ = copysign(hat(speed, k), d->v[i]);
-        for (int k = 0; k < PLACES; k++)
-            *at++ = hat((d->x[i] + 2) * PLACES / 4, k + 0.5);
-        for (int k = 0; k < 2 * FORCES; k++)
-            *at++ = (d->v[i] > 0) == k % 2 && most > least
-                ? hat((own[i] - least) / (most - least) * (FORCES - 1), k / 2) : 0;
-    }
-}
-
-/* Add the products of the terms of some rows with each other and with what is left of these, times `by`. */
-static void
-add_products(double sum[TERMS + 1][TERMS], double (*term)[TERMS], const driven *d, const double *left, size_t from,
-             size_t end, double by)
-{
-    for (size_t i = from; i < end; i++)
-        for (int k = 0; k <= TERMS && d->used[i]; k++)
-            for (int l = 0; l <= k && l < TERMS; l++)
-                sum[k][l] += by * (k < TERMS ? term[i][k] : left[i]) * term[i][l];
-}
-
-/* The mean square that no law could explain: what such terms, fitted to other times, leave of each block. */
-static ss_status
-find_unexplained(const driven *d, const double *left, const double *own, double *noise)
-{
-    double (*term)[TERMS] = malloc(d->n * sizeof *term), sum[TERMS + 1][TERMS] = { { 0 } }, count = 0;
-    if (term == NULL)
-        return SS_ENOMEM;
-    fill_terms(term, d, own);
-    add_products(sum, term, d, left, 0, d->n, 1);
-    *noise = 0;
-    for (size_t b = 0; b < BLOCKS; b++) {
-        const size_t from = b * d->n / BLOCKS, end = (b + 1) * d->n / BLOCKS;
-        double others[TERMS + 1][TERMS];
-        memcpy(others, sum, sizeof sum);
-        add_products(others, term, d, left, from, end, -1);
-        for (int k = 0; k < TERMS; k++)
-            others[k][k] += SHARED * sum[k][k] + DBL_MIN;
-        gsl_matrix_view A = gsl_matrix_view_array(others[0], TERMS, TERMS);
-        gsl_vector_view C = gsl_vector_view_array(others[TERMS], TERMS);
-        gsl_linalg_cholesky_decomp1(&A.matrix);
-        gsl_linalg_cholesky_svx(&A.matrix, &C.vector);
-        for (size_t i = from; i < end; i++) {
-            double rest = left[i];
-            for (int k = 0; k < TERMS; k++)
-                rest -= others[TERMS][k] * term[i][k];
-            *noise += d->used[i] * rest * rest;
-            count += d->used[i];
-        }
-    }
-    *noise /= count;
-    free(term);
-    return SS_OK;
-}
-
-/* The mean square at most of noise with these second differences, if its memory is at most MEMORY of a cycle: of
- * noise of the first order, and of white noise.  What a law fails to explain is smoother, but for few rows.
- * room: for ROWS numbers. */
-static double
-find_rough(const driven *d, const double *predicted, size_t turns, double *room)
-{
-    const double *f = d->f, *p = predicted, memory = MEMORY * 2 * (double)d->n / (double)turns;     /* [rows] */
-    double least = INFINITY;
-    for (size_t lag = 1; (double)lag <= memory; lag *= 2) {
-        const double keep = exp(-(double)lag / memory);
-        size_t n = 0;
-        for (size_t i = lag; i + lag < d->n; i += 1 + d->n / ROWS) {
-            double by = f[i - lag] - p[i - lag] - 2 * (f[i] - p[i]) + f[i + lag] - p[i + lag];
-            if (d->used[i - lag] && d->used[i] && d->used[i + lag])
-                room[n++] = by * by / (6 - 8 * keep + 2 * keep * keep);
-        }
-        if (n > FEWEST / 2)
-            least = fmin(least, ss_wander_variance(room, n));
-    }
-    return least;
-}
-
-/* The correlation of what is left with that of the partners; *noise becomes the mean square that they do not
- * share. */
-static double
-find_repeat(const driven *d, const size_t *partner, const double *left, double *noise)
-{
-    double squares = 0, products = 0, differences = 0, n = 0;
-    for (size_t i = 0; i < d->n; i++) {
-        double other = left[partner[i]];
-        if (partner[i] == i)
-            continue;
-        squares += (left[i] * left[i] + other * other) / 2;
-        products += left[i] * other;
-        differences += (left[i] - other) * (left[i] - other) / 2;
-        n++;
-    }
-    *noise = n > 0 ? differences / n : NAN;
-    return squares > 0 ? products / squares : NAN;
-}
-
-/* --- the answer ---------------------------------------------------------------------------- */
-
-static int
-contains(const driven_law *a, const driven_law *b)
-{
-    return a->contains >> (b - ss_driven_law(0)) & 1;
-}
-
-/* The standard error of a sum over blocks. */
-static double
-block_error(const double *a, const double *b)
-{
-    double sum = 0, squares = 0;
-    for (size_t k = 0; k < BLOCKS; k++) {
-        double x = a[k] - (b != NULL ? b[k] : 0);
-        sum += x;
-        squares += x * x;
-    }
-    return sqrt(fmax(squares - sum * sum / BLOCKS, 0) * BLOCKS / (BLOCKS - 1));
 }
 
 static double
@@ -322,68 +115,6 @@ power_of(const driven *d)
             n++;
         }
     return (squares - sum * sum / n) / n;
-}
-
-static int
-is_smallest(const driven_result *r, size_t n, const int *tied, size_t i)
-{
-    for (size_t k = 0; k < n; k++)
-        if (tied[k] && k != i && contains(r[i].law, r[k].law))
-            return 0;
-    return tied[i];
-}
-
-static void
-append(char *text, size_t room, const char *word)
-{
-    size_t n = strlen(text);
-    snprintf(text + n, room - n, "%s%s", n > 0 ? ", " : "", word);
-}
-
-/* Decide by what the laws leave; *best becomes the row that is named, or that explains most. */
-static void
-decide(ss_motion_ranking *out, const driven_result *r, size_t n, const double noise[], double power, size_t *best)
-{
-    int tied[LAWS_MOST];
-    size_t named = n, count = 0;
-    char names[128] = "";
-    *best = 0;
-    for (size_t i = 1; i < n; i++)
-        if (r[i].loss < r[*best].loss)
-            *best = i;
-    for (size_t i = 0; i < n; i++) {
-        double most = r[*best].loss, error = 2 * block_error(r[i].block, r[*best].block);
-        tied[i] = r[i].loss - most <= fmax(fmin(error, most), fmax(AS_GOOD * most, RESIDUE_QUIET * power));
-    }
-    for (size_t i = 0; i < n; i++) {
-        out->row[i].tied = tied[i];
-        if (is_smallest(r, n, tied, i)) {
-            named = i;
-            count++;
-            append(names, sizeof names, r[i].law->name);
-        }
-    }
-    double explained = 1 - r[*best].loss / power;
-    char number[SS_NUMBER_MAX], times[SS_NUMBER_MAX];
-    ss_number_fixed(number, explained, 4);
-    if (tied[0] || explained < EXPLAINED) {
-        out->verdict = SS_NONE_FITS;
-        snprintf(out->answer, sizeof out->answer, "none of these: %s%s explains %s of the force that was held out",
-                 tied[0] ? "no law explains more than the null; " : "", r[*best].law->name, number);
-    } else if (r[count == 1 ? named : *best].fit[ALL].loss > BEYOND_NOISE * noise[count == 1 ? named : *best]) {
-        out->verdict = SS_NONE_FITS;
-        snprintf(out->answer, sizeof out->answer, "none of these: %s explains most, %s of the force that was "
-                 "held out, but leaves %s times the noise", r[*best].law->name, number,
-                 ss_number_rounded(times, r[*best].fit[ALL].loss / noise[*best], 3));
-    } else if (count > 1) {
-        out->verdict = SS_UNDECIDED;
-        snprintf(out->answer, sizeof out->answer, "cannot tell: %s", names);
-    } else {
-        out->verdict = SS_NAMED;
-        *best = named;
-        snprintf(out->answer, sizeof out->answer, "%s explains %s of the force that was held out",
-                 r[named].law->name, ss_number_fixed(number, 1 - r[named].loss / power, 4));
-    }
 }
 
 /* --- the numbers of the law ----------------------------------------------------------------- */
@@ -502,9 +233,9 @@ find_confounded(ss_motion_ranking *out, const driven_result *r, const driven *d)
         xa += d->x[i] * d->a[i];
     }
     if (fabs(xa) > 0.98 * sqrt(xx * aa))
-        append(out->confounded, sizeof out->confounded, "inertia with tilt (the motion is one sine)");
+        ss_verdict_append(out->confounded, sizeof out->confounded, "inertia with tilt (the motion is one sine)");
     if (r->law->parts == 1)
-        append(out->confounded, sizeof out->confounded, "friction that differs by direction with offset");
+        ss_verdict_append(out->confounded, sizeof out->confounded, "friction that differs by direction with offset");
 }
 
 /* --- the ranking ---------------------------------------------------------------------------- */
@@ -539,36 +270,41 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
       size_t turns, const ss_signal *signal, const size_t of[2], const ss_motion_opts *opts)
 {
     driven_result *r = calloc(LAWS_MOST, sizeof *r);
+    candidate c[LAWS_MOST];
     size_t *partner = malloc(rows->n * sizeof *partner), n = 0, best = 0;
-    double room[ROWS], noise[LAWS_MOST], power = power_of(rows), quiet = QUIET * power;
+    const double power = power_of(rows);
     out->predicted = malloc(signal->n * sizeof *out->predicted);
-    ss_status st = r != NULL && partner != NULL && out->predicted != NULL ? find_partners(rows, partner) : SS_ENOMEM;
+    ss_status st = r != NULL && partner != NULL && out->predicted != NULL
+        ? ss_driven_partners(rows, partner) : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && ss_driven_law(i) != NULL; i++) {
         const driven_law *law = ss_driven_law(i);
-        double unshared, unexplained;
+        driven_noise noise;
         if (is_without(opts->without, law->name))
             continue;
         st = ss_driven_fit(&r[n], law, rows, fold, coarse, r, n);
         if (st == SS_OK)
             st = ss_progress_at(&opts->progress, (double)(i + 1) / LAWS_MOST);
-        if (st != SS_OK)
-            break;
-        out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - r[n].loss / power,
-            .explained_error = block_error(r[n].block, NULL) / power, .gain = 1 - r[n].loss / r[0].loss,
-            .repeat = find_repeat(rows, partner, r[n].left, &unshared) };
-        st = find_unexplained(rows, r[n].left, r[n].own, &unexplained);
         if (st == SS_OK)
             st = ss_driven_predict(out->predicted, law, d, &r[n].fit[ALL]);
+        if (st == SS_OK)
+            st = ss_driven_noise(&noise, &r[n], rows, partner, d, out->predicted, turns);
         if (st != SS_OK)
             break;
-        noise[n] = fmax(quiet, fmin(find_rough(d, out->predicted, turns, room), fmin(unshared, unexplained)));
+        c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
+            .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power, .better = noise.better,
+            .noise = fmin(noise.rough, fmin(noise.unshared, noise.unexplained)) / power };
+        out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - c[n].left, .repeat = noise.repeat,
+            .gain = 1 - r[n].loss / r[0].loss,
+            .explained_error = ss_verdict_error(r[n].block, NULL) / power };
         n++;
     }
     out->n = n;
     if (st == SS_OK) {
-        decide(out, r, n, noise, power, &best);
-        for (size_t i = 0; i < n; i++)
-            out->row[i].residual = r[i].fit[ALL].loss / noise[best];
+        out->verdict = ss_verdict_find(out->answer, sizeof out->answer, c, n, power, &best);
+        for (size_t i = 0; i < n; i++) {
+            out->row[i].tied = c[i].tied;
+            out->row[i].residual = c[i].fitted / ss_verdict_noise(&c[best]);
+        }
         st = ss_driven_predict(out->predicted, r[best].law, d, &r[best].fit[ALL]);
     }
     if (st == SS_OK) {
@@ -604,11 +340,11 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size
     snprintf(why, sizeof why, "it has %zu rows, fewer than %d", n, FEWEST);
     if (st == SS_OK && n >= FEWEST) {
         st = ss_driven_new(&d, column[0], column[1], column[2], n, opts);
-        turns = st == SS_OK ? ss_driven_turns(&d, fmax(TURN, d.least), fold) : 0;
+        turns = st == SS_OK ? ss_driven_turns(&d, fmax(DRIVEN_TURN, d.least), fold) : 0;
         if (st == SS_OK)
             find_doubt(why, sizeof why, &d, turns);
         if (st == SS_OK && why[0] == '\0')
-            st = ss_driven_thin(&rows, &d, ROWS);
+            st = ss_driven_thin(&rows, &d, DRIVEN_ROWS);
         if (st == SS_OK && why[0] == '\0')
             st = ss_driven_thin(&coarse, &d, COARSE);
         if (st == SS_OK && why[0] == '\0' && choose_folds(&rows, opts->folds, turns, fold, &r->interleaved))

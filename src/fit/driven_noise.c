@@ -1,0 +1,206 @@
+/* driven_noise.c -- the noise of a measured force, and whether a free law would predict more of it.
+ *
+ * * The noise is unknown, but at most the least of three estimates.  Motions that repeat: what differs between
+ * rows of two passages through nearly the same place, by position, speed and the last two turns; a law's memory is
+ * no longer than that.  Laws that are not in the list: what a free law leaves of blocks of time to which it was not
+ * fitted.  Other motions: noise of short memory is as rough as its power says, and what a law fails to explain is
+ * smoother. */
+#include "fit/driven.h"
+#include "fit/verdict.h"
+#include "fit/wander.h"
+
+#include <float.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MEMORY (1. / 16)                /* of noise, at most, in cycles */
+#define SHARED 1e-4                     /* ridge of the terms of a free law, which are alike */
+enum { FEWEST = 100 };                  /* differences whose size is known */
+
+/* For each row the row of another passage that is nearest to it, or the row itself if it is left out. */
+ss_status
+ss_driven_partners(const driven *d, size_t *partner)
+{
+    double (*place)[4] = malloc(d->n * sizeof *place);
+    size_t *passage = malloc(d->n * sizeof *passage), turns = 0;
+    char *is_turn = malloc(d->n);
+    if (place == NULL || passage == NULL || is_turn == NULL) {
+        free(place);
+        free(passage);
+        free(is_turn);
+        return SS_ENOMEM;
+    }
+    ss_driven_turns(d, fmax(DRIVEN_TURN, d->least), is_turn);
+    for (size_t i = 0, last = 0, before = 0; i < d->n; i++) {
+        if (is_turn[i]) {
+            before = last;
+            last = i;
+            turns++;
+        }
+        place[i][0] = d->x[i];
+        place[i][1] = d->v[i];
+        place[i][2] = d->x[last];
+        place[i][3] = d->x[before];
+        passage[i] = turns;
+    }
+    for (size_t i = 0; i < d->n; i++) {
+        double nearest = INFINITY;
+        partner[i] = i;
+        for (size_t j = 0; j < d->n && d->used[i]; j++) {
+            double distance = 0;
+            if (!d->used[j] || (passage[j] <= passage[i] + 1 && passage[i] <= passage[j] + 1))
+                continue;
+            for (int k = 0; k < 4; k++)
+                distance += (place[i][k] - place[j][k]) * (place[i][k] - place[j][k]);
+            if (distance < nearest) {
+                nearest = distance;
+                partner[i] = j;
+            }
+        }
+    }
+    free(place);
+    free(passage);
+    free(is_turn);
+    return SS_OK;
+}
+
+/* A hat function of the k-th knot, at k, of x. */
+static double
+hat(double x, double k)
+{
+    return fmax(1 - fabs(x - k), 0);
+}
+
+/* The terms of a free law: sliders of many lengths; free functions of the speed, alone and times the law's own
+ * force, of the place, and of this force in either direction; and its rate. */
+enum { SLIDERS = 8, SPEEDS = 6, PLACES = 8, FORCES = 8, TERMS = SLIDERS + 2 * SPEEDS + PLACES + 2 * FORCES + 1 };
+
+static void
+fill_terms(double (*term)[TERMS], const driven *d, const double *own)
+{
+    double slider[SLIDERS] = { 0 }, least = own[0], most = own[0];
+    for (size_t i = 0; i < d->n; i++) {
+        least = fmin(least, own[i]);
+        most = fmax(most, own[i]);
+    }
+    for (size_t i = 0; i < d->n; i++) {
+        double length = 0.02, speed = asinh(fabs(d->v[i]) / 0.05) * SPEEDS / 5, *at = term[i];
+        for (int k = 0; k < SLIDERS; k++, length *= 2)
+            *at++ = slider[k] = fmax(-1, fmin(slider[k] + (i > 0 ? d->x[i] - d->x[i - 1] : 0) / length, 1));
+        for (int k = 0; k < SPEEDS; k++) {
+            *at++ = copysign(hat(speed, k), d->v[i]);
+            *at++ = own[i] * hat(speed, k);
+        }
+        for (int k = 0; k < PLACES; k++)
+            *at++ = hat((d->x[i] + 2) * PLACES / 4, k + 0.5);
+        for (int k = 0; k < 2 * FORCES; k++)
+            *at++ = (d->v[i] > 0) == k % 2 && most > least
+                ? hat((own[i] - least) / (most - least) * (FORCES - 1), k / 2) : 0;
+        *at++ = i > 0 ? (own[i] - own[i - 1]) / (d->t[i] - d->t[i - 1]) : 0;
+    }
+}
+
+/* Add the products of the terms of some rows with each other and with what is left of these, times `by`. */
+static void
+add_products(double sum[TERMS + 1][TERMS], double (*term)[TERMS], const driven *d, const double *left, size_t from,
+             size_t end, double by)
+{
+    for (size_t i = from; i < end; i++)
+        for (int k = 0; k <= TERMS && d->used[i]; k++)
+            for (int l = 0; l <= k && l < TERMS; l++)
+                sum[k][l] += by * (k < TERMS ? term[i][k] : left[i]) * term[i][l];
+}
+
+/* The mean square that no law could explain: what such terms, fitted to other times, leave of each block; and by
+ * how many errors this is less than what the law leaves. */
+static ss_status
+find_unexplained(const driven *d, const double *left, const double *own, double *noise, double *better)
+{
+    double (*term)[TERMS] = malloc(d->n * sizeof *term), sum[TERMS + 1][TERMS] = { { 0 } }, count = 0;
+    double of_law[BLOCKS] = { 0 }, of_free[BLOCKS] = { 0 };
+    if (term == NULL)
+        return SS_ENOMEM;
+    fill_terms(term, d, own);
+    add_products(sum, term, d, left, 0, d->n, 1);
+    *noise = *better = 0;
+    for (size_t b = 0; b < BLOCKS; b++) {
+        const size_t from = b * d->n / BLOCKS, end = (b + 1) * d->n / BLOCKS;
+        double others[TERMS + 1][TERMS];
+        memcpy(others, sum, sizeof sum);
+        add_products(others, term, d, left, from, end, -1);
+        for (int k = 0; k < TERMS; k++)
+            others[k][k] += SHARED * sum[k][k] + DBL_MIN;
+        gsl_matrix_view A = gsl_matrix_view_array(others[0], TERMS, TERMS);
+        gsl_vector_view C = gsl_vector_view_array(others[TERMS], TERMS);
+        gsl_linalg_cholesky_decomp1(&A.matrix);
+        gsl_linalg_cholesky_svx(&A.matrix, &C.vector);
+        for (size_t i = from; i < end; i++) {
+            double rest = left[i];
+            for (int k = 0; k < TERMS; k++)
+                rest -= others[TERMS][k] * term[i][k];
+            of_free[b] += d->used[i] * rest * rest;
+            of_law[b] += d->used[i] * left[i] * left[i];
+            count += d->used[i];
+        }
+        *noise += of_free[b];
+        *better += of_law[b] - of_free[b];
+    }
+    *noise /= count;
+    *better /= ss_verdict_error(of_law, of_free);
+    free(term);
+    return SS_OK;
+}
+
+/* The mean square at most of noise with these second differences, if its memory is at most MEMORY of a cycle: of
+ * noise of the first order, and of white noise.  What a law fails to explain is smoother, but for few rows.
+ * room: for DRIVEN_ROWS numbers. */
+static double
+find_rough(const driven *d, const double *predicted, size_t turns, double *room)
+{
+    const double *f = d->f, *p = predicted, memory = MEMORY * 2 * (double)d->n / (double)turns;     /* [rows] */
+    double least = INFINITY;
+    for (size_t lag = 1; (double)lag <= memory; lag *= 2) {
+        const double keep = exp(-(double)lag / memory);
+        size_t n = 0;
+        for (size_t i = lag; i + lag < d->n; i += 1 + d->n / DRIVEN_ROWS) {
+            double by = f[i - lag] - p[i - lag] - 2 * (f[i] - p[i]) + f[i + lag] - p[i + lag];
+            if (d->used[i - lag] && d->used[i] && d->used[i + lag])
+                room[n++] = by * by / (6 - 8 * keep + 2 * keep * keep);
+        }
+        if (n > FEWEST)
+            least = fmin(least, ss_wander_variance(room, n));
+    }
+    return least;
+}
+
+/* The correlation of what is left with that of the partners; *noise becomes the mean square that they do not
+ * share. */
+static double
+find_repeat(const driven *d, const size_t *partner, const double *left, double *noise)
+{
+    double squares = 0, products = 0, differences = 0, n = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        double other = left[partner[i]];
+        if (partner[i] == i)
+            continue;
+        squares += (left[i] * left[i] + other * other) / 2;
+        products += left[i] * other;
+        differences += (left[i] - other) * (left[i] - other) / 2;
+        n++;
+    }
+    *noise = n > 0 ? differences / n : NAN;
+    return squares > 0 ? products / squares : NAN;
+}
+
+ss_status
+ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner,
+                const driven *d, const double *predicted, size_t turns)
+{
+    double room[DRIVEN_ROWS];
+    ss_status st = find_unexplained(rows, r->left, r->own, &out->unexplained, &out->better);
+    out->repeat = find_repeat(rows, partner, r->left, &out->unshared);
+    out->rough = find_rough(d, predicted, turns, room);
+    return st;
+}

@@ -1,0 +1,135 @@
+/* verdict.c -- when a fit explains a record, when it is as good as another, and what is then said.
+ *
+ * * Scenes are fitted to all samples: one explains them if it leaves no more than noise.
+ *
+ * * A law is judged by what it leaves where it was not fitted.  The simplest law that is as good as the best is
+ * named, if it is not refuted; if another as good does not contain it, nobody can tell.
+ *
+ * * A law is refuted if a free law predicts significantly more: then a law is missing.  A real contact is no law;
+ * its friction wanders, its rig has play.  Of this a free law predicts no more; but a part of what is left must be
+ * noise, or the change from cycle to cycle. */
+#include "fit/verdict.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include "base/error.h"
+#include "io/record.h"
+
+#define AS_GOOD 0.03                /* of the least loss: laws that differ by less are as good */
+#define EXPLAINED 0.8               /* of the power, by a law that is named */
+#define BEYOND_NOISE 4              /* times the noise is left: three quarters are an error of the law */
+#define SIGNIFICANT 3               /* errors */
+#define QUIET 1e-5                  /* of the power: an error of what the motion does between rows */
+
+/* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
+ * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of
+ * which may share a sample. */
+#define ALLOWED 1.2
+#define UNCERTAIN (3 * 2.3)
+
+double
+ss_residue_excess(const residue *r, double noise)
+{
+    return r->left / fmax(fmin(noise, r->white), RESIDUE_QUIET * r->power);
+}
+
+int
+ss_residue_explains(const residue *r, double noise)
+{
+    return r->compared > 0 && ss_residue_excess(r, noise) <= ALLOWED * (1 + UNCERTAIN / sqrt(r->compared));
+}
+
+double
+ss_residue_lead(const residue *r, const residue *other, double noise)
+{
+    return r->compared * (ss_residue_excess(other, noise) - ss_residue_excess(r, noise));
+}
+
+/* --- laws ---------------------------------------------------------------------------------- */
+
+double
+ss_verdict_error(const double a[BLOCKS], const double b[BLOCKS])
+{
+    double sum = 0, squares = 0;
+    for (size_t k = 0; k < BLOCKS; k++) {
+        double x = a[k] - (b != NULL ? b[k] : 0);
+        sum += x;
+        squares += x * x;
+    }
+    return sqrt(fmax(squares - sum * sum / BLOCKS, 0) * BLOCKS / (BLOCKS - 1));
+}
+
+void
+ss_verdict_append(char *text, size_t room, const char *word)
+{
+    size_t n = strlen(text);
+    snprintf(text + n, room - n, "%s%s", n > 0 ? ", " : "", word);
+}
+
+double
+ss_verdict_noise(const candidate *c)
+{
+    return fmax(QUIET, c->noise);
+}
+
+/* How much more a candidate leaves than the best, in errors of the difference. */
+static double
+errors_behind(const candidate *c, const candidate *best, double power)
+{
+    double error = ss_verdict_error(c->block, best->block) / power;
+    return (c->left - best->left) / fmax(fmin(error, best->left / 2), RESIDUE_QUIET / 2);
+}
+
+/* Does it leave more than noise and what a real contact does beside its law, or is a law missing? */
+static int
+is_refuted(const candidate *c)
+{
+    return c->fitted > BEYOND_NOISE * ss_verdict_noise(c) || (c->better > SIGNIFICANT && c->fitted > QUIET);
+}
+
+ss_verdict
+ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power, size_t *best)
+{
+    char names[128] = "", number[SS_NUMBER_MAX], times[SS_NUMBER_MAX];
+    size_t count = 0, simplest = 0;
+    unsigned tied = 0;
+    *best = 0;
+    for (size_t i = 1; i < n; i++)
+        *best = c[i].left < c[*best].left ? i : *best;
+    const candidate *most = &c[*best];
+    for (size_t i = 0; i < n; i++) {
+        c[i].tied = c[i].left - most->left <= AS_GOOD * most->left || errors_behind(&c[i], most, power) <= 2;
+        tied |= c[i].tied ? c[i].law : 0;
+    }
+    for (size_t i = 0; i < n; i++)
+        if (c[i].tied && (c[i].contains & tied) == 0) {
+            simplest = i;
+            count++;
+            ss_verdict_append(names, sizeof names, c[i].name);
+        }
+    ss_number_fixed(number, 1 - most->left, 4);
+    if (c[0].tied || 1 - most->left < EXPLAINED) {
+        snprintf(answer, room, "none of these: %s%s explains %s of the force that was held out",
+                 c[0].tied ? "no law explains more than the null; " : "", most->name, number);
+        return SS_NONE_FITS;
+    }
+    const candidate *judged = count == 1 ? &c[simplest] : most;
+    if (is_refuted(judged)) {
+        const double beyond = judged->fitted / ss_verdict_noise(judged);
+        const int is_noisy = beyond > BEYOND_NOISE;
+        ss_number_rounded(times, is_noisy ? beyond : judged->better, 3);
+        snprintf(answer, room, "none of these: %s explains %s of the force that was held out, but %s %s %s",
+                 judged->name, ss_number_fixed(number, 1 - judged->left, 4), is_noisy ? "leaves" : "a free law predicts more, by", times,
+                 is_noisy ? "times the noise" : "errors");
+        return SS_NONE_FITS;
+    }
+    if (count > 1) {
+        snprintf(answer, room, "cannot tell: %s", names);
+        return SS_UNDECIDED;
+    }
+    *best = simplest;
+    snprintf(answer, room, "%s explains %s of the force that was held out", c[simplest].name,
+             ss_number_fixed(number, 1 - c[simplest].left, 4));
+    return SS_NAMED;
+}
