@@ -170,8 +170,8 @@ test_damping(ss_ranking *r, const comparison *w, const found *f)
         st = ss_forced_gains(held, &of->scene, &of->fit, &w->record);
         const forced_held *by = &held[HELD_DAMPING];
         damped.left -= by->gain * fmax(damped.left, RESIDUE_QUIET * damped.power) / damped.compared;
-        if (st != SS_OK || !(by->nearer > 0) || !ss_residue_explains(&damped, w->record.noise)
-            || ss_residue_lead(&f[first->scene].fit.of_samples, &damped, w->record.noise) >= RESIDUE_DECISIVE)
+        if (st != SS_OK || !(by->nearer > 0)
+            || !ss_residue_equals(&damped, &f[first->scene].fit.of_samples, w->record.noise))
             continue;
         r->verdict = SS_UNDECIDED;
         ss_print_to(r->why, sizeof r->why, "%s friction explains the signal as well as %s friction if the rig's damping "
@@ -216,7 +216,7 @@ judge(ss_ranking *r, const comparison *w, const found *f)
         const residue *of = &f[other->scene].fit.of_samples;
         double farther = other->value[SS_BY_ADJUSTMENT] - first->value[SS_BY_ADJUSTMENT];
         double allowed = sqrt(RESIDUE_DECISIVE) * difference_error(&f[first->scene], &f[other->scene]);
-        if (!ss_residue_explains(of, noise) || ss_residue_lead(own, of, noise) >= RESIDUE_DECISIVE)
+        if (!ss_residue_equals(of, own, noise))
             continue;
         if (other->adjusted.model != first->adjusted.model)
             snprintf(r->why, sizeof r->why, "%s and %s friction explain the signal equally well",

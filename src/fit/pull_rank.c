@@ -134,7 +134,7 @@ try_scene(trial *t, ss_rank_row *row, const falls *r, const ss_scene *scene, dou
 static int
 is_equal(const trial *t, const trial *least, double noise)
 {
-    return t->near && ss_residue_lead(&least->fit.of_samples, &t->fit.of_samples, noise) < RESIDUE_DECISIVE;
+    return t->near && ss_residue_equals(&t->fit.of_samples, &least->fit.of_samples, noise);
 }
 
 static int

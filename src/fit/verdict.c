@@ -46,6 +46,12 @@ ss_residue_lead(const residue *r, const residue *other, double noise)
     return r->compared * (ss_residue_excess(other, noise) - ss_residue_excess(r, noise));
 }
 
+int
+ss_residue_equals(const residue *r, const residue *other, double noise)
+{
+    return ss_residue_explains(r, noise) && ss_residue_lead(other, r, noise) < RESIDUE_DECISIVE;
+}
+
 /* --- laws ---------------------------------------------------------------------------------- */
 
 double

@@ -25,6 +25,8 @@ double ss_residue_excess(const residue *r, double noise);
 int ss_residue_explains(const residue *r, double noise);
 /* How much less than another leaves, in standard errors squared. */
 double ss_residue_lead(const residue *r, const residue *other, double noise);
+/* 1 if it explains the record, too, and leaves no more than another, to within the error. */
+int ss_residue_equals(const residue *r, const residue *other, double noise);
 
 /* A law that was fitted to a part of a record and judged by the rest; powers are parts of the record's. */
 enum { BLOCKS = 24 };               /* of time, by whose scatter errors are found */

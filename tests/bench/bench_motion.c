@@ -1,11 +1,14 @@
 /* bench_motion.c -- how often ss_motion_ranking_new names the law of a simulated recording of motion and force.
  *
- * *     bench_motion [DRAWS [SEED]]
+ * *     bench_motion [DRAWS [SEED [LAW [PART]]]]
  *
  * * Each law is integrated in small steps of its differential equation, which no code under test does, along a
  * motion that is drawn: one sine, three sines, or a sine that grows and falls.  Noise of the first order (.9) is
  * added to the force, 40 or 20 dB below it.  A second run leaves out the law and those that contain it: another is
- * then "close" if it is named, and its force differs from the true one by less than the noise does. */
+ * then "close" if it is named, and its force differs from the true one by less than the noise does.
+ *
+ * * PART, as .05: the rig is no law.  By a part of up to so much the friction wanders (with a memory of a cycle),
+ * changes with the place, and differs between directions; the offset drifts; the force is late by up to half a row. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,6 +32,7 @@ typedef struct truth {
     int law;
     double f, d, other, gap, n, p, rise, speed, shape, damping;
     double viscous, tilt, offset, inertia;
+    double wander, place, side, drift, late;    /* what the law does not say */
 } truth;
 
 static double
@@ -110,7 +114,8 @@ simulate(ss_signal *s, double clean[ROWS], const truth *r, int kind, double db, 
 {
     const double cycles = 10, h = cycles / ROWS / FINE;
     double *x = s->values, *f = x + ROWS, phase[3], z = 0, noise = 0, m[3];
-    double sx = 0, sv = 0, sa = 0, sum = 0, squares = 0;
+    double sx = 0, sv = 0, sa = 0, sum = 0, squares = 0, wander = gauss(seed), before = 0;
+    const double keep = exp(-cycles / ROWS);
     for (int k = 0; k < 3; k++)
         phase[k] = between(seed, 0, 2 * M_PI);
     for (int i = 0; i < ROWS; i++) {
@@ -136,9 +141,13 @@ simulate(ss_signal *s, double clean[ROWS], const truth *r, int kind, double db, 
             z += step * rate;
         }
         motion_at(kind, i * cycles / ROWS, phase, m);
-        double v = m[1] / sv;
+        double v = m[1] / sv, own, now;
         x[i] = m[0] / sx;
-        f[i] = friction_of(r, z, rate, v) + r->offset + r->tilt * x[i] + r->viscous * v + r->inertia * m[2] / sa;
+        wander = keep * wander + sqrt(1 - keep * keep) * gauss(seed);
+        now = friction_of(r, z, rate, v);
+        own = (now + r->late * (before - now)) * (1 + r->wander * wander + r->place * x[i] + (now > 0 ? r->side : 0));
+        before = now;
+        f[i] = own + r->drift * i / ROWS + r->offset + r->tilt * x[i] + r->viscous * v + r->inertia * m[2] / sa;
         clean[i] = f[i];
         sum += f[i] / ROWS;
         squares += f[i] * f[i] / ROWS;
@@ -242,7 +251,8 @@ int
 main(int argc, char *argv[])
 {
     const int draws = argc > 1 ? atoi(argv[1]) : 2;
-    const char *only = argc > 3 ? argv[3] : NULL;
+    const char *only = argc > 3 && strcmp(argv[3], "all") != 0 ? argv[3] : NULL;
+    const double part = argc > 4 ? atof(argv[4]) : 0;
     uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     ss_header *head = NULL;
     ss_signal *s = NULL;
@@ -258,7 +268,11 @@ main(int argc, char *argv[])
         for (int law = 0; law < LAWS; law++) {
             counts c = { 0 };
             for (int i = 0; i < draws && (only == NULL || strcmp(only, names[law]) == 0); i++) {
-                const truth r = draw(law, &seed);
+                truth r = draw(law, &seed);
+                if (part > 0)
+                    r.wander = between(&seed, 0, part), r.place = between(&seed, -part, part),
+                    r.side = between(&seed, -part, part), r.drift = between(&seed, -part, part),
+                    r.late = between(&seed, 0, .5);
                 ss_motion_ranking *with = NULL, *without = NULL;
                 ss_motion_opts opts;
                 ss_motion_opts_init(&opts, sizeof opts);
