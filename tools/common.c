@@ -140,9 +140,8 @@ say(const char *format, va_list args)
         va_end(args); \
     } while (0)
 
-/* Exit and leave the tool's memory to the system, so that a leak checker does not report it. */
-static void TOOL_NORETURN
-leave(int status)
+void
+tool_leave(int status)
 {
     files_discard();
     fflush(stdout);
@@ -153,7 +152,7 @@ void
 tool_die(const char *format, ...)
 {
     SAY(format);
-    leave(1);
+    tool_leave(1);
 }
 
 void
@@ -161,7 +160,7 @@ tool_usage(const char *format, ...)
 {
     if (format != NULL)
         SAY(format);
-    leave(2);
+    tool_leave(2);
 }
 
 void

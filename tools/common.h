@@ -23,6 +23,8 @@ void tool_end(void);
 void tool_die(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;    /* "ss-x: text", exit 1 */
 /* Wrong usage: "ss-x: text", exit 2.  format is NULL after a message of getopt. */
 void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
+/* Exit without a message, and leave the memory to the system, so that a leak checker does not report it. */
+void tool_leave(int status) TOOL_NORETURN;
 void tool_warn(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, unless -q */
 void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, only with -v */
 void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */

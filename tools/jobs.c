@@ -92,3 +92,27 @@ tool_jobs(char *const input[], size_t n, int at_once, tool_work *work, tool_done
     }
     free(jobs);
 }
+
+int
+tool_start(void (*work)(void *user), void *user, int wait)
+{
+    static pid_t busy;
+    int status = 0;
+    pid_t ended = busy > 0 ? waitpid(busy, &status, wait ? 0 : WNOHANG) : busy;
+    if (ended == 0 && busy > 0)
+        return 0;
+    if (status != 0 && !tool_stopping())
+        tool_leave(WIFEXITED(status) ? WEXITSTATUS(status) : 1);
+    busy = 0;
+    if (work == NULL)
+        return 1;
+    if ((busy = fork()) < 0)
+        tool_die("no process could be started: %s", strerror(errno));
+    if (busy == 0) {
+        setpgid(0, 0);
+        work(user);
+        tool_end();
+        _exit(0);
+    }
+    return 1;
+}

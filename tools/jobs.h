@@ -16,4 +16,9 @@ typedef void tool_work(size_t i, FILE *result, void *user);
 typedef void tool_done(size_t i, FILE *result, const char *why, void *user);
 void tool_jobs(char *const input[], size_t n, int at_once, tool_work *work, tool_done *done, void *user);
 
+/* Start work in a process of its own, which signals from the keyboard do not reach, unless the one that was started
+ * before is still busy: then the result is 0, or with `wait` comes when that has ended.  If one has failed, this tool
+ * ends with its exit status, as its message has been written.  Without work it only waits. */
+int tool_start(void (*work)(void *user), void *user, int wait);
+
 #endif

@@ -1,7 +1,10 @@
 /* ss-contour.c -- contours of wavelet coefficients, or of a recording, over time and frequency. */
 #include "options.h"
+#include "jobs.h"
 
 #include <math.h>
+#include <poll.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,6 +12,7 @@
 
 static const char usage[] =
 "usage: ss-contour [options] [FILE] | gnuplot -p\n"
+"       ss-contour --follow=FILE [options] SECONDS [FILE]\n"
 "Draw contours of |W| in dB below the largest, over time and frequency, below the\n"
 "signal: of coefficients, or of a recording, transformed as it is read.\n"
 "      --levels=N       contour lines (18)\n"
@@ -20,20 +24,20 @@ static const char usage[] =
 "                       with -o FILE.tsv or .csv write them, with amplitudes\n"
 "      --fmin=HZ, --fmax=HZ  draw these frequencies (all); for times see --from\n"
 "      --detrend=NAME   of a recording, subtract none, mean or linear first\n"
-"      --signal=FILE    the signal for panel (a)\n"
-"  -c, --column=NAME|N  its column, default the one transformed\n"
+"      --signal=FILE    for panel (a); -c, --column=NAME|N: its column\n"
 "      --events=FILE    mark these times, as ss-sim --events writes them\n"
 "      --features=FILE  draw maxima, spikes, transitions, as of ss-features\n"
+"      --follow=FILE    redraw the last SECONDS of a signal as it comes\n"
 "      --title=TEXT     default: scene or model of the signal\n"
 TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
 "  -o, --output=FILE    .gp (default, on standard output), .png, .svg, .pdf, .eps\n"
-"  -q, --quiet          no warnings; -v, --verbose: report the input\n"
-"  -h, --help           show this text; --version: show the version\n";
+"  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 typedef struct drawing {
     const char *path, *output;
-    const char *signal_path, *column, *events, *features;       /* NULL: not given */
+    const char *signal_path, *column, *events, *features, *follow;      /* NULL: not given */
+    double seconds;             /* to follow */
     ss_coefficients *own;       /* of a file; NULL: of the overview */
     ss_overview *overview;      /* of a recording */
     const ss_coefficients *coefficients;
@@ -148,6 +152,93 @@ find_signal(drawing *d)
     return signal;
 }
 
+/* --- a signal without end --------------------------------------------------------------------- */
+
+enum { REDRAWN = 8 };           /* pictures while a window passes */
+
+/* The last samples of a signal, and of these the ones that a picture shows. */
+typedef struct view {
+    drawing *drawing;
+    ss_plot_opts *plot;
+    const ss_header *head;
+    double **x;
+    size_t column, first, n;
+    uint64_t at;                /* of the first, in the whole signal */
+} view;
+
+static void
+draw_view(void *user)
+{
+    view *v = user;
+    drawing *d = v->drawing;
+    ss_error err = { 0 };
+    ss_signal *shown;
+    ss_morlet_opts opts;
+    ss_morlet_opts_init(&opts, sizeof opts);
+    opts.fmin = d->opts.fmin;
+    opts.fmax = d->opts.fmax;
+    opts.detrend = d->detrend;
+    tool_check(ss_signal_new(&shown, v->head, v->n, &err), &err);
+    shown->head->start += (double)v->at / v->head->rate;
+    for (size_t c = 0; c < v->head->n_columns; c++)
+        memcpy(shown->values + c * v->n, v->x[c] + v->first, v->n * sizeof **v->x);
+    tool_check(ss_morlet_transform(&d->own, shown, v->column, &opts, &err), &err);
+    d->coefficients = d->own;
+    d->opts.signal = shown;
+    d->opts.column = v->column;
+    d->opts.fmin = d->opts.fmax = 0;
+    tool_draw(d->follow, v->plot, write_script, d);
+    ss_signal_free(shown);
+}
+
+/* Draw the last seconds whenever the signal has gone on by a part of them: at fixed samples, while rows are read on,
+ * and at the end.  While one picture is drawn others may be left out, but not the last before the signal pauses. */
+static void
+follow(drawing *d, ss_plot_opts *plot)
+{
+    tool_writes(d->follow);
+    tool_end_at_rows(NULL);
+    ss_reader *reader = tool_read_rows(d->path, &d->reading.opts);
+    view v = { .drawing = d, .plot = plot, .head = ss_reader_header(reader) };
+    v.column = tool_column(v.head, d->path, d->column);
+    double samples = d->seconds * v.head->rate;
+    if (!(samples >= REDRAWN && samples < 1e8))
+        tool_usage("%g s are %.0f samples: from 8 to 1e8 can be followed", d->seconds, samples);
+    size_t window = (size_t)samples, hop = window / REDRAWN, piece = ss_reader_piece(reader), n, held = 0;
+    uint64_t seen = 0, drawn = 0;
+    double **to = tool_columns(v.head->n_columns, 0);
+    v.x = tool_columns(v.head->n_columns, 2 * window + piece);
+    do {
+        for (size_t c = 0; c < v.head->n_columns; c++)
+            to[c] = v.x[c] + held;
+        n = tool_rows(reader, to, piece);
+        held += n;
+        seen += n;
+        for (uint64_t due = seen - seen % hop; n > 0 && due >= window && due > drawn; ) {
+            v.n = window;
+            v.at = due - window;
+            v.first = held - (size_t)(seen - v.at);
+            if (tool_start(draw_view, &v, 0))
+                drawn = due;
+            else if (!ss_reader_waits(reader))
+                break;
+            else
+                poll(NULL, 0, 10);
+        }
+        for (size_t c = 0; c < v.head->n_columns && held >= 2 * window; c++)
+            memmove(v.x[c], v.x[c] + held - window - hop, (window + hop) * sizeof **v.x);
+        held = held >= 2 * window ? window + hop : held;
+    } while (n > 0);
+    tool_start(NULL, NULL, 1);
+    v.n = held < window ? held : window;
+    v.at = seen - v.n;
+    v.first = held - v.n;
+    draw_view(&v);
+    ss_reader_free(reader);
+    free(v.x);
+    free(to);
+}
+
 /* --- the whole ----------------------------------------------------------------------------- */
 
 static int
@@ -171,16 +262,24 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         TOOL_NUMBER(0, "fmax", &d->opts.fmax, ss_morlet_ranges.frequency),
         TOOL_TEXT(0, "signal", &d->signal_path), TOOL_TEXT('c', "column", &d->column),
         TOOL_TEXT(0, "events", &d->events), TOOL_TEXT(0, "features", &d->features),
-        TOOL_TEXT(0, "title", &plot->title), TOOL_STYLE(&plot->style), TOOL_OUTPUT(&d->output) };
-    d->path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &d->reading));
+        TOOL_TEXT(0, "follow", &d->follow), TOOL_TEXT(0, "title", &plot->title), TOOL_STYLE(&plot->style), TOOL_OUTPUT(&d->output) };
+    int first = TOOL_PARSE(argc, argv, options, &d->reading);
+    if (d->follow != NULL && first == argc)
+        tool_usage("--follow=FILE needs SECONDS, the length of what it shows");
+    if (d->follow != NULL)
+        d->seconds = tool_number("--follow", argv[first++], 1e-9, 1e9);
+    if (d->follow != NULL && (d->output != NULL || d->signal_path != NULL))
+        tool_usage("--follow excludes --output and --signal");
+    d->path = tool_input(argc, argv, first);
     if (tool_given("palette"))
         d->opts.palette = ss_palettes[d->palette];
     if (tool_given("span") || tool_given("level"))
         d->opts.noise = 0;
     if (d->opts.fmin > 0 && d->opts.fmax > 0 && d->opts.fmin >= d->opts.fmax)
         tool_usage("--fmin does not lie below --fmax");
-    d->kind = tool_output_kind(d->output, d->opts.ridge ? TOOL_PICTURES | TOOL_WORDS : TOOL_PICTURES, TOOL_GP);
-    if (d->kind < TOOL_STREAM)
+    d->kind = d->follow != NULL ? tool_output_kind(d->follow, TOOL_PICTURES, TOOL_PNG)
+        : tool_output_kind(d->output, d->opts.ridge ? TOOL_PICTURES | TOOL_WORDS : TOOL_PICTURES, TOOL_GP);
+    if (d->kind < TOOL_STREAM && d->follow == NULL)
         tool_script_to(d->output);
     tool_reading_end(&d->reading, d->column);
     tool_reading_needs(&d->reading, &d->column, d->column != NULL);
@@ -198,6 +297,31 @@ note_contents(const drawing *d)
               d->coefficients->n, d->opts.n_events, o->n_spans, o->n_maxima, o->n_spikes);
 }
 
+/* Draw what there is, or write its ridges. */
+static void
+draw(drawing *d, ss_plot_opts *opts)
+{
+    ss_error err = { 0 };
+    open_input(d);
+    if (d->overview != NULL && d->signal_path != NULL)
+        tool_usage("--signal is for coefficients; %s is a signal", d->path);
+    if (d->overview == NULL && d->detrend != SS_DETREND_NONE)
+        tool_usage("--detrend is for a recording; %s has coefficients, for which ss-morlet --detrend is", d->path);
+    opts->from = d->reading.from;       /* so that lines reach the border */
+    opts->to = d->reading.to;
+    d->reading.opts.from = d->reading.opts.to = 0;
+    ss_signal *signal = d->overview == NULL ? find_signal(d) : NULL;
+    if (d->column != NULL && d->opts.signal == NULL)
+        tool_usage("--column needs a signal; give one with --signal");
+    note_contents(d);
+    if (d->kind < TOOL_STREAM)
+        tool_draw(d->output, opts, write_script, d);
+    else
+        tool_check(ss_ridge_write(tool_output(d->output), d->coefficients, &d->opts, opts, tool_stream(d->kind), &err),
+                   &err);
+    ss_signal_free(signal);
+}
+
 int
 main(int argc, char *argv[])
 {
@@ -208,33 +332,18 @@ main(int argc, char *argv[])
     ss_contour_opts_init(&d.opts, sizeof d.opts);
     tool_begin(argv, "ss-contour", usage);
     parse(&d, &opts, argc, argv);
-    open_input(&d);
-    if (d.overview != NULL && d.signal_path != NULL)
-        tool_usage("--signal is for coefficients; %s is a signal", d.path);
-    if (d.overview == NULL && d.detrend != SS_DETREND_NONE)
-        tool_usage("--detrend is for a recording; %s has coefficients, for which ss-morlet --detrend is", d.path);
-    opts.from = d.reading.from;         /* so that lines reach the border */
-    opts.to = d.reading.to;
-    d.reading.opts.from = d.reading.opts.to = 0;
-    ss_signal *signal = d.overview == NULL ? find_signal(&d) : NULL;
-    if (d.column != NULL && d.opts.signal == NULL)
-        tool_usage("--column needs a signal; give one with --signal");
     if ((d.times = tool_read_overlay(d.events, SS_KIND_EVENTS)) != NULL) {
         d.opts.event = d.times->event;
         d.opts.n_events = d.times->n_events;
     }
     d.opts.overlay = d.overlay = tool_read_overlay(d.features, SS_KIND_FEATURES);
-    note_contents(&d);
-    ss_error err = { 0 };
-    if (d.kind < TOOL_STREAM)
-        tool_draw(d.output, &opts, write_script, &d);
+    if (d.follow != NULL)
+        follow(&d, &opts);
     else
-        tool_check(ss_ridge_write(tool_output(d.output), d.coefficients, &d.opts, &opts, tool_stream(d.kind), &err),
-                   &err);
+        draw(&d, &opts);
     tool_reading_free(&d.reading);
     ss_overlay_free(d.times);
     ss_overlay_free(d.overlay);
-    ss_signal_free(signal);
     ss_coefficients_free(d.own);
     ss_overview_free(d.overview);
     tool_end();
