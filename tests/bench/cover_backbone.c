@@ -114,15 +114,21 @@ disturb(double *x, size_t n, size_t first, double per_period, int condition)
 
 static int verbose;
 
-/* The fundamental of x at sample `at`: through four periods, weighed by (1 + cos)^2. */
+/* ln of the fundamental of x at sample `at`: of sums over 3 and 4 periods, weighed by (1 + cos)^2: a bend of
+ * it adds to each as the square of its length does. */
 static double complex
 fundamental(const double *x, double at, double w)
 {
-    double half = 4 * PI / w;
-    double complex sum = 0;
-    for (double k = ceil(at - half); k < at + half; k++)
-        sum += x[(size_t)k] * pow(1 + cos(PI * (k - at) / half), 2) * cexp(-I * w * (k - at));
-    return sum;
+    double complex z[2];
+    for (int i = 0; i < 2; i++) {
+        double half = (3 + i) * PI / w;
+        double complex sum = 0;
+        for (double k = ceil(at - half); k < at + half; k++)
+            sum += x[(size_t)k] * pow(1 + cos(PI * (k - at) / half), 2) * cexp(-I * w * (k - at));
+        z[i] = clog(sum / half);
+    }
+    z[1] -= 2 * PI * I * round(cimag(z[1] - z[0]) / (2 * PI));
+    return z[0] + (z[0] - z[1]) * 9 / 7;
 }
 
 /* What the rows should say at a sample: where friction does not change the stiffness the undamped frequency is
@@ -142,7 +148,7 @@ truth(const decay *of, const decay_turn *turn, size_t turns, const double *x, si
     if (at < 6 * PI / w + 1 || at + 6 * PI / w + 1 >= (double)n)
         return 0;
     for (int i = 0; i < 5; i++)
-        z[i] = clog(fundamental(x, at + (i - 2) * h, w));
+        z[i] = fundamental(x, at + (i - 2) * h, w);
     for (int i = 1; i < 5; i++)
         z[i] += 2 * PI * I * round((cimag(z[i - 1]) + PI - cimag(z[i])) / (2 * PI));
     double complex slope = (8 * (z[3] - z[1]) - (z[4] - z[0])) / 12 / h;
