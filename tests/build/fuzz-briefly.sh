@@ -9,7 +9,7 @@ set -- -std=c11 -D_XOPEN_SOURCE=700 -I"$SRC/include" -I"$SRC/src" -I"$BUILD" $IN
 # shellcheck disable=SC2086
 clang "$@" -fsanitize=fuzzer-no-link -c "$SRC"/src/base/number.c "$SRC"/src/scene/lines.c "$SRC"/src/signal/*.c \
     "$SRC"/src/io/*.c "$SRC"/src/io/table/*.c "$SRC"/src/io/hdf5/h5.c "$SRC"/src/io/hdf5/*_reader.c \
-    "$SRC"/src/io/hdf5/foreign.c "$SRC"/src/plot/map*.c "$SRC"/src/plot/isoline.c "$SRC"/tests/fuzz/common.c
+    "$SRC"/src/io/hdf5/read.c "$SRC"/src/plot/map*.c "$SRC"/src/plot/isoline.c "$SRC"/tests/fuzz/common.c
 names=
 for harness in "$SRC"/tests/fuzz/fuzz_*.c; do
     name=fuzz/$(basename "$harness" .c)

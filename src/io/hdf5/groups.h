@@ -6,7 +6,7 @@
 #include "io/hdf5/h5_write.h"
 #include "signal/source.h"
 
-/* /signal (signal_writer.c, signal_reader.c).  The samples come in pieces; the datasets stay open. */
+/* /signal (signal_writer.c, read.c).  The samples come in pieces; the datasets stay open. */
 typedef struct signal_writer {
     h5_pieces *pieces;
     size_t length, samples;     /* length: in all, unless the file grows; samples: written so far */
@@ -20,38 +20,12 @@ ss_status ss_signal_writer_open(signal_writer *w, h5_pieces *pieces, const ss_he
 /* n samples more of each column. */
 ss_status ss_signal_writer_append(signal_writer *w, double *const column[], size_t n);
 
-/* A source of the rows of /signal (signal_reader.c), or of an array of another program (foreign.c), which are
- * read in pieces (signal_rows.c). */
-typedef struct signal_rows {
-    ss_source base;
-    h5_file file;
-    char *path;                 /* of the file */
-    hid_t *dataset;             /* one for all columns, or one for each */
-    hid_t times;                /* of the rows, to be checked, or 0 */
-    hid_t stamps;               /* of the rows of an array, from which the clock comes, or 0 */
-    int stamps_by_columns;
-    size_t n_datasets, n, row;  /* n: rows; row: of these, the next to be read */
-    int by_columns;             /* what is read at a time from a dataset is column after column */
-    int gaps;                   /* values that are not finite are missing, not wrong */
-    size_t piece;               /* rows that are read at a time */
-    double **value;             /* a piece of each column */
-    size_t n_rows, next;        /* the rows in it; of these, the one to be given next */
-    double *raw;                /* a piece of a dataset of several columns, or of the times */
-} signal_rows;
-
 /* Open /signal, or the array at a path in the file; *out is to be freed even after a failure. */
 ss_status ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts,
                             ss_error *err);
 /* The same for a file that is open, unless id < 0, and becomes the source's. */
 ss_status ss_h5_begin_signal(ss_source **out, hid_t id, const char *path, const char *dataset,
                              const ss_read_opts *opts, ss_error *err);
-/* Find the datasets, their shape and the header; datasets stay open. */
-ss_status ss_h5_find_signal(signal_rows *s, const ss_read_opts *opts);
-ss_status ss_h5_find_array(signal_rows *s, const char *dataset, const ss_read_opts *opts);
-/* Make a table of the rows of an array, with opts->time as its column of time, and *out the source of its samples
- * (timed_rows.c). */
-ss_status ss_h5_time_rows(ss_source **out, const ss_read_opts *opts, ss_error *err);
-
 /* /events (events_writer.c). */
 ss_status ss_h5_write_events(h5_file *file, const ss_event *event, size_t n);
 

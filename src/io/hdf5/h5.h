@@ -94,9 +94,6 @@ ss_status ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *
  * notes of the file. */
 ss_status ss_h5_read_header(h5_file *file, hid_t group, ss_header **head);
 
-/* Fail with the list of datasets that the file has. */
-ss_status ss_h5_fail_listing(h5_file *file);
-
 #define H5_VERSION_NOTE "stickslip_version"     /* the one attribute of the root that is no note */
 
 #endif
