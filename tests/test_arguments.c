@@ -163,6 +163,7 @@ headers_and_samples_refuse_null(void **state)
     assert_null(ss_header_find_note(NULL, "key"));
     assert_null(ss_header_find_note(head, NULL));
     assert_int_equal(ss_header_column(NULL, "x"), -1);
+    assert_true(ss_unit_size(NULL, &(char){ 0 }, &(int){ 0 }) == 0);
     assert_int_equal(ss_header_column(head, NULL), -1);
     assert_int_equal(ss_header_row(NULL, 1), 0);
     assert_refused(ss_header_select(NULL, head, NULL, 0, 0, &e), &e);

@@ -65,28 +65,15 @@ draw(const job *j, tool_script *script, void *user)
 
 /* --- the quantity -------------------------------------------------------------------------- */
 
-/* The quantity of a unit: of a force, of a length, or of a length over time, "mm/s" or, in names, "mm_s";
- * -1: none of these. */
+/* The quantity of a unit; -1: none. */
 static int
 quantity_of_unit(const char *unit)
 {
-    static const char *const forces[] = { "N", "kN", "MN", "mN", "lbf", "kip", "kgf", NULL };
-    static const char *const lengths[] = { "m", "mm", "cm", "um", "\xc2\xb5m", "nm", "in", "ft",
-                                           NULL };
-    static const struct { const char *text; ss_quantity is; } over[] = {
-        { "", SS_DISPLACEMENT }, { "/s", SS_VELOCITY }, { "_s", SS_VELOCITY },
-        { "/s^2", SS_ACCELERATION }, { "/s2", SS_ACCELERATION }, { "/s\xc2\xb2", SS_ACCELERATION },
-        { "_s2", SS_ACCELERATION } };
-    for (size_t i = 0; forces[i] != NULL; i++)
-        if (strcmp(unit, forces[i]) == 0)
-            return SS_FORCE;
-    for (size_t i = 0; lengths[i] != NULL; i++)
-        for (size_t k = 0; k < sizeof over / sizeof *over; k++) {
-            size_t n = strlen(lengths[i]);
-            if (strncmp(unit, lengths[i], n) == 0 && strcmp(unit + n, over[k].text) == 0)
-                return (int)over[k].is;
-        }
-    return -1;
+    char dimension;
+    int per_time;
+    if (ss_unit_size(unit, &dimension, &per_time) == 0)
+        return -1;
+    return dimension != 'N' ? SS_DISPLACEMENT + per_time : per_time == 0 ? SS_FORCE : -1;
 }
 
 /* The quantity that a word of a column's name shows, in upper or lower case, as in friction_force_kip; -1:
@@ -104,18 +91,6 @@ quantity_of_word(const char *name)
         for (size_t i = 0; i < sizeof known / sizeof *known; i++)
             if (strlen(known[i].word) == length && strncasecmp(name, known[i].word, length) == 0)
                 return (int)known[i].is;
-    }
-    return -1;
-}
-
-/* The quantity that a unit at the end of a name shows, as in slip_mm and load_kN; -1: none does. */
-static int
-quantity_of_ending(const char *name)
-{
-    while ((name = strchr(name, '_')) != NULL) {
-        int of_unit = quantity_of_unit(++name);
-        if (of_unit >= 0)
-            return of_unit;
     }
     return -1;
 }
@@ -142,8 +117,6 @@ quantity_of(const ss_column *column, int as, const char **by)
         return (ss_quantity)found;
     *by = "its unit";
     if ((found = quantity_of_unit(column->unit)) >= 0)
-        return (ss_quantity)found;
-    if ((found = quantity_of_ending(column->name)) >= 0)
         return (ss_quantity)found;
     *by = "default";
     if (column->name[0] != '\0')
@@ -362,26 +335,20 @@ fit(const job *j, const ss_signal *signal, size_t column)
 static void
 set_motion(job *j, const ss_column *motion)
 {
-    static const struct { const char *unit; double radians; int is_velocity; } angles[] = {
-        { "rad", 1, 0 }, { "deg", 0.017453292519943295, 0 }, { "rad/s", 0, 1 }, { "deg/s", 0, 1 } };
-    ss_motion_opts *opts = &j->motion_opts;
-    int of = j->as, is_angle = 0;
-    for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
-        if (strcmp(motion->unit, angles[i].unit) == 0) {
-            opts->angle = angles[i].radians;
-            of = of >= 0 ? of : angles[i].is_velocity ? SS_VELOCITY : SS_DISPLACEMENT;
-            is_angle = 1;
-        }
-    if (of < 0 && (of = quantity_of_unit(motion->unit)) < 0 && (of = quantity_of_name(motion->name)) < 0)
-        of = quantity_of_ending(motion->name);
+    char dimension;
+    int per_time, of = j->as;
+    const double size = ss_unit_size(motion->unit, &dimension, &per_time);
+    if (of < 0 && (of = quantity_of_unit(motion->unit)) < 0)
+        of = quantity_of_name(motion->name);
     if (of != SS_DISPLACEMENT && of != SS_VELOCITY)
         tool_die("column %s: neither its unit nor its name says whether it is a displacement or a velocity; "
                  "--as=x or --as=v does", motion->name);
-    opts->is_velocity = of == SS_VELOCITY;
-    if (j->extra != NULL && !(is_angle && opts->angle > 0))
-        tool_usage("--extra=sin,cos needs an angle, in rad or deg, and column %s is none", motion->name);
+    j->motion_opts.is_velocity = of == SS_VELOCITY;
     if (j->extra == NULL)
-        opts->angle = 0;
+        return;
+    if (size == 0 || dimension != 'r' || per_time > 0)
+        tool_usage("--extra=sin,cos needs an angle, in rad or deg, and column %s is none", motion->name);
+    j->motion_opts.angle = size;
 }
 
 /* Write the motion, the force, what the first law predicts, and what it leaves. */

@@ -53,6 +53,10 @@ int ss_header_column(const ss_header *head, const char *name);
 ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
                            size_t first, ss_error *err);
 
+/* The size of a unit of force, length or angle in N, m or rad, of which *dimension becomes 'N', 'm' or 'r'; as
+ * *per_time says, it may be divided by s (1) or s^2 (2): mm/s.  0: it is no such unit. */
+double ss_unit_size(const char *unit, char *dimension, int *per_time);
+
 /* --- reading ------------------------------------------------------------------------------- */
 
 /* The treatment of missing samples: cells that are empty or hold no finite number, and rows that

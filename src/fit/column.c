@@ -56,21 +56,17 @@ ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts
     return SS_OK;
 }
 
-static const char *const si_units[SS_QUANTITIES][4] = {
-    [SS_DISPLACEMENT] = { "m" }, [SS_VELOCITY] = { "m/s" },
-    [SS_ACCELERATION] = { "m/s^2", "m/s2", "m/s\xc2\xb2", "m/s/s" }, [SS_FORCE] = { "N" }, [SS_SPRING] = { "N" },
-};
-
 ss_status
 ss_column_check_unit(const ss_signal *signal, size_t column, ss_quantity quantity, ss_error *err)
 {
+    static const char *const si_unit[SS_QUANTITIES] = { "m", "m/s", "m/s^2", "N", "N" };
     const ss_column *c = &signal->head->column[column];
-    const char *const *unit = si_units[quantity];
-    int is_si = c->unit[0] == '\0';
-    for (size_t i = 0; i < sizeof si_units[0] / sizeof *unit && unit[i] != NULL; i++)
-        is_si |= strcmp(c->unit, unit[i]) == 0;
-    return is_si ? SS_OK : ss_fail(err, SS_EDATA, "column %s is in %s, but a scene is in %s: scale it, and name "
-                                   "its unit so", c->name, c->unit, unit[0]);
+    char dimension;
+    int per_time;
+    const int is_si = ss_unit_size(c->unit, &dimension, &per_time) == 1
+        && (quantity < SS_FORCE ? dimension == 'm' && per_time == (int)quantity : dimension == 'N' && per_time == 0);
+    return is_si || c->unit[0] == '\0' ? SS_OK : ss_fail(err, SS_EDATA, "column %s is in %s, but a scene is in %s: scale "
+                                                        "it, and name its unit so", c->name, c->unit, si_unit[quantity]);
 }
 
 double

@@ -45,19 +45,36 @@ ss_unit_of_name(const char *name, size_t *before)
 }
 
 double
-ss_unit_in_si(const char *unit, char dimension)
+ss_unit_size(const char *unit, char *dimension, int *per_time)
 {
-    static const struct { const char *name; char dimension; double si; } known[] = {
+    static const struct { const char *name; char dimension; double size; } known[] = {
         { "N", 'N', 1 }, { "kN", 'N', 1e3 }, { "MN", 'N', 1e6 }, { "mN", 'N', 1e-3 }, { "uN", 'N', 1e-6 },
         { "lbf", 'N', 4.4482216152605 }, { "kip", 'N', 4448.2216152605 }, { "kips", 'N', 4448.2216152605 },
         { "kgf", 'N', 9.80665 }, { "gf", 'N', 9.80665e-3 }, { "dyn", 'N', 1e-5 }, { "dyne", 'N', 1e-5 },
         { "m", 'm', 1 }, { "cm", 'm', 1e-2 }, { "mm", 'm', 1e-3 }, { "um", 'm', 1e-6 }, { "\xc2\xb5m", 'm', 1e-6 },
         { "\xce\xbcm", 'm', 1e-6 }, { "micron", 'm', 1e-6 }, { "microns", 'm', 1e-6 }, { "nm", 'm', 1e-9 },
-        { "in", 'm', 0.0254 }, { "ft", 'm', 0.3048 }, { "km", 'm', 1e3 } };
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (known[i].dimension == dimension && strcmp(known[i].name, unit) == 0)
-            return known[i].si;
+        { "in", 'm', 0.0254 }, { "ft", 'm', 0.3048 }, { "km", 'm', 1e3 },
+        { "rad", 'r', 1 }, { "deg", 'r', 0.017453292519943295 } };
+    static const struct { const char *text; int per_time; } over[] = {
+        { "", 0 }, { "/s", 1 }, { "/s^2", 2 }, { "/s2", 2 }, { "/s\xc2\xb2", 2 }, { "/s/s", 2 } };
+    const size_t n = unit != NULL ? strcspn(unit, "/") : 0;
+    for (size_t i = 0; n > 0 && i < sizeof known / sizeof *known; i++)
+        for (size_t k = 0; k < sizeof over / sizeof *over; k++)
+            if (strlen(known[i].name) == n && strncmp(known[i].name, unit, n) == 0 && strcmp(unit + n, over[k].text) == 0) {
+                *dimension = known[i].dimension;
+                *per_time = over[k].per_time;
+                return known[i].size;
+            }
     return 0;
+}
+
+double
+ss_unit_in_si(const char *unit, char dimension)
+{
+    char of;
+    int per_time;
+    const double size = ss_unit_size(unit, &of, &per_time);
+    return size > 0 && of == dimension && per_time == 0 ? size : 0;
 }
 
 void
