@@ -76,7 +76,7 @@ find_maxima(search *s)
 static ss_status
 find_repetition(search *s)
 {
-    ss_status st = ss_cycles_find(s->x, s->n, s->about, &s->cycles);
+    ss_status st = ss_cycles_find(s->x, s->n, s->part->period * s->rate, &s->cycles);
     say(s->out, SS_REPETITION_FREQUENCY, s->cycles.why);
     if (st != SS_OK || s->cycles.why != NULL)
         return st;
@@ -117,12 +117,12 @@ find(search *s, double *x, size_t column, ss_error *err)
     ss_range flat = { 0, s->rate };             /* what a filter has changed is no contact */
     ss_header_flat(s->signal->head, &flat);
     opts.fmin = fmax(opts.fmin, flat.from);
-    ss_status st = ss_map_plan(&s->map, s->signal, column, &opts, s->plans, err);
+    ss_status st = ss_map_plan(&s->map, s->signal, column, &opts, s->part->plans, err);
     if (st == SS_OK && s->map->scale[s->map->n_scales - 1].f > flat.to) {
         ss_coefficients_free(s->map);
         s->map = NULL;
         opts.fmax = flat.to;
-        st = ss_map_plan(&s->map, s->signal, column, &opts, s->plans, err);
+        st = ss_map_plan(&s->map, s->signal, column, &opts, s->part->plans, err);
     }
     if (st != SS_OK)
         return st;
@@ -137,7 +137,7 @@ find(search *s, double *x, size_t column, ss_error *err)
     st = find_repetition(s);
     if (st == SS_OK)
         st = ss_row_source_init(s->rows, s->x, s->n, s->rate, s->gap, s->n_gaps, NULL);
-    s->rows->plans = s->plans;
+    s->rows->plans = s->part->plans;
     s->rows->keeps_heads = isnan(s->out->number[SS_REPETITION_FREQUENCY].value);  /* single events may be sought */
     if (st == SS_OK)
         st = ss_spikes_find(&s->out->spikes, s->rows, NULL);
@@ -151,9 +151,9 @@ find(search *s, double *x, size_t column, ss_error *err)
         st = ss_transitions_find(s);
     if (st == SS_OK)
         st = report_progress(s, FITTED);
-    if (st == SS_OK && s->about == 0)
+    if (st == SS_OK && s->part->period == 0)
         st = ss_slip_rate_find(s);
-    if (st == SS_OK && s->about == 0)
+    if (st == SS_OK && s->part->period == 0)
         st = ss_numbers_find(s);
     for (size_t i = 0; i < s->n && s->is_cleaned; i++)
         x[i] = s->x[i] * s->largest;
@@ -224,8 +224,7 @@ ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, c
     ss_features *found = NULL;
     for (int pass = 0, again = 1; again && st == SS_OK; pass++) {
         search s = { .signal = signal, .opts = &opts, .n = n, .rate = signal->head->rate };
-        s.about = part->period * s.rate;
-        s.plans = part->plans;
+        s.part = part;
         s.x = x + n;
         s.gap = gap;
         s.n_gaps = n_gaps;

@@ -214,10 +214,11 @@ ss_identity_of(const search *s, const ringdown *r, const char **why)
     *why = r->all[1].value > BARELY * r->all[0].value ? "what recurs is damped so much that a filter may make it"
         : !(r->all[1].value > 0) ? "what recurs does not decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
-    ss_status st = *why != NULL || s->out->reverses ? SS_OK : is_sensor(s, r, &of_sensor);
+    const int is_known = *why != NULL || s->out->reverses || s->part->is_contact;
+    ss_status st = is_known ? SS_OK : is_sensor(s, r, &of_sensor);
     if (of_sensor)
         *why = "it rings on where slips begin, as a sensor, a filter or a hum does";
-    if (st == SS_OK && *why == NULL && !s->out->reverses)
+    if (st == SS_OK && *why == NULL && !is_known)
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
     if (at_edge)
         *why = "it rings where the spectrum ends without a peak, as a filter does";

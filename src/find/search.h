@@ -34,8 +34,7 @@ typedef struct search {
     ss_maximum *found;          /* all maxima, also slight ones */
     size_t n_found;
     column_quantity quantity;
-    double about;               /* what ss_cycles_find asks for */
-    map_plans *plans;           /* may be NULL */
+    const struct stream_part *part;     /* all 0: the signal is no part */
     ss_cycles cycles;
     int is_cleaned;             /* x has lost a steady hum: it is not the column any more */
     int is_second;              /* it lost that in a first search */
@@ -84,6 +83,7 @@ typedef struct stream_part {
     double period;              /* [s] of the cycles of the longer one, or NaN if it does not repeat itself: of the
                                    part only the transitions are found; 0: not known */
     map_plans *plans;           /* for parts of the same length; may be NULL */
+    int is_contact;             /* what rings in the longer one is the contact's */
 } stream_part;
 /* As ss_features_find. */
 ss_status ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, const ss_features_opts *opts,

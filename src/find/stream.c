@@ -42,7 +42,7 @@ struct ss_features_stream {
     size_t n, window, first, few, hop, behind;  /* [samples] */
     size_t part;                /* of the window, in which rows are searched */
     int is_still;               /* 1: the last whole window had no transition */
-    double period;              /* [s] of its cycles, as stream_part has it */
+    stream_part known;          /* of it, to searches of a part */
     map_plans plans;
     uint64_t seen, searched;    /* samples so far, and at the last search of a whole window */
     double written;             /* [s] the end of the last transition, on the source's clock */
@@ -74,6 +74,7 @@ ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t c
     if (st == SS_OK) {
         s->column = column;
         s->written = -INFINITY;
+        s->known.plans = &s->plans;
         s->behind = (size_t)ceil(BEHIND * period);
         s->hop = (size_t)(2 * period + DELAY * head->rate) - s->behind;
         s->first = (size_t)(FIRST * period);
@@ -140,7 +141,7 @@ is_due(const ss_features_stream *s, const ss_transition *tr, double start, doubl
 
 /* Find the features of the last n samples, which begin at *start [s]. */
 static ss_status
-find_last(ss_features_stream *s, size_t n, double period, ss_features **f, double *start, ss_error *err)
+find_last(ss_features_stream *s, size_t n, int whole, ss_features **f, double *start, ss_error *err)
 {
     ss_signal *now = NULL;
     ss_status st = ss_signal_new(&now, s->head, n, err);
@@ -149,8 +150,8 @@ find_last(ss_features_stream *s, size_t n, double period, ss_features **f, doubl
     *start = now->head->start += (double)(s->seen - n) / s->head->rate;
     for (size_t c = 0; c < s->head->n_columns; c++)
         memcpy(now->values + c * n, s->x[c] + s->n - n, n * sizeof *now->values);
-    stream_part part = { period, &s->plans };
-    st = ss_features_of_part(f, now, s->column, &s->opts, &part, err);
+    stream_part nothing = { .plans = &s->plans };
+    st = ss_features_of_part(f, now, s->column, &s->opts, whole ? &nothing : &s->known, err);
     ss_signal_free(now);
     return st;
 }
@@ -165,13 +166,13 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     size_t all = s->n < s->window ? s->n : s->window, due = 0;
     int whole = last || s->seen - s->searched >= s->window;
     size_t n = whole || s->part > all ? all : s->part;
-    ss_status st = find_last(s, n, whole ? 0 : s->period, &f, &start, err);
+    ss_status st = find_last(s, n, whole, &f, &start, err);
     for (size_t i = 0; st == SS_OK && i < f->n; i++)
         due += is_due(s, &f->transition[i], start, until);
     if (due > 0 && n < all && s->is_still) {
         ss_features_free(f);
         f = NULL;
-        st = find_last(s, all, 0, &f, &start, err);
+        st = find_last(s, all, 1, &f, &start, err);
     }
     if (st == SS_ESCALE && !last)
         return SS_OK;                           /* too short as yet */
@@ -187,11 +188,12 @@ write_known(ss_features_stream *s, int last, ss_error *err)
         }
     double period = 1 / f->number[SS_REPETITION_FREQUENCY].value;
     if (whole || isfinite(period))
-        s->period = period;                     /* a part that does not repeat itself says nothing of the whole */
+        s->known.period = period;               /* a part that does not repeat itself says nothing of the whole */
     if (whole && (!last || s->windows == 0)) {
         add_numbers(s, f);
         s->searched = s->seen;
         s->is_still = f->n == 0;
+        s->known.is_contact = isfinite(f->number[SS_TRANSITION_FREQUENCY].value);
         s->part = s->hop + s->behind + s->few;
         while (s->part < s->window && f->n * s->part < ENOUGH * s->window)
             s->part += s->few;
