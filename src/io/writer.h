@@ -1,4 +1,4 @@
-/* writer.h -- a writer of one file: as a stream (writer.c), or in HDF5 (hdf5/write.c). */
+/* writer.h -- a writer of one file: as a stream (writer.c), or in HDF5 (hdf5/writer.c). */
 #ifndef WRITER_H
 #define WRITER_H
 

@@ -1,7 +1,7 @@
 /* fuzz_hdf5.c -- HDF5 files, through the file image interface: as signals, as the arrays of others,
  * as coefficients. */
 #include <stdlib.h>
-#include "io/hdf5/groups.h"
+#include "io/hdf5/h5.h"
 #include "io/reader.h"
 #include "fuzz.h"
 #include "../read_opts.h"

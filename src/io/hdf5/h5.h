@@ -10,6 +10,7 @@
 #include <H5FDdevelop.h>
 #endif
 #include <stickslip/store.h>
+#include "signal/source.h"
 
 #define H5_MAX_VALUES 1000000000        /* in one dataset: 8 GB as doubles */
 #define H5_MAX_TEXT 1048576             /* bytes of an attribute */
@@ -95,5 +96,18 @@ ss_status ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *
 ss_status ss_h5_read_header(h5_file *file, hid_t group, ss_header **head);
 
 #define H5_VERSION_NOTE "stickslip_version"     /* the one attribute of the root that is no note */
+
+/* --- what a file holds ---------------------------------------------------------------------- */
+
+/* Open /signal, or the array at a path in the file; *out is to be freed even after a failure. */
+ss_status ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts,
+                            ss_error *err);
+/* The same for a file that is open, unless id < 0, and becomes the source's. */
+ss_status ss_h5_begin_signal(ss_source **out, hid_t id, const char *path, const char *dataset,
+                             const ss_read_opts *opts, ss_error *err);
+/* The coefficients of a file, which stay there (wavelet_reader.c). */
+ss_status ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err);
+/* The same for a file that is open, unless id < 0, and becomes the map's. */
+ss_status ss_h5_begin_coefficients(ss_coefficients **out, hid_t id, const char *path, ss_error *err);
 
 #endif

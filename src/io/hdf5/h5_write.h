@@ -1,4 +1,4 @@
-/* h5_write.h -- write attributes, groups and datasets. */
+/* h5_write.h -- make a file, its attributes, groups and datasets. */
 #ifndef H5_WRITE_H
 #define H5_WRITE_H
 
@@ -17,16 +17,6 @@ typedef struct h5_dataset {
     int in_rows;                /* 1: it is written row by row, and each has chunks of its own */
 } h5_dataset;
 
-/* The writers of all groups share the clock of the file and room for a piece of values. */
-typedef struct h5_pieces {
-    h5_file *file;
-    double rate, start;
-    int growing;                /* lengths are known only at the end */
-    double value[2][H5_PIECE];  /* re and im, or others */
-    float single[H5_PIECE];
-    unsigned char edge[H5_PIECE];
-} h5_pieces;
-
 /* A call of HDF5 fails for lack of memory, or for a name or size that it cannot store; disk.c hides a
  * full disk from it. */
 ss_status ss_h5_fail_write(h5_file *file, hid_t group, const char *name);
@@ -35,8 +25,6 @@ ss_status ss_h5_fail_write(h5_file *file, hid_t group, const char *name);
 int ss_h5_write_number(hid_t object, const char *name, hid_t file_type, double value);
 int ss_h5_write_text(hid_t object, const char *name, const char *value);
 hid_t ss_h5_new_group(hid_t parent, const char *name);
-/* The clock of a signal as attributes of its group. */
-int ss_h5_write_clock(hid_t group, const ss_header *head);
 
 /* Make one dataset on the given dimension scales (NULL: it is a scale itself; { NULL }: on none), and
  * write its values if it has any; < 0 if HDF5 fails. */
@@ -50,10 +38,22 @@ ss_status ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], si
 int ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type,
                       const void *values);
 
-/* The number of values of a row in one chunk, a power of two, for rows that grow together; bytes: the
- * size of a column of all rows. */
-hsize_t ss_h5_growing_chunk(size_t bytes);
-/* Times first ..., first + n - 1 of a scale, or of the samples for NULL. */
-int ss_h5_write_times(h5_pieces *pieces, hid_t id, const ss_scale *scale, size_t first, size_t n);
+/* --- the file ------------------------------------------------------------------------------- */
+
+typedef struct h5_output {
+    char *path;                 /* to be freed after the end */
+    h5_file file;               /* fails into error */
+    h5_disk disk;
+    int spooled;                /* path is not a regular file: it gets a copy at the end */
+    ss_error error;
+} h5_output;
+
+/* Make the file at out->path, whose file.id and disk.fd are -1; to be closed even after a failure. */
+ss_status ss_h5_output_open(h5_output *out);
+/* The status of a step, or that of the disk if this has failed since; its text is in out->error. */
+ss_status ss_h5_output_check(h5_output *out, ss_status st);
+/* Close everything.  An incomplete file, by the status until now or that of the disk, is removed.
+ * Closing it again does nothing. */
+ss_status ss_h5_output_close(h5_output *out, ss_status st);
 
 #endif

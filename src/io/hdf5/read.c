@@ -15,7 +15,7 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "io/format.h"
-#include "io/hdf5/groups.h"
+#include "io/hdf5/h5.h"
 #include "io/table/sheet.h"
 #include "signal/gaps.h"
 #include "signal/header.h"

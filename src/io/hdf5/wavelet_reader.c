@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "io/hdf5/groups.h"
+#include "io/hdf5/h5.h"
 #include "map/plan.h"
 
 /* The source of a map that lies in a file. */
