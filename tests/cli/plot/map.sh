@@ -7,6 +7,8 @@ grep -c -e '^\$region' -e '^\$line' -e '^\$label' a.gp
 grep '^set title' a.gp
 awk '/^[$]/ { block = $1 } NF == 3 && $3 + 0 > 0 { on[block, $3] = 1; if (block == "$line") level[$3] = 1 }
      END { for (l in level) { n++; labelled += on["$label", l] }; print (n > 7), n - labelled }' a.gp
+# regions end with the points, at the outermost of which are no half cells
+awk '/^[$]/ { boxes = /^[$]region/ } boxes && NF == 4 { print $1, $3; print $2, $4 }' a.gp | sort -g | sed -n '1p;$p'
 draw --map base_frequency,friction,stops a.tsv | grep 'xlabel\|label 1\|key title'
 draw --map friction,base_frequency,amplitude a.tsv | grep -c 'region' || true
 printf '2\t0.1\n4\t0.5\n\n5\t1\n' | draw --map base_frequency,friction,stops --line - a.tsv | sed -n '/^\$curve/,/^EOD/p'
