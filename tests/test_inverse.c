@@ -64,7 +64,7 @@ static const ss_morlet_opts fine[] = {
 static void
 transform_is_inverted_as_well_as_is_said(void **state)
 {
-    static const double tol[] = { 1e-3, 1e-6, 1e-9 }, size[] = { 1, 1e-200, 1e150 };
+    static const double tol[] = { 1e-3, 1e-5, 3e-6, 1e-6, 1e-9 }, size[] = { 1, 1, 1, 1e-200, 1e150 };
     (void)state;
     for (size_t i = 0; i < LENGTH(fine); i++)
         for (size_t k = 0; k < LENGTH(tol); k++) {
@@ -299,6 +299,33 @@ progress_rises_and_may_stop(void **state)
     ss_coefficients_free(coef);
 }
 
+static int
+count(double done, void *user)
+{
+    (void)done;
+    ++*(int *)user;
+    return 0;
+}
+
+static void
+white_noise_takes_some_hundred_passes_or_is_refused_with_their_number(void **state)
+{
+    ss_signal *signal = new_signal(4000, 1000, 0, "a", NULL), *back;
+    ss_morlet_opts opts = ss_morlet_defaults;
+    int passes = 0;
+    (void)state;
+    make(NOISE, signal->values, signal->n);
+    opts.accuracy = 1e-12;
+    ss_coefficients *coef;
+    assert_int_equal(ss_morlet_transform(&coef, signal, 0, &opts, NULL), SS_OK);
+    assert_int_equal(ss_morlet_inverse(&back, coef, 1e-5, NULL, (ss_progress){ count, &passes }, NULL), SS_OK);
+    assert_in_range(passes, 10, 150);
+    assert_refused(coef, 1e-9, SS_ETOL, "passes: what lies at the edge");
+    ss_signal_free(back);
+    ss_signal_free(signal);
+    ss_coefficients_free(coef);
+}
+
 int
 main(void)
 {
@@ -309,6 +336,7 @@ main(void)
         cmocka_unit_test(refuses_what_has_no_inverse),
         cmocka_unit_test(nothing_gives_nothing),
         cmocka_unit_test(progress_rises_and_may_stop),
+        cmocka_unit_test(white_noise_takes_some_hundred_passes_or_is_refused_with_their_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

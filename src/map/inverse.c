@@ -164,17 +164,18 @@ round_up(double x)
     return ceil(x / unit) * unit;
 }
 
+/* power: of the passes, with which the residual falls. */
 static ss_status
-refuse(double tol, double residual, int passes, int stays, ss_error *err)
+refuse(double tol, double residual, int passes, double power, int stays, ss_error *err)
 {
     double takes = round_up(residual);
     if (stays || takes > 0.1)
         return ss_fail(err, SS_ETOL, "no signal has these coefficients within %g: %.2g of them is "
                        "left after %d passes, and stays", tol, takes, passes);
-    return ss_fail(err, SS_ETOL, "after %d passes %.2g of the coefficients is left, more than the "
-                   "%g asked for: what lies at the edge of the scales and beyond is found slowly; "
-                   "an accuracy of %.2g can be had, or more with scales that reach further", passes,
-                   takes, tol, takes);
+    return ss_fail(err, SS_ETOL, "after %d passes %.2g of the coefficients is left, more than the %g asked for, "
+                   "which would take some %.0g passes: what lies at the edge of the scales and beyond is found "
+                   "slowly; an accuracy of %.2g can be had, or more with scales that reach further", passes,
+                   takes, tol, passes * pow(residual / tol, 1 / power), takes);
 }
 
 /* The progress of the search: every pass lowers the rest by about the same factor. */
@@ -235,7 +236,8 @@ solve(solver *s, double tol, double *residual, ss_error *err)
     if (st != SS_OK)
         return st;
     *residual = all > 0 ? sqrt(left / all) : 0;
-    return *residual <= tol ? SS_OK : refuse(tol, *residual, pass, stays || !(slope > 0), err);
+    double power = log(then / left) / 2 / log(2. * pass / mark);
+    return *residual <= tol ? SS_OK : refuse(tol, *residual, pass, power, stays || !(slope > 0), err);
 }
 
 /* --- is it a frame? --------------------------------------------------------------------------- */
@@ -254,11 +256,12 @@ overlap(const solver *s, double w, double shift)
 }
 
 /* The gains of the 2 n samples' terms, for frequencies that the scales see with a tenth of tol of the best power or
- * more: fainter ones would hold up the rest, and below 1e-4 the error beyond the scales would be more than is said. */
+ * more: fainter ones would hold up the rest.  For a tol below 3e-6 there are none, as the error beyond the scales
+ * would be more than is said. */
 static void
 set_gains(solver *s, double tol)
 {
-    const double faint = tol < 1e-4 ? 1 : tol / 10;
+    const double faint = tol < 3e-6 ? 1 : tol / 10;
     size_t n = s->plan->n;
     double most = 0;
     for (size_t k = 0; k <= n; k++) {
