@@ -36,10 +36,18 @@ ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *er
     scale[2] = memory > 0 ? memory : 1;
     if (m->model->scales != NULL)
         m->model->scales(m, scale);
+    for (size_t i = 0; i < MAX_DIM && m->model->scales != NULL; i++)
+        scale[i] *= ss_motion_finer(tol);
     for (size_t i = 0; i < m->model->dim; i++)
         if (!(isfinite(scale[i]) && tol * scale[i] > 0))
             return ss_fail(err, SS_ERANGE, "amplitudes of this scene lie beyond double precision");
     return SS_OK;
+}
+
+double
+ss_motion_finer(double tol)
+{
+    return fmax(1e-3, 8 * DBL_EPSILON / tol);
 }
 
 /* Logarithms as large as 100 keep the tolerance, as far as rounding lets them. */

@@ -27,6 +27,10 @@ double ss_step_floor(const state *m);
  * such a tolerance is not above 0. */
 ss_status ss_motion_scales(const state *m, double tol, double scale[MAX_DIM], ss_error *err);
 
+/* The part of the tolerance that steps of a state of logarithms may take, of what rounding leaves; what is read
+ * within them may take all: beside an unstable steady slide the motion is a small part of an e-fold, which grows. */
+double ss_motion_finer(double tol);
+
 /* The tolerances are relative to these, times the tolerance, and this part of the state's size: the tolerance
  * itself, unless the state is logarithms, of which a difference counts however large they are. */
 double ss_motion_relative(const state *m, double tol);

@@ -262,7 +262,7 @@ find_nodes(ode *o)
         step_to(o, x * e->h, q);
         read_nodes(o, x, read);
         for (size_t i = 0; i < o->system.dimension; i++)
-            if (!(fabs(read[i] - q[i]) <= o->tol * o->scale[i] + relative * fabs(q[i])))
+            if (!(fabs(read[i] - q[i]) <= o->tol * o->scale[i] / ss_motion_finer(o->tol) + relative * fabs(q[i])))
                 o->has_nodes = -1;
     }
 }
@@ -424,7 +424,7 @@ ss_ode_new(engine **out, motion *of, const char *name, int multistep, double tol
         o->unit[k] = ldexp(1, ilogb(scale[k]));
         scale[k] /= o->unit[k];
     }
-    if (type == gsl_odeiv2_step_bsimp && m->x_scale > 0 && !m->model->linear)
+    if (type == gsl_odeiv2_step_bsimp && m->x_scale > 0 && !m->model->linear && m->model->scales == NULL)
         set_zeros(o);
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, type, o->h_next,
                                                    tol, ss_motion_relative(m, tol), 1, 0, scale);

@@ -111,7 +111,7 @@ typedef struct piece {
     double v;                       /* the speed at its end, which may be known better [m/s] */
     double slow;                    /* a speed less than this is noise [m/s] */
 } piece;
-enum { DRIVEN_PARTS = 2 };
+enum { DRIVEN_PARTS = 3 };
 
 struct ss_model {
     const char *name;               /* in scenes */
@@ -186,8 +186,8 @@ struct ss_model {
                    ss_sample *s);
     /* The speed of the mass over the surface; NULL: it is the second number of the state. */
     double (*speed)(const state *m);
-    /* The state of a steady slide with the pull; NULL if the model knows none. */
-    void (*equilibrium)(const ss_scene *scene, double q[]);
+    /* Let it slide steadily with the pull; NULL if the model knows no such state. */
+    void (*equilibrium)(state *m);
     /* The quantity, beside x and v, on which the further motion depends: the third number of the
      * state, if it has one.  *unit becomes its scale.  NULL if there is none. */
     double (*memory)(const state *m, double *unit);
@@ -198,7 +198,7 @@ struct ss_model {
     const struct variation *variation;
     /* Follow a piece of a motion that is given.  The contact's memory is 0 at the start.  The parts become forces
      * that add up to f at the end of the piece: of a contact with a gap those on its two sides, else f as it would
-     * be at high speed and what is added to it.  NULL if such a motion does not determine f. */
+     * be at high speed, or steadily at a reference, and what is added to it.  NULL if such a motion does not determine f. */
     void (*drive)(const ss_scene *scene, double *memory, const piece *p, double part[DRIVEN_PARTS]);
 };
 

@@ -6,7 +6,10 @@
  * The state is -d, w = f/(N a) and s, where d = U t - x is the stretch of the spring: between slips V falls by ten
  * orders of magnitude and more, and these numbers stay near each other.  V = E - G with
  * E, G = V0 exp(+-w - (mu0 + b s)/a).  V > 0 while d > 0, so nothing is an event; a run ends where d reaches 0,
- * since the law is not known for a contact that turns back. */
+ * since the law is not known for a contact that turns back.
+ *
+ * Each is counted from the steady slide with the pull, at which x_ref is -d and f0 is f: a motion that begins
+ * beside an unstable slide leaves it after a time that the last digits of this distance decide. */
 #include <string.h>
 #include "scene/models.h"
 
@@ -79,59 +82,69 @@ enum { LARGE = 20 };                /* beyond, exp(-2 w) is 0 beside 1 */
 
 /* The numbers that the law uses at a state. */
 typedef struct contact {
-    double V, C;                    /* E - G and E + G */
+    double E, G, V, over;           /* V = E - G, and V - U */
     double ratio;                   /* b/a */
+    double renewal, L;              /* U exp(-s), log of V theta/Dc */
     double s_rate, by_V, by_s;      /* s', and its derivatives by V and s */
 } contact;
 
+/* f/(N a) at a speed V > 0 and the age of the steady slide. */
 static double
-level_of(const ss_scene *s, double age)             /* (mu0 + b s)/a */
+friction_at(const ss_scene *s, double V)
 {
-    return (s->own[REFERENCE] + s->own[EVOLUTION] * age) / s->own[DIRECT];
-}
-
-/* w at a speed V > 0. */
-static double
-friction_at(const ss_scene *s, double V, double age)
-{
-    double z = log(V / s->own[SPEED]) + level_of(s, age);
+    double level = s->own[REFERENCE] + s->own[EVOLUTION] * log(s->own[SPEED] / s->base_velocity);
+    double z = log(V / s->own[SPEED]) + level / s->own[DIRECT];
     return z > LARGE ? z : asinh(exp(z) / 2);
 }
 
-static contact
-contact_at(const ss_scene *s, double w, double age)
+static double
+steady_friction(const ss_scene *s)
 {
-    double E = s->own[SPEED] * exp(w - level_of(s, age)), G = w < LARGE ? E * exp(-2 * w) : 0;
-    double Dc = s->own[DISTANCE];
-    contact c = { .V = E - G, .C = E + G, .ratio = s->own[EVOLUTION] / s->own[DIRECT] };
+    return s->own[NORMAL] * s->own[DIRECT] * friction_at(s, s->base_velocity);
+}
+
+static contact
+contact_at(const state *m, const double q[])
+{
+    const ss_scene *s = m->scene;
+    double U = s->base_velocity, Dc = s->own[DISTANCE], steady = m->f0 / (s->own[NORMAL] * s->own[DIRECT]);
+    contact c = { .ratio = s->own[EVOLUTION] / s->own[DIRECT], .renewal = U * exp(-q[2]) };
+    double rise = q[1] - c.ratio * q[2], log_V = rise;
+    c.E = U * exp(rise);
+    c.over = U * expm1(rise);
+    if (steady + fmin(q[1], 0) < LARGE) {
+        double all = -expm1(-2 * steady), G = U / all * exp(-2 * steady);       /* of the steady slide */
+        c.E /= all;
+        c.G = G * exp(-q[1] - c.ratio * q[2]);
+        c.over = c.over / all - G * expm1(-q[1] - c.ratio * q[2]);
+        log_V = c.over > -U / 2 ? log1p(c.over / U) : log((c.E - c.G) / U);
+    }
+    c.V = c.E - c.G;
+    c.L = log_V + q[2];
     if (s->own[LAW] == SLIP) {
-        double L = log(c.V / s->own[SPEED]) + age;
-        c.s_rate = -c.V / Dc * L;
-        c.by_V = -(L + 1) / Dc;
+        c.s_rate = -c.V / Dc * c.L;
+        c.by_V = -(c.L + 1) / Dc;
         c.by_s = -c.V / Dc;
     } else {
-        double renewal = s->own[SPEED] * exp(-age) / Dc;
-        c.s_rate = renewal - c.V / Dc;
+        c.s_rate = (U * expm1(-q[2]) - c.over) / Dc;
         c.by_V = -1 / Dc;
-        c.by_s = -renewal;
+        c.by_s = -c.renewal / Dc;
     }
     return c;
 }
 
 static double
-acceleration(const ss_scene *s, const double q[], double V)
+acceleration(const ss_scene *s, const double q[], double over)
 {
-    return (-s->stiffness * q[0] - s->damping * V - s->own[NORMAL] * s->own[DIRECT] * q[1]) / s->mass;
+    return (-s->stiffness * q[0] - s->damping * over - s->own[NORMAL] * s->own[DIRECT] * q[1]) / s->mass;
 }
 
-/* The steady slide with the pull. */
 static void
-equilibrium(const ss_scene *s, double q[])
+equilibrium(state *m)
 {
-    double U = s->base_velocity;
-    q[2] = log(s->own[SPEED] / U);
-    q[1] = friction_at(s, U, q[2]);
-    q[0] = -(s->own[NORMAL] * s->own[DIRECT] * q[1] + s->damping * U) / s->stiffness;
+    m->f0 = steady_friction(m->scene);
+    m->x_ref = -(m->f0 + m->scene->damping * m->scene->base_velocity) / m->scene->stiffness;
+    memset(m->q, 0, sizeof m->q);
 }
 
 /* --- the motion --------------------------------------------------------------------------------- */
@@ -144,23 +157,25 @@ enum { SLOWER, FASTER };
 static void
 enter(state *m, int mode)
 {
-    double q[MAX_DIM], ratio = m->scene->own[EVOLUTION] / m->scene->own[DIRECT];
-    equilibrium(m->scene, q);
-    double way = mode == FASTER ? 1 : -1, level = q[1] - ratio * q[2] - way * ASIDE;
+    double way = mode == FASTER ? 1 : -1, ratio = m->scene->own[EVOLUTION] / m->scene->own[DIRECT];
     m->mode = mode;
     m->n_bounds = 2;
-    m->bound[0] = (bound){ .of = { -1 } };
-    m->bound[1] = (bound){ .level = -way * level, .of = { 0, way, -way * ratio } };
+    m->bound[0] = (bound){ .level = -m->x_ref, .of = { -1 } };
+    m->bound[1] = (bound){ .level = ASIDE, .of = { 0, way, -way * ratio } };
 }
 
 static int
 start(state *m)
 {
     const ss_scene *s = m->scene;
-    equilibrium(s, m->q);
-    m->q[0] = s->x0 != 0 ? s->x0 : -s->own[NORMAL] * s->own[DIRECT] * m->q[1] / s->stiffness;
-    m->q[1] = friction_at(s, s->v0 > 0 ? s->v0 : s->base_velocity, m->q[2]);
-    enter(m, s->v0 < (1 - ASIDE) * s->base_velocity && s->v0 > 0 ? SLOWER : FASTER);
+    double U = s->base_velocity;
+    equilibrium(m);
+    m->q[0] = s->x0 != 0 ? s->x0 - m->x_ref : s->damping * U / s->stiffness;
+    if (s->v0 > 0) {
+        double rise = log(s->v0 / U), least = m->f0 / (s->own[NORMAL] * s->own[DIRECT]) + fmin(rise, 0);
+        m->q[1] = least > LARGE ? rise : friction_at(s, s->v0) - friction_at(s, U);
+    }
+    enter(m, s->v0 < (1 - ASIDE) * U && s->v0 > 0 ? SLOWER : FASTER);
     return 0;
 }
 
@@ -238,14 +253,19 @@ stiff(const ss_scene *s)
     return rate * pause > 2e4;
 }
 
+static double
+rate_of_friction(const state *m, const double q[], const contact *c)     /* w' */
+{
+    return (acceleration(m->scene, q, c->over) + c->ratio * c->s_rate * c->V) / (c->E + c->G);
+}
+
 static void
 rates(const state *m, double drive, const double q[], double dqdt[])
 {
-    const ss_scene *s = m->scene;
-    const contact c = contact_at(s, q[1], q[2]);
+    const contact c = contact_at(m, q);
     (void)drive;
-    dqdt[0] = c.V - s->base_velocity;
-    dqdt[1] = (acceleration(s, q, c.V) + c.ratio * c.s_rate * c.V) / c.C;
+    dqdt[0] = c.over;
+    dqdt[1] = rate_of_friction(m, q, &c);
     dqdt[2] = c.s_rate;
 }
 
@@ -253,15 +273,15 @@ static void
 jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[])
 {
     const ss_scene *s = m->scene;
-    const contact c = contact_at(s, q[1], q[2]);
-    double rate = (acceleration(s, q, c.V) + c.ratio * c.s_rate * c.V) / c.C, drag = s->damping / s->mass;
-    double grip = s->own[NORMAL] * s->own[DIRECT] / s->mass, V_by_s = -c.ratio * c.V, s_by_w = c.by_V * c.C;
+    const contact c = contact_at(m, q);
+    double rate = rate_of_friction(m, q, &c), drag = s->damping / s->mass, C = c.E + c.G;
+    double grip = s->own[NORMAL] * s->own[DIRECT] / s->mass, V_by_s = -c.ratio * c.V, s_by_w = c.by_V * C;
     double s_by_s = c.by_V * V_by_s + c.by_s;
     const double row[9] = {
-        0, c.C, V_by_s,
-        -s->stiffness / s->mass / c.C,
-        c.ratio * (s_by_w * c.V / c.C + c.s_rate) - drag - (grip + rate * c.V) / c.C,
-        (c.ratio * (s_by_s * c.V + c.s_rate * V_by_s) - drag * V_by_s) / c.C + c.ratio * rate,
+        0, C, V_by_s,
+        -s->stiffness / s->mass / C,
+        c.ratio * (s_by_w * c.V / C + c.s_rate) - drag - (grip + rate * c.V) / C,
+        (c.ratio * (s_by_s * c.V + c.s_rate * V_by_s) - drag * V_by_s) / C + c.ratio * rate,
         0, s_by_w, s_by_s
     };
     (void)u;
@@ -275,18 +295,15 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
     enum { N = MOST_SERIES + 1 };
     const ss_scene *s = m->scene;
-    double Dc = s->own[DISTANCE], level = level_of(s, m->q[2]), ratio = s->own[EVOLUTION] / s->own[DIRECT];
-    double E[N], G[N], V[N], C[N], w[N], age[N], rise[N], fall[N], renewal[N], L[N], log_V[N];
+    const contact at = contact_at(m, m->q);
+    double Dc = s->own[DISTANCE], ratio = at.ratio;
+    double E[N] = { at.E }, G[N] = { at.G }, V[N] = { at.V }, renewal[N] = { at.renewal }, L[N] = { at.L };
+    double C[N], w[N], age[N], rise[N], fall[N], log_V[N];
     memcpy(c[0], m->q, sizeof m->q);
-    E[0] = s->own[SPEED] * exp(m->q[1] - level);
-    G[0] = s->own[SPEED] * exp(-m->q[1] - level);
-    renewal[0] = s->own[SPEED] * exp(-m->q[2]);
-    L[0] = log((E[0] - G[0]) / s->own[SPEED]) + m->q[2];
-    V[0] = E[0] - G[0];
     for (int n = 0; n < order; n++) {
         C[n] = E[n] + G[n];
-        age[n] = s->own[LAW] == SLIP ? -product_term(V, L, n) / Dc : (renewal[n] - V[n]) / Dc;
-        double a = c[n][MAX_DIM] = acceleration(s, c[n], V[n]);
+        age[n] = n == 0 ? at.s_rate : s->own[LAW] == SLIP ? -product_term(V, L, n) / Dc : (renewal[n] - V[n]) / Dc;
+        double over = n == 0 ? at.over : V[n], a = c[n][MAX_DIM] = acceleration(s, c[n], over);
         w[n] = a + ratio * product_term(age, V, n);
         if (n > 0)
             w[n] -= inner_products(w, C, n) + w[0] * C[n];
@@ -302,7 +319,7 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
             log_V[n] -= inner_products(log_V, V, n) + log_V[0] * V[n];
         log_V[n] /= V[0];
         L[n + 1] = step[n] * (log_V[n] + age[n]);
-        c[n + 1][0] = step[n] * (V[n] - (n == 0 ? s->base_velocity : 0));
+        c[n + 1][0] = step[n] * over;
         c[n + 1][1] = step[n] * w[n];
         c[n + 1][2] = step[n] * age[n];
     }
@@ -311,17 +328,17 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 static double
 speed(const state *m)
 {
-    return contact_at(m->scene, m->q[1], m->q[2]).V;
+    return contact_at(m, m->q).V;
 }
 
 static void
 sample(const state *m, double drive, const double q[], const double dqdt[], ss_sample *sample)
 {
     const ss_scene *s = m->scene;
-    double V = contact_at(s, q[1], q[2]).V;
+    const contact c = contact_at(m, q);
     (void)drive, (void)dqdt;
-    *sample = (ss_sample){ .x = q[0], .v = V, .a = acceleration(s, q, V),
-                           .f = s->own[NORMAL] * s->own[DIRECT] * q[1], .mode = sign(V) };
+    *sample = (ss_sample){ .x = m->x_ref + q[0], .v = c.V, .a = acceleration(s, q, c.over),
+                           .f = m->f0 + s->own[NORMAL] * s->own[DIRECT] * q[1], .mode = sign(c.V) };
 }
 
 static double
@@ -343,12 +360,30 @@ on_section(const state *m, int is_free[D_MOST])
 static int
 move(state *m, const double d[D_MOST])
 {
-    double unit[MAX_DIM];
-    scales(m, unit);
+    const ss_scene *s = m->scene;
     m->q[0] += d[D_Q];
-    m->q[1] += m->scene->own[EVOLUTION] / m->scene->own[DIRECT] * d[D_REF];
+    m->q[1] += s->own[EVOLUTION] / s->own[DIRECT] * d[D_REF];
     m->q[2] += d[D_REF];
-    return m->q[0] < 0 && fabs(d[D_REF]) <= 1 && fabs(d[D_Q]) <= unit[0];
+    return m->x_ref + m->q[0] < 0 && fabs(d[D_REF]) <= 1
+        && fabs(d[D_Q]) <= s->own[NORMAL] * s->own[DIRECT] / s->stiffness;
+}
+
+/* The age at a steady speed V over a time h: theta + (Dc/V - theta) (1 - exp(-V h/Dc)), or ln(V theta/Dc) falls by
+ * that exponential.  At a speed that is noise, the friction is that at the noise. */
+static void
+drive(const ss_scene *s, double *memory, const piece *p, double part[])
+{
+    const double N = s->own[NORMAL] * sign(p->v), V0 = s->own[SPEED], part_of_Dc = fabs(p->dx) / s->own[DISTANCE];
+    if (s->own[LAW] == SLIP && p->dx != 0) {
+        const double L = log(fabs(p->dx) / p->h / V0);
+        *memory = (*memory + L) * exp(-part_of_Dc) - L;
+    } else if (s->own[LAW] == AGING) {
+        const double grown = part_of_Dc > 0 ? -expm1(-part_of_Dc) / part_of_Dc : 1;
+        *memory = log(exp(*memory - part_of_Dc) + V0 * p->h / s->own[DISTANCE] * grown);
+    }
+    part[0] = N * s->own[REFERENCE];
+    part[1] = N * s->own[DIRECT] * log(fmax(fabs(p->v), p->slow) / V0);
+    part[2] = N * s->own[EVOLUTION] * *memory;
 }
 
 static const struct variation variation = { .free = on_section, .move = move };
@@ -357,12 +392,11 @@ static const struct variation variation = { .free = on_section, .move = move };
 static void
 limit(ss_scene *s)
 {
-    double q[MAX_DIM], N = s->own[NORMAL], U = s->base_velocity;
+    double N = s->own[NORMAL], U = s->base_velocity, f = steady_friction(s);
     slip by = slip_of(s);
-    equilibrium(s, q);
-    s->x0 = s->x0 != 0 ? s->x0 : -N * s->own[DIRECT] * q[1] / s->stiffness;
+    s->x0 = s->x0 != 0 ? s->x0 : -f / s->stiffness;
     s->v0 = s->v0 > 0 ? s->v0 : U;
-    s->friction = N * (s->own[DIRECT] * q[1] - by.fall);
+    s->friction = f - N * by.fall;
     s->static_friction = s->friction + N * by.drop / 2;
     ss_to_stribeck(s, U);
 }
@@ -374,6 +408,6 @@ MODEL(rate_and_state) = {
     .limit = limit, .dim = 3, .kinks = 1, .from_pull = 1, .force_varies = IN_STICK | IN_SLIP,
     .start = start, .fastest = fastest, .scales = scales, .quickest = quickest, .stiff = stiff,
     .rates = rates, .jacobian = jacobian, .series = series, .next = next,
-    
-    .sample = sample, .speed = speed, .equilibrium = equilibrium, .memory = memory, .variation = &variation
+    .sample = sample, .speed = speed, .equilibrium = equilibrium, .memory = memory, .variation = &variation,
+    .drive = drive
 };

@@ -225,7 +225,7 @@ find_growth(const ss_scene *scene, double *growth)
     state m = ss_state_of(scene, 1);
     double d[MAX_DIM * MAX_DIM], by_time[MAX_DIM];
     gsl_complex value[MAX_DIM];
-    m.model->equilibrium(scene, m.q);
+    m.model->equilibrium(&m);
     m.model->jacobian(&m, 0, m.q, d, by_time);
     ss_status st = ss_eigenvalues(d, value);
     *growth = GSL_REAL(value[0]);

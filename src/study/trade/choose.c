@@ -65,9 +65,9 @@ static ss_status
 choose_cheapest(choice *s, ss_sim_opts *opts, ss_error *err)
 {
     double least = INFINITY;
-    const struct method *how;
-    for (size_t i = 0; (how = ss_method_at(i)) != NULL; i++) {
-        if (how->kind == CLOSED_FORM)
+    const struct method *usual = ss_method_for(&s->p.scene, USUAL), *how = usual;
+    for (size_t i = 0; how != NULL; how = ss_method_at(i++)) {
+        if (how->kind == CLOSED_FORM || (how == usual && i > 0))
             continue;
         double most = least / how->cost / how->rhs_a_step;
         if (how->kind == ONE_STEP)
