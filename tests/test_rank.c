@@ -469,7 +469,7 @@ ask(forced_held of[HELD_TERMS], double *part, const ss_scene *rig, double lag_sa
         lag(signal->values, signal->n, lag_samples);
     ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, 40), 5, NULL);
     assert_int_equal(ss_record_noise(&r, period * r.rate), SS_OK);
-    assert_int_equal(ss_forced_fit(&m, &c, &start, &r, NULL, 0), SS_OK);
+    assert_int_equal(ss_forced_fit(&m, NULL, &c, &start, 1, 1, &r), SS_OK);
     assert_int_equal(ss_forced_gains(of, &c, &m, &r), SS_OK);
     assert_true(m.of_samples.compared > 0);
     *part = m.of_samples.left / m.of_samples.power;

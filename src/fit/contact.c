@@ -1,9 +1,8 @@
 /* contact.c -- find the only compliant scene that moves as a signal does.
  *
- * The settled cycle of the scene is fitted to the mean cycle of the signal (forced_search.c).  The
- * search begins at the stiffness and damping that the transitions show; if they show none, in a
- * wide range about those of the scene.  From the best results of this search, the motion is fitted
- * to the record (forced_fit.c).
+ * The settled cycle of the scene is fitted to the mean cycle of the signal (forced_search.c), in a
+ * wide range about the stiffness and damping of the scene, and about those that the transitions
+ * show.  From the best results of this search, the motion is fitted to the record (forced_fit.c).
  *
  * The sum of squares has many minima: a motion with one micro-slip more or less is another motion.
  * So there are several starts.  The lowest minimum is the answer only if its residual is no more
@@ -13,6 +12,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <stickslip/sim.h>
 #include "base/error.h"
 #include "base/number.h"
@@ -21,8 +21,7 @@
 #include "scene/model.h"
 #include "signal/gaps.h"
 
-enum { POINTS = 96, KEEP = FORCED_KEPT, STEPS = 60 };  /* of a search */
-enum { LONGER = 2 };                    /* the first fit takes as long as so many others, and its own time */
+enum { POINTS = 96, KEEP = 4, STEPS = 60 };     /* of the search */
 enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at most */
 #define BUDGET 1e8                      /* integration steps of a fit: less than a minute */
 #define NEAR 1.5                        /* factor within which the features' estimates are right */
@@ -41,18 +40,15 @@ typedef struct fitting {
     cycle goal;
     forced scene;                       /* all keys are free but k, which is known */
     rank_record record;                 /* the part of x that is fitted */
-    forced_start start[FORCED_KEPT];
-    size_t n_starts;
     forced_fit best;
     double rival;                       /* residual of the best of other parameters; infinite: none */
 } fitting;
 
 /* --- fits ---------------------------------------------------------------------------------- */
 
-/* Narrow the ranges of the contact's stiffness and damping to those about the values that the transitions show;
- * *is_narrow becomes 0 if they show neither. */
+/* Let half of the search look about the contact's stiffness and damping that the transitions show. */
 static ss_status
-narrow_ranges(forced *c, int *is_narrow, const ss_signal *signal, size_t column, ss_error *err)
+find_likely(forced *c, const ss_signal *signal, size_t column, ss_error *err)
 {
     ss_features *f = NULL;
     ss_features_opts opts;
@@ -64,61 +60,14 @@ narrow_ranges(forced *c, int *is_narrow, const ss_signal *signal, size_t column,
         return st;
     const double estimate[2] = { f->number[SS_CONTACT_STIFFNESS].value, f->number[SS_CONTACT_DAMPING].value };
     ss_features_free(f);
-    *is_narrow = 0;
+    memcpy(c->likely, c->range, sizeof c->likely);
     for (size_t i = 0; i < 2; i++)
         if (estimate[i] > 0) {                  /* NaN is not */
-            c->range[FORCED_OWN + i] = (ss_range){ log(estimate[i] / NEAR), log(estimate[i] * NEAR) };
-            *is_narrow = 1;
+            ss_range *all = &c->range[FORCED_OWN + i], *likely = &c->likely[FORCED_OWN + i];
+            *likely = (ss_range){ log(estimate[i] / NEAR), log(estimate[i] * NEAR) };
+            *all = (ss_range){ fmin(all->from, likely->from), fmax(all->to, likely->to) };
+            c->is_likely = 1;
         }
-    return SS_OK;
-}
-
-/* Find starts near the values that the transitions show, and from all over the range. */
-static ss_status
-search_starts(fitting *w, const ss_signal *signal, size_t column, const ss_stretch *progress, ss_error *err)
-{
-    forced near = w->scene;
-    forced_start closer[FORCED_KEPT];
-    size_t n = 0;
-    int is_narrow = 0;
-    ss_status st = narrow_ranges(&near, &is_narrow, signal, column, err);
-    near.progress = ss_stretch_part(progress, 0, 0.5);
-    w->scene.progress = ss_stretch_part(progress, 0.5, 1);
-    if (st == SS_OK && is_narrow)
-        st = ss_forced_search(closer, &n, &near, &w->goal, POINTS, KEEP / 2, STEPS);
-    w->scene.steps = near.steps;
-    if (st == SS_OK)
-        st = ss_forced_search(w->start, &w->n_starts, &w->scene, &w->goal, POINTS,
-                              is_narrow ? KEEP / 2 : KEEP, STEPS);
-    for (size_t k = 0; n > 0 && k < near.n; k++) {      /* the ranges hold both */
-        w->scene.range[k].from = fmin(w->scene.range[k].from, near.range[k].from);
-        w->scene.range[k].to = fmax(w->scene.range[k].to, near.range[k].to);
-    }
-    for (size_t i = 0; i < n && w->n_starts < FORCED_KEPT; i++)
-        w->start[w->n_starts++] = closer[i];
-    return st;
-}
-
-/* Fit from all starts.  The first fit takes the longest, as others often are found to be the same. */
-static ss_status
-fit_starts(fitting *w, const ss_stretch *progress)
-{
-    forced_fit found[FORCED_KEPT] = { { .left_all = 0 } };
-    const double parts = (double)(w->n_starts + LONGER);
-    size_t best = 0, n = w->n_starts;
-    for (size_t i = 0; i < n; i++) {
-        w->scene.progress = ss_stretch_part(progress, i == 0 ? 0 : (double)(i + LONGER) / parts,
-                                            (double)(i + 1 + LONGER) / parts);
-        ss_status st = ss_forced_fit(&found[i], &w->scene, &w->start[i], &w->record, found, i);
-        if (st != SS_OK)
-            return st;
-        best = found[i].of_samples.left < found[best].of_samples.left ? i : best;
-    }
-    w->best = found[best];
-    w->rival = INFINITY;
-    for (size_t i = 0; i < n; i++)
-        if (found[i].of_samples.compared > 0 && !ss_forced_same(&w->best, &found[i]))
-            w->rival = fmin(w->rival, found[i].of_samples.left);
     return SS_OK;
 }
 
@@ -321,28 +270,22 @@ choose_part(fitting *w)
     return ss_record_noise(&w->record, samples);
 }
 
-/* The part of all work that the search is, in cycles of the motion: for the progress. */
-static double
-search_share(const fitting *w)
-{
-    double runs = 2 * POINTS + 1.5 * KEEP * STEPS, cycles = FORCED_SETTLE + 1;
-    double record = (double)w->record.n / w->rate / w->goal.period + FORCED_SETTLE;
-    return runs * cycles / (runs * cycles + (KEEP + LONGER) * FORCED_RUNS / 3 * record);
-}
-
 static ss_status
 fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, const ss_rank_opts *opts,
            ss_error *err)
 {
-    const ss_stretch whole = { opts->progress, 0, 1 };
+    forced_start start[FORCED_KEPT];
+    size_t n;
     set_scene(w, &fit->scene, opts->quantity);
     ss_status st = choose_part(w);
-    double split = search_share(w);
-    const ss_stretch searching = ss_stretch_part(&whole, 0, split), fits = ss_stretch_part(&whole, split, 1);
     if (st == SS_OK)
-        st = search_starts(w, signal, column, &searching, err);
+        st = find_likely(&w->scene, signal, column, err);
+    w->scene.progress = (ss_stretch){ opts->progress, 0, 0.5 };
     if (st == SS_OK)
-        st = fit_starts(w, &fits);
+        st = ss_forced_search(start, &n, &w->scene, &w->goal, POINTS, KEEP, STEPS);
+    w->scene.progress = (ss_stretch){ opts->progress, 0.5, 1 };
+    if (st == SS_OK)
+        st = ss_forced_fit(&w->best, &w->rival, &w->scene, start, n, w->goal.power, &w->record);
     if (st == SS_OK && w->scene.steps > BUDGET)
         return ss_fail(err, SS_EBUDGET, "its fits take more than %.0e integration steps: the contact is "
                        "too stiff, or too many samples stand in a cycle", BUDGET);

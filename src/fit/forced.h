@@ -29,6 +29,8 @@ typedef struct forced {
     size_t n;                   /* keys that the model has */
     double own[FORCED_KEYS];    /* the scene's, as logarithms */
     ss_range range[FORCED_KEYS];    /* of a fit; a key whose range has no width is held */
+    ss_range likely[FORCED_KEYS];   /* where half of the points of a search lie, if not all over the range */
+    int is_likely;
     ss_stretch progress;
     double steps, budget;       /* integration steps so far, and at most: then work ends */
 } forced;
@@ -84,16 +86,14 @@ ss_status ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c
 
 /* --- forced_fit.c -------------------------------------------------------------------------- */
 
-/* Fit the scene of one start, its keys within their ranges, to a record.  If the scene does not slip,
- * cannot be run, or the budget is used up, the residual is the record.  If its settled motion is that of one
- * of the n fits from other starts, it is that fit.  SS_ENOMEM, SS_STOP. */
-ss_status ss_forced_fit(forced_fit *m, forced *c, const forced_start *start, const rank_record *record,
-                        const forced_fit *others, size_t n);
+/* Find the best of the fits of a scene, its keys within their ranges, to a record from the n >= 1 starts of a search
+ * for a cycle of this power, and *rival, what the best with other keys leaves; infinite: there is none.  If rival is NULL, the
+ * first that explains the record is enough.  If no scene slips, can be run, or the budget is used up, the residual
+ * is the record.  SS_ENOMEM, SS_STOP. */
+ss_status ss_forced_fit(forced_fit *best, double *rival, forced *c, const forced_start start[], size_t n,
+                        double power, const rank_record *record);
 /* Fit the motion of a fit to a record of another quantity, c->pick, of the same time. */
 ss_status ss_forced_refit(forced_fit *m, forced *c, const forced_fit *from, const rank_record *record);
-/* Do two fits have the same keys, within RESIDUE_DECISIVE of the errors of the first? */
-int ss_forced_same(const forced_fit *a, const forced_fit *b);
-
 /* The damping of the mass and f_s / f_k, which are the scene's, and the lag of a sensor of first order (or its
  * opposite), which is none. */
 typedef enum forced_term { HELD_DAMPING, HELD_STATIC, HELD_LAG, HELD_TERMS } forced_term;

@@ -17,6 +17,7 @@
  * lag is the variance of that noise if it is white, and less at some lag if it is not. */
 #include "fit/forced.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,6 +28,8 @@
 enum { LAGS = 32 };
 enum { LOOKED_AT = 128 };       /* samples of half a cycle, to find the fastest slip */
 #define UNLIKELY 0.1            /* part of the power: if more is left, no descent or start helps */
+#define HOPELESS 0.03           /* part of the power of a cycle: if a start leaves more, a descent over the record
+                                   changes this little, and only the best start is fitted */
 #define FARTHEST 0.2            /* the longest step of an unknown */
 #define ANYWHERE 5              /* units to either side, in which a start of the motion is sought */
 
@@ -400,12 +403,6 @@ are_same(const forced_fit *m, const double a[], const double b[])
     return 1;
 }
 
-int
-ss_forced_same(const forced_fit *a, const forced_fit *b)
-{
-    return are_same(a, a->u, b->u);
-}
-
 /* --- all ----------------------------------------------------------------------------------- */
 
 /* Prepare a fit that explains nothing yet: the residual is the record. */
@@ -436,12 +433,13 @@ set_ranges(fitting *w, const double *u)
     w->range[FORCED_PHASE] = (ss_range){ u[FORCED_PHASE] - M_PI, u[FORCED_PHASE] + M_PI };
 }
 
-/* The settled motion is fitted first, then motions from any start if they leave less.  The record hardly
+/* Fit from one start.  If the settled motion is that of one of the n fits from other starts, it is that fit.  The
+ * settled motion is fitted first, then motions from any start if they leave less.  The record hardly
  * depends on a start three cycles before it, so that the residual changes slowly with that start.
  * For a start one cycle before it, descents end too early unless they begin near the solution. */
-ss_status
-ss_forced_fit(forced_fit *m, forced *c, const forced_start *start, const rank_record *r,
-              const forced_fit *others, size_t n)
+static ss_status
+fit_start(forced_fit *m, forced *c, const forced_start *start, const rank_record *r, const forced_fit *others,
+          size_t n)
 {
     static const double before[] = { 3, 1 };            /* cycles */
     const double cycles = (double)r->n / r->rate / c->period;
@@ -488,6 +486,31 @@ ss_forced_fit(forced_fit *m, forced *c, const forced_start *start, const rank_re
     return st;
 }
 
+ss_status
+ss_forced_fit(forced_fit *best, double *rival, forced *c, const forced_start start[], size_t n, double power,
+              const rank_record *r)
+{
+    const ss_stretch whole = c->progress;
+    forced_fit found[FORCED_KEPT] = { { .left_all = 0 } };
+    size_t lowest = 0, fits = 0;
+    ss_status st = SS_OK;
+    for (; st == SS_OK && fits < n; fits++) {
+        if (fits > 0 && (start[fits].misfit > HOPELESS * power
+                         || (rival == NULL && ss_residue_explains(&found[lowest].of_samples, r->noise))))
+            break;
+        c->progress = ss_stretch_part(&whole, (double)fits / (double)n, (double)(fits + 1) / (double)n);
+        st = fit_start(&found[fits], c, &start[fits], r, found, fits);
+        lowest = found[fits].of_samples.left < found[lowest].of_samples.left ? fits : lowest;
+    }
+    *best = found[lowest];
+    if (rival != NULL)
+        *rival = INFINITY;
+    for (size_t i = 0; rival != NULL && i < fits; i++)
+        if (found[i].of_samples.compared > 0 && !are_same(best, best->u, found[i].u))
+            *rival = fmin(*rival, found[i].of_samples.left);
+    return st;
+}
+
 /* Take a fit up again. */
 static void
 resume(fitting *w, const forced_fit *from)
@@ -518,25 +541,24 @@ ss_forced_refit(forced_fit *m, forced *c, const forced_fit *from, const rank_rec
 
 /* --- terms that are held ------------------------------------------------------------------- */
 
-/* How much less than `without` the sum of squares of l would be with one unknown more, whose slopes are
- * l->extra, and how far it would go.  (Near the least residual the sum of squares is quadratic: no other fit is
- * needed.) */
-static ss_status
-find_gain(const fitting *w, const linear *l, double without, double *gain, double *step)
+/* How much less the sum of squares of what l leaves would be with one unknown more, whose slopes are l->extra, and
+ * how far it would go.  (Near the least residual the sum of squares is quadratic: no other fit is needed.) */
+static double
+find_gain(const linear *l, size_t rows, const double *inverse, double *far)
 {
-    const size_t rows = w->r->n, n = l->n + 1;
-    double *x = malloc((rows * n + 1) * sizeof *x), c[FORCED_UNKNOWNS + 1], with = 0;
-    if (x == NULL)
-        return SS_ENOMEM;
+    const size_t n = l->n;
+    double along[FORCED_UNKNOWNS] = { 0 }, all = 0, product = 0;
     for (size_t i = 0; i < rows; i++) {
-        memcpy(x + i * n, l->slopes + i * l->n, l->n * sizeof *x);
-        x[i * n + l->n] = l->extra[i];
+        for (size_t k = 0; k < n; k++)
+            along[k] += l->slopes[i * n + k] * l->extra[i];
+        all += l->extra[i] * l->extra[i];
+        product += l->extra[i] * l->residual[i];
     }
-    ss_status st = ss_least_linear(x, l->residual, rows, n, c, &with, NULL);
-    *gain = without - with;
-    *step = -c[l->n];           /* residuals fall by slope times step */
-    free(x);
-    return st;
+    double own = all;                   /* of the slopes, what no other unknown makes up for */
+    for (size_t k = 0; k < n * n; k++)
+        own -= along[k / n] * inverse[k] * along[k % n];
+    *far = -product / own;              /* residuals fall by slope times step */
+    return own > DBL_EPSILON * all ? product * product / own : 0;
 }
 
 /* Change a term of the scene; returns what it becomes. */
@@ -579,11 +601,12 @@ slopes_by_lag(const fitting *w, double samples, double *slopes)
 ss_status
 ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m, const rank_record *r)
 {
+    const double unit = fmax(m->of_samples.left, RESIDUE_QUIET * m->of_samples.power);
     forced own = *c;
     forced_fit unused;
     fitting w;
     linear l = { .residual = NULL };
-    double gain, step, without = 0, c_of[FORCED_UNKNOWNS];
+    double far, squares, by[FORCED_UNKNOWNS], inverse[FORCED_UNKNOWNS * FORCED_UNKNOWNS];
     own.progress.progress.function = NULL;
     for (forced_term term = 0; term < HELD_TERMS; term++)
         of[term] = (forced_held){ 0, NAN };
@@ -594,22 +617,20 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
     if (st == SS_OK)
         st = linearise(&w, &l);
     if (st == SS_OK)
-        st = ss_least_linear(l.slopes, l.residual, r->n, l.n, c_of, &without, NULL);
-    const double unit = fmax(m->of_samples.left, RESIDUE_QUIET * m->of_samples.power);
+        st = ss_least_linear(l.slopes, l.residual, r->n, l.n, by, &squares, inverse);
+    for (size_t i = 0; st == SS_OK && i < r->n * l.n; i++)
+        l.residual[i / l.n] -= l.slopes[i] * by[i % l.n];
     for (forced_term term = 0; st == SS_OK && term < HELD_LAG; term++) {
         ss_scene changed = c->scene;
         st = slopes_by_scene(&w, term, l.extra);
         if (st == SS_OK)
-            st = find_gain(&w, &l, without, &gain, &step);
-        if (st == SS_OK)
-            of[term] = (forced_held){ gain / unit, change_term(&changed, term, step) };
+            of[term].gain = find_gain(&l, r->n, inverse, &far) / unit;
+        of[term].nearer = st == SS_OK ? change_term(&changed, term, far) : NAN;
     }
     /* longer lags leave more than noise */
     for (double samples = 0.125; st == SS_OK && samples <= 8; samples *= 2) {
         slopes_by_lag(&w, samples, l.extra);
-        st = find_gain(&w, &l, without, &gain, &step);
-        if (st == SS_OK)
-            of[HELD_LAG].gain = fmax(of[HELD_LAG].gain, gain / unit);
+        of[HELD_LAG].gain = fmax(of[HELD_LAG].gain, find_gain(&l, r->n, inverse, &far) / unit);
     }
     free(l.residual);
     free(w.motion);

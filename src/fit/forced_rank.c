@@ -24,7 +24,6 @@
 
 enum { POINTS = 32, KEEP = 2, STEPS = 40 };      /* of the search, within the usual spread */
 #define EQUAL 0.01                      /* of the spread: two scenes are equally near to within this */
-#define HOPELESS 0.03                   /* of the power of a cycle: see fit_scene */
 #define BUDGET 2e7                      /* integration steps of a scene: some seconds */
 enum { WINDOW = 4 };                    /* cycles that are compared */
 
@@ -69,45 +68,26 @@ observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, ss_
     return st;
 }
 
-/* Find the best of the fits from the starts that a search within a factor finds: a wider range than the usual
- * has more minima.  If a start leaves much of the cycle, a descent over the record changes this little: of
- * such starts only the best is fitted. */
-static ss_status
-fit_scene(found *f, const comparison *w, double factor)
-{
-    const double usual = (1 + RANK_SPREAD) / (1 - RANK_SPREAD);
-    const double wider = log(factor) / log(usual), more = fmax(1, fmin(wider * wider, FORCED_KEPT / KEEP));
-    const ss_stretch whole = f->scene.progress;
-    forced_start start[FORCED_KEPT];
-    forced_fit fit[FORCED_KEPT];
-    size_t n;
-    f->scene.budget = more * BUDGET;
-    f->scene.progress = ss_stretch_part(&whole, 0, 0.5);
-    ss_status st = ss_forced_search(start, &n, &f->scene, &w->goal, (size_t)(more * POINTS),
-                                    (size_t)(more * KEEP), STEPS);
-    for (size_t i = 0; st == SS_OK && i < n; i++) {
-        if (i > 0 && (ss_residue_explains(&f->fit.of_samples, w->record.noise)
-                      || start[i].misfit > HOPELESS * w->goal.power))
-            break;
-        f->scene.progress = ss_stretch_part(&whole, 0.5 + 0.5 * (double)i / (double)n,
-                                            0.5 + 0.5 * (double)(i + 1) / (double)n);
-        st = ss_forced_fit(&fit[i], &f->scene, &start[i], &w->record, fit, i);
-        if (i == 0 || fit[i].of_samples.left < f->fit.of_samples.left)
-            f->fit = fit[i];
-    }
-    return st;
-}
-
 static ss_status
 rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scene,
            const ss_stretch *progress, ss_error *err)
 {
-    observation l;
+    /* a wider range than the usual has more minima */
     const double spread = w->opts->spread, factor = (1 + spread) / (1 - spread);
+    const double usual = (1 + RANK_SPREAD) / (1 - RANK_SPREAD), wider = log(factor) / log(usual);
+    const double more = fmax(1, fmin(wider * wider, FORCED_KEPT / KEEP));
+    forced_start start[FORCED_KEPT];
+    size_t n;
+    observation l;
     f->scene = ss_forced_of(scene, (int)w->opts->quantity, factor);
     f->scene.period = w->goal.period;
-    f->scene.progress = *progress;
-    ss_status st = fit_scene(f, w, factor);
+    f->scene.budget = more * BUDGET;
+    f->scene.progress = ss_stretch_part(progress, 0, 0.5);
+    ss_status st = ss_forced_search(start, &n, &f->scene, &w->goal, (size_t)(more * POINTS), (size_t)(more * KEEP),
+                                    STEPS);
+    f->scene.progress = ss_stretch_part(progress, 0.5, 1);
+    if (st == SS_OK)
+        st = ss_forced_fit(&f->fit, NULL, &f->scene, start, n, w->goal.power, &w->record);
     if (st == SS_OK && f->scene.steps > f->scene.budget)
         return ss_fail(err, SS_EBUDGET, "scene %zu takes more than %.0e integration steps to be "
                        "adjusted: it is too stiff to be ranked", row->scene + 1, f->scene.budget);

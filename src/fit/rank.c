@@ -37,37 +37,10 @@ report_half(double done, void *user)
     return ss_stretch_at(s, done) != SS_OK;
 }
 
-/* Rank the scenes that are pulled, or those that are not, by themselves; *out is NULL if no scene of
- * the kind can be compared with the column. */
-static ss_status
-rank_kind(ss_ranking **out, int pulled, const ss_signal *signal, size_t column, const ss_scene *scene,
-          size_t n, const ss_rank_opts *opts, ss_error *err)
-{
-    ss_stretch half = { opts->progress, 0.5 * pulled, 0.5 * (1 + pulled) };
-    ss_rank_opts o = *opts;
-    ss_scene *some = malloc(n * sizeof *some);
-    size_t *index = malloc(n * sizeof *index), n_some = 0;
-    ss_status st = some != NULL && index != NULL ? SS_OK : ss_fail_memory(err, NULL);
-    o.progress = (ss_progress){ report_half, &half };
-    for (size_t i = 0; st == SS_OK && i < n; i++)
-        if (ss_scene_is_pulled(&scene[i]) == pulled) {
-            some[n_some] = scene[i];
-            index[n_some++] = i;
-        }
-    *out = NULL;
-    if (st == SS_OK && (!pulled || opts->quantity == SS_SPRING))
-        st = ss_ranking_new(out, signal, column, some, n_some, &o, err);
-    for (size_t i = 0; st == SS_OK && *out != NULL && i < n_some; i++)
-        (*out)->row[i].scene = index[(*out)->row[i].scene];
-    free(index);
-    free(some);
-    return st;
-}
-
 static int
 is_compared(const ss_ranking *r)
 {
-    return r != NULL && !isnan(r->row[0].total);
+    return r->n > 0 && !isnan(r->row[0].total);
 }
 
 /* Does the signal move as the pulled scenes do rather than as the forced ones? */
@@ -93,39 +66,56 @@ last_row(size_t i, const ss_scene *scene)
     return row;
 }
 
-/* Copy the verdict and the rows of the scenes of the signal's kind.  The scenes of the other kind follow: they
- * do not fit, and have no values. */
-static void
-copy_answer(ss_ranking *r, const ss_ranking *of, const ss_scene *scene)
+/* Rank the scenes of each kind by themselves.  The verdict and the first rows are those of the signal's kind; the
+ * scenes of the other kind follow: they do not fit, and have no values. */
+static ss_status
+rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene, const ss_rank_opts *opts,
+          ss_error *err)
 {
     const size_t n = r->n;
-    const int pulled = ss_scene_is_pulled(&scene[of->row[0].scene]);
-    ss_rank_row *row = r->row, *next = row + of->n;
-    memcpy(row, of->row, of->n * sizeof *row);
-    *r = *of;
-    r->n = n;
-    r->row = row;
-    for (size_t i = 0; i < n; i++)
-        if (ss_scene_is_pulled(&scene[i]) != pulled)
-            *next++ = last_row(i, &scene[i]);
-}
-
-static ss_status
-rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
-          const ss_rank_opts *opts, ss_error *err)
-{
-    ss_ranking *others = NULL, *pulled = NULL;
-    ss_status st = rank_kind(&others, 0, signal, column, scene, r->n, opts, err);
-    if (st == SS_OK)
-        st = rank_kind(&pulled, 1, signal, column, scene, r->n, opts, err);
-    if (st == SS_OK)
-        copy_answer(r, is_pull(others, pulled) ? pulled : others, scene);
-    if (st == SS_OK && others->verdict == SS_NAMED && pulled != NULL && pulled->verdict == SS_NAMED) {
-        r->verdict = SS_UNDECIDED;
-        snprintf(r->why, sizeof r->why, "a pull and a forced motion explain the signal");
+    ss_ranking kind[2] = { *r, *r };
+    ss_scene *some = malloc(n * sizeof *some);
+    size_t *index = malloc(n * sizeof *index);
+    ss_rank_row *row = malloc(n * sizeof *row), *next = row;
+    ss_status st = some != NULL && index != NULL && row != NULL ? SS_OK : ss_fail_memory(err, NULL);
+    for (int pulled = 0; st == SS_OK && pulled < 2; pulled++) {
+        ss_ranking *k = &kind[pulled];
+        ss_stretch half = { opts->progress, 0.5 * pulled, 0.5 * (1 + pulled) };
+        ss_rank_opts o = *opts;
+        o.progress = (ss_progress){ report_half, &half };
+        k->row = next;
+        k->n = 0;
+        for (size_t i = 0; i < n; i++)
+            if (ss_scene_is_pulled(&scene[i]) == pulled) {
+                *next++ = r->row[k->n];
+                some[k->n] = scene[i];
+                index[k->n++] = i;
+            }
+        if (!pulled || opts->quantity == SS_SPRING)
+            st = (pulled ? ss_pull_compare : ss_forced_compare)(k, signal, column, some, &o, err);
+        for (size_t i = 0; i < k->n; i++)
+            k->row[i].scene = index[k->row[i].scene];
     }
-    ss_ranking_free(others);
-    ss_ranking_free(pulled);
+    if (st == SS_OK) {
+        const int pulled = is_pull(&kind[0], &kind[1]), both = kind[0].verdict == SS_NAMED && kind[1].verdict == SS_NAMED;
+        const ss_ranking *own = &kind[pulled];
+        next = r->row;
+        memcpy(next, own->row, own->n * sizeof *next);
+        next += own->n;
+        *r = *own;
+        r->row = next - own->n;
+        r->n = n;
+        for (size_t i = 0; i < n; i++)
+            if (ss_scene_is_pulled(&scene[i]) != pulled)
+                *next++ = last_row(i, &scene[i]);
+        if (both) {
+            r->verdict = SS_UNDECIDED;
+            snprintf(r->why, sizeof r->why, "a pull and a forced motion explain the signal");
+        }
+    }
+    free(some);
+    free(index);
+    free(row);
     return st;
 }
 
