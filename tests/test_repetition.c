@@ -281,7 +281,7 @@ errors_cover(double (*fill)(gsl_rng *rng, double *x), const char *name, double s
     static double x[N];
     static const double noise[] = { 0, 0.01, 0.1 };
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    double known = 0, within = 0, beyond = 0;
+    double known = 0, within = 0, beyond = 0, close = 0;
     for (unsigned long i = 0; i < DRAWS; i++) {
         gsl_rng_set(rng, i + 1);
         double truth = fill(rng, x);
@@ -292,15 +292,17 @@ errors_cover(double (*fill)(gsl_rng *rng, double *x), const char *name, double s
             known++;
             within += fabs(v.value - truth) <= 2 * v.error;
             beyond += fabs(v.value - truth) > 5 * v.error;
+            close += fabs(v.value - truth) <= 0.1 * v.error;
             if (fabs(v.value - truth) > 5 * v.error)
                 print_message("%s %lu: %g +- %g Hz, not %g\n", name, i, v.value, v.error, truth);
         }
         ss_features_free(f);
     }
     gsl_rng_free(rng);
-    print_message("%s: %g of %d known, within 2 errors %.3g, beyond 5 %.3g\n", name, known, DRAWS,
-                  within / known, beyond / known);
+    print_message("%s: %g of %d known, within 2 errors %.3g, beyond 5 %.3g, within a tenth %.3g\n", name, known, DRAWS,
+                  within / known, beyond / known, close / known);
     assert_true(known >= share * DRAWS && within >= 0.88 * known && beyond <= fmax(1, 0.01 * known));
+    assert_true(close <= 0.5 * known);      /* errors that are much too wide tell nothing, either */
 }
 
 static void
