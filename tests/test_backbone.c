@@ -95,7 +95,8 @@ bands_hold_and_mechanisms_are_named(void **state)
             ss_signal_free(signal);
             free(turn);
         }
-    print_message("%zu of %zu rows within 2 errors, %zu within a tenth, %zu of 40 named\n", within, rows, tenth, named);
+    print_message("%zu of %zu rows within 2 errors, %zu within a tenth, %zu of 40 named\n", within, rows, tenth,
+                  named);
     assert_true(named >= 29);
     assert_true((double)within >= .91 * (double)rows);
     assert_true((double)tenth <= .16 * (double)rows);       /* of errors that are twice too wide: .16, not .08 */
@@ -233,8 +234,8 @@ long_blocks_and_two_modes(void **state)
             tenth[0] += fabs(r->damping_ratio.value - zeta[k]) <= .1 * r->damping_ratio.error;
             tenth[1] += fabs(r->frequency.value - w[k] / (2 * PI)) <= .1 * r->frequency.error;
         }
-        print_message("%zu and %zu of %zu rows, %zu and %zu within a tenth, %s\n", within[0], within[1], b->n, tenth[0], tenth[1],
-                      ss_mechanism_names[b->mechanism[0]]);
+        print_message("%zu and %zu of %zu rows, %zu and %zu within a tenth, %s\n", within[0], within[1], b->n,
+                      tenth[0], tenth[1], ss_mechanism_names[b->mechanism[0]]);
         assert_true((double)within[0] > .9 * (double)b->n && (double)within[1] > .9 * (double)b->n);
         assert_true((double)tenth[0] <= .16 * (double)b->n && (double)tenth[1] <= .16 * (double)b->n);
         assert_int_equal(b->mechanism[0], SS_VISCOUS);

@@ -299,8 +299,8 @@ errors_cover(double (*fill)(gsl_rng *rng, double *x), const char *name, double s
         ss_features_free(f);
     }
     gsl_rng_free(rng);
-    print_message("%s: %g of %d known, within 2 errors %.3g, beyond 5 %.3g, within a tenth %.3g\n", name, known, DRAWS,
-                  within / known, beyond / known, close / known);
+    print_message("%s: %g of %d known, within 2 errors %.3g, beyond 5 %.3g, within a tenth %.3g\n", name, known,
+                  DRAWS, within / known, beyond / known, close / known);
     assert_true(known >= share * DRAWS && within >= 0.88 * known && beyond <= fmax(1, 0.01 * known));
     assert_true(close <= 0.5 * known);      /* errors that are much too wide tell nothing, either */
 }
