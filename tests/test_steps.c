@@ -100,6 +100,9 @@ answers(const char *what, const rock *r, uint64_t seed, size_t n, double stiffne
         else
             within(what, l->stiffness, r->k, 5);
         assert_true(l->direct_effect.error < 0.1 * r->a);
+        for (size_t row = 0; row < steps->step[i].n; row++)
+            if (!(fabs(l->model[row] - steps->step[i].friction[row]) <= 6 * r->noise))
+                fail_msg("%s: row %zu is %g, not %g", what, row, l->model[row], steps->step[i].friction[row]);
     }
     ss_steps_free(steps);
     ss_signal_free(s);
