@@ -207,6 +207,34 @@ levels_give_the_damping(void **state)
     ss_signal_free(signal);
 }
 
+/* The column that is asked for: 10 Hz and 20 Hz, which decay at .01 and .02 of a turn. */
+static void
+each_column_has_its_own(void **state)
+{
+    enum { N = 2000 };
+    ss_signal *signal = NULL;
+    ss_header *head = NULL;
+    (void)state;
+    seed = 11;
+    ss_header_new(&head, 400, 0, NULL);
+    ss_header_add_column(head, "x", "m", NULL);
+    ss_header_add_column(head, "y", "m", NULL);
+    assert_int_equal(ss_signal_new(&signal, head, N, NULL), SS_OK);
+    ss_header_free(head);
+    for (size_t i = 0; i < 2 * N; i++) {
+        double w = (i < N ? 20 : 40) * PI, zeta = i < N ? .01 : .02, t = (double)(i % N) / 400;
+        signal->values[i] = exp(-zeta * w * t) * cos(w * sqrt(1 - zeta * zeta) * t) + .001 * gauss();
+    }
+    for (size_t c = 0; c < 2; c++) {
+        ss_backbone *b = NULL;
+        assert_int_equal(ss_backbone_find(&b, signal, c, NULL, NULL), SS_OK);
+        double error = 0, f = number(b, "frequency", &error), zeta = number(b, "damping_ratio", &error);
+        assert_true(fabs(f - 10 * (double)(c + 1)) < .01 && fabs(zeta - .01 * (double)(c + 1)) <= 4 * error);
+        ss_backbone_free(b);
+    }
+    ss_signal_free(signal);
+}
+
 /* A resonator of 50,000 periods: blocks of a thousand of samples, a line beside it at 1.3 of its frequency, and each of
  * the two by --mode.  Amplitudes 1 and .3, damping ratios 1.6e-5 and 4e-5. */
 static void
@@ -278,7 +306,7 @@ main(void)
         cmocka_unit_test(bands_hold_and_mechanisms_are_named), cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
         cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),
         cmocka_unit_test(levels_give_the_damping), cmocka_unit_test(long_blocks_and_two_modes),
-        cmocka_unit_test(extreme_amplitudes),
+        cmocka_unit_test(extreme_amplitudes), cmocka_unit_test(each_column_has_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
