@@ -434,6 +434,11 @@ attributes_that_are_no_notes_are_skipped(void **state)
     hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
     for (size_t i = 0; i < sizeof name / sizeof *name; i++)
         put_scalar(file, name[i], H5T_C_S1, "5");
+    hid_t two = H5Screate_simple(1, (hsize_t[]){ 2 }, NULL);        /* an array of texts is none */
+    hid_t id = H5Acreate2(file, "pair", H5T_C_S1, two, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Awrite(id, H5T_C_S1, "ab") >= 0);
+    H5Aclose(id);
+    H5Sclose(two);
     H5Fclose(file);
     assert_int_equal(ss_signal_read(&back, NULL, path, NULL, NULL), SS_OK);
     assert_same_notes(signal->head, back->head);
