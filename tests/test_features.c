@@ -3,6 +3,7 @@
 #include <string.h>
 #include <math.h>
 #include <stickslip.h>
+#include "find/quantity.h"
 #include "map/map.h"
 
 #include "new_signal.h"
@@ -270,6 +271,25 @@ a_long_map_has_the_maxima_of_a_short_one(void **state)
     ss_signal_free(signal);
 }
 
+/* What people write above columns: a unit says it, and without one a word that stands apart. */
+static void
+names_and_units_tell_the_quantity(void **state)
+{
+    static const struct { char name[24], unit[12]; column_quantity is; } row[] = {
+        { "x", "kN", QUANTITY_FORCE }, { "force", "mm", QUANTITY_DISPLACEMENT },
+        { "force", "m/s^2", QUANTITY_MOTION }, { "q", "(mm/s)", QUANTITY_MOTION },
+        { "friction force", "", QUANTITY_FORCE }, { "2_Fx", "", QUANTITY_FORCE }, { "Load [V]", "V", QUANTITY_FORCE },
+        { "my position", "", QUANTITY_DISPLACEMENT }, { "x1", "", QUANTITY_DISPLACEMENT },
+        { "table speed", "", QUANTITY_MOTION }, { "acc.", "g", QUANTITY_MOTION },
+        { "reinforced", "", QUANTITY_UNKNOWN }, { "taxi", "", QUANTITY_UNKNOWN }, { "ch0", "V", QUANTITY_UNKNOWN },
+        { "", "", QUANTITY_UNKNOWN },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        if (ss_column_quantity(&(ss_column){ (char *)row[i].name, (char *)row[i].unit }) != row[i].is)
+            fail_msg("'%s' in '%s' is no %d", row[i].name, row[i].unit, row[i].is);
+}
+
 int
 main(void)
 {
@@ -282,6 +302,7 @@ main(void)
         cmocka_unit_test(spikes_are_the_maxima_of_one_scale),
         cmocka_unit_test(finds_two_tone_bursts),
         cmocka_unit_test(a_long_map_has_the_maxima_of_a_short_one),
+        cmocka_unit_test(names_and_units_tell_the_quantity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
