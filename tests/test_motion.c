@@ -261,6 +261,25 @@ names_dry_friction(void **unused)
     ss_signal_free(r.signal);
 }
 
+/* A converter reads the force a part of a row after the motion: dry friction then jumps between rows. */
+static void
+names_dry_friction_read_late(void **unused)
+{
+    const double w = 2 * M_PI, late = 0.3 / (ROWS / 10.);
+    recording r = record();
+    (void)unused;
+    for (int i = 0; i < ROWS; i++) {
+        double t = i / (ROWS / 10.) - late;
+        r.f[i] = 2 * cos(w * t) + 0.4 * 1.7 * cos(1.7 * w * t) > 0 ? 2 : -2;
+    }
+    add_noise(r.f, 0.006, 5);
+    ss_motion_ranking *k = rank(&r, 0, NULL);
+    assert_named(k, "coulomb");
+    assert_number(k, "friction", 2, "kN");
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
 /* --- no law --------------------------------------------------------------------------------- */
 
 static void
@@ -352,6 +371,7 @@ main(void)
         cmocka_unit_test(finds_sign_velocity_and_delay),
         cmocka_unit_test(names_dahl),
         cmocka_unit_test(names_dry_friction),
+        cmocka_unit_test(names_dry_friction_read_late),
         cmocka_unit_test(does_not_judge_what_tells_nothing),
         cmocka_unit_test(names_none_of_these),
         cmocka_unit_test(writes_what_it_found),

@@ -13,7 +13,7 @@ enum { LENGTH, OTHER_LENGTH, GAP, EXPONENT, BETA, RISE, SPEED, SHAPE, DELAY, UNK
 /* The columns of the force, which is linear in them.  The law's parts and the viscous part are not negative. */
 enum { PART, VISCOUS = PART + DRIVEN_PARTS, OFFSET, TILT, INERTIA, SINE, COSINE, COLUMNS };
 enum { LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
-enum { DRIVEN_ROWS = 2000 };        /* rows that fits look at */
+enum { DRIVEN_ROWS = 4000 };        /* rows that fits look at */
 #define DRIVEN_TURN 0.1             /* of the rms motion: a turn that a contact remembers */
 
 /* A law that a motion may drive: a model, the unknowns that it frees, and the numbers that they make. */

@@ -18,6 +18,7 @@
 
 #define RIDGE 1e-7                  /* of the columns' squares: columns that look alike share an amplitude */
 #define NUDGE 1e-3                  /* of an unknown, for slopes: less than errors, more than kinks */
+#define NUDGE_DELAY 0.1             /* rows: of a law that jumps, some rows must change */
 enum { KEPT = 3 };                  /* starts that are improved */
 
 /* Where a fit may go, and where its starts lie. */
@@ -35,7 +36,7 @@ typedef struct problem {
     int without;                    /* the fold that is not fitted */
     double *column[COLUMNS];        /* of each row; NULL: the law has no such column */
     double *room;
-    double late;                    /* the delay of the columns */
+    double late, *x, *v, *a;        /* the motion, so much earlier */
     size_t free[UNKNOWNS], n_free;
     const double *given;            /* the unknowns where the fit starts */
     driven_fit now;                 /* evaluated last */
@@ -51,6 +52,11 @@ problem_new(problem *p, const driven_law *law, const driven *d, const char *fold
     for (int k = 0; k < COLUMNS; k++)
         if (k < (int)law->parts || (k >= VISCOUS && (k < SINE || d->angle != 0)))
             p->column[k] = p->room + (size_t)k * d->n;
+    p->x = p->column[TILT];
+    p->v = p->column[VISCOUS];
+    p->a = p->column[INERTIA];
+    for (size_t i = 0; i < d->n; i++)
+        p->column[OFFSET][i] = 1;
     for (size_t k = 0; k < UNKNOWNS; k++)
         if (law->free >> k & 1 || (k == DELAY && d->most_delay > 0))
             p->free[p->n_free++] = k;
@@ -65,16 +71,22 @@ is_fitted(const problem *p, size_t i)
 
 /* --- the columns --------------------------------------------------------------------------- */
 
-/* Let a column be late by a time, by its slopes between rows. */
+/* The motion so much earlier: p->x, p->v and p->a, by cubics between rows.  A law that jumps then jumps between rows, too. */
 static void
-delay(const driven *d, double *c, double late)
+move_earlier(problem *p, double late)
 {
-    if (late > 0)
-        for (size_t i = d->n - 1; i > 0; i--)
-            c[i] -= late * (c[i] - c[i - 1]) / (d->t[i] - d->t[i - 1]);
-    else
-        for (size_t i = 0; i + 1 < d->n; i++)
-            c[i] -= late * (c[i + 1] - c[i]) / (d->t[i + 1] - d->t[i]);
+    const driven *d = p->d;
+    for (size_t i = 0, k = 0; i < d->n; i++) {
+        const double t = d->t[i] - late;
+        for (; k + 2 < d->n && d->t[k + 1] <= t; k++)
+            ;
+        const double h = d->t[k + 1] - d->t[k], s = fmax(-1, fmin((t - d->t[k]) / h, 2)), r = 1 - s;
+        const double of[4] = { r * r * (1 + 2 * s), s * s * (3 - 2 * s), r * r * s * h, -s * s * r * h };
+        p->x[i] = of[0] * d->x[k] + of[1] * d->x[k + 1] + of[2] * d->v[k] + of[3] * d->v[k + 1];
+        p->v[i] = of[0] * d->v[k] + of[1] * d->v[k + 1] + of[2] * d->a[k] + of[3] * d->a[k + 1];
+        p->a[i] = r * d->a[k] + s * d->a[k + 1];
+    }
+    p->late = late;
 }
 
 static void
@@ -89,29 +101,20 @@ fill_columns(problem *p, const double u[UNKNOWNS])
         p->law->numbers(number, u, ones);
         ss_driven_scene(&scene, p->law, number);
     }
+    if (u[DELAY] * d->step != p->late)
+        move_earlier(p, u[DELAY] * d->step);
     for (size_t i = 0; p->law->parts > 0 && i < d->n; i++) {
-        const piece q = { i > 0 ? d->x[i] - d->x[i - 1] : 0, i > 0 ? d->t[i] - d->t[i - 1] : 0, d->v[i], d->slow };
+        const piece q = { i > 0 ? p->x[i] - p->x[i - 1] : 0, i > 0 ? d->t[i] - d->t[i - 1] : 0, p->v[i], d->slow };
         scene.model->drive(&scene, &memory, &q, part);
         p->column[PART][i] = p->law->parts > 1 ? part[0] : part[0] + part[1];
         if (p->law->parts > 1)
             p->column[PART + 1][i] = part[1];
     }
-    const int is_same = u[DELAY] == p->late;        /* what stands beside the law depends on the delay only */
-    for (size_t i = 0; i < d->n && !is_same; i++) {
-        double angle = (d->middle + d->x[i] * d->length) * d->angle;
-        p->column[VISCOUS][i] = d->v[i];
-        p->column[OFFSET][i] = 1;
-        p->column[TILT][i] = d->x[i];
-        p->column[INERTIA][i] = d->a[i];
-        if (p->column[SINE] != NULL) {
-            p->column[SINE][i] = sin(angle);
-            p->column[COSINE][i] = cos(angle);
-        }
+    for (size_t i = 0; i < d->n && p->column[SINE] != NULL; i++) {
+        double angle = (d->middle + p->x[i] * d->length) * d->angle;
+        p->column[SINE][i] = sin(angle);
+        p->column[COSINE][i] = cos(angle);
     }
-    for (int k = 0; k < COLUMNS; k++)
-        if (p->column[k] != NULL && k != OFFSET && u[DELAY] != 0 && (k < VISCOUS || !is_same))
-            delay(d, p->column[k], u[DELAY] * d->step);
-    p->late = u[DELAY];
 }
 
 /* --- the amplitudes ------------------------------------------------------------------------ */
@@ -220,6 +223,12 @@ range_of(const problem *p, size_t unknown)
     return unknown == DELAY ? (ss_range){ -p->d->most_delay, p->d->most_delay } : ranges[unknown];
 }
 
+static double
+nudge_of(size_t unknown)
+{
+    return unknown == DELAY ? NUDGE_DELAY : NUDGE;
+}
+
 /* Improve a fit; the columns are then its own. */
 static ss_status
 improve(problem *p, driven_fit *fit)
@@ -236,7 +245,7 @@ improve(problem *p, driven_fit *fit)
     for (size_t k = 0; k < p->n_free; k++) {
         range[k] = range_of(p, p->free[k]);
         u[k] = fmax(range[k].from, fmin(fit->u[p->free[k]], range[k].to));
-        difference[k] = u[k] > (range[k].from + range[k].to) / 2 ? -NUDGE : NUDGE;
+        difference[k] = u[k] > (range[k].from + range[k].to) / 2 ? -nudge_of(p->free[k]) : nudge_of(p->free[k]);
     }
     const driven_fit start = *fit;
     p->given = start.u;
@@ -324,7 +333,7 @@ find_covariance(problem *p, driven_result *r, double *slopes)
         memcpy(u, fit->u, sizeof u);
         if (u[k] <= range.from || u[k] >= range.to)
             continue;               /* it is held there */
-        double nudge = u[k] + NUDGE < range.to ? NUDGE : -NUDGE;
+        double nudge = u[k] + nudge_of(k) < range.to ? nudge_of(k) : -nudge_of(k);
         u[k] += nudge;
         fill_columns(p, u);
         for (size_t i = 0; i < d->n; i++)

@@ -214,7 +214,7 @@ find_numbers(ss_motion_ranking *out, const driven_result *r, const driven *d, co
             by[UNKNOWNS + k] = size;
             add_number(out, beside[k].name, size * fit->c[k], by, r, beside[k].unit, force, length);
         }
-    if (d->most_delay > 0) {
+    if (r->covariance[DELAY][DELAY] > 0 && r->covariance[DELAY][DELAY] < d->most_delay * d->most_delay) {
         double by[N] = { 0 };
         by[DELAY] = d->step * d->length / d->speed;
         add_number(out, "delay", by[DELAY] * fit->u[DELAY], by, r, "s", force, length);
