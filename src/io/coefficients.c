@@ -13,7 +13,6 @@
 #include "base/number.h"
 #include "base/list.h"
 #include "map/plan.h"
-#include "io/coefficient_rows.h"
 #include "io/reader.h"
 
 /* A scale of which rows have been read. */

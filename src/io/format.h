@@ -87,6 +87,9 @@ ss_status ss_format_open(ss_source **out, const struct opening *o, ss_error *err
 /* The format of a file that only its path opens; NULL: it is a stream, or there is none. */
 const struct format *ss_format_of_file(const char *path);
 
+enum { COEFFICIENT_COLUMNS = 7 };
+extern const char *const ss_coefficient_columns[COEFFICIENT_COLUMNS][2];        /* name and unit */
+
 /* Refuse an option for delimited text alone. */
 ss_status ss_refuse_table(const char *name, const ss_read_opts *opts, ss_error *err);
 /* Refuse it, and options for input without a clock; this input has the rate own. */

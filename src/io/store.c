@@ -1,5 +1,5 @@
 /* store.c -- HDF5 as a format, without the HDF5 library, which only the functions of ss_store_calls need. */
-#include "io/store.h"
+#include "io/writer.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,18 +8,15 @@
 #include <string.h>
 #include "base/error.h"
 #include "map/plan.h"
-#include "io/coefficient_rows.h"
 #include "io/format.h"
-#include "io/output.h"
 #include "io/record.h"
-#include "io/store.h"
 #include "signal/gaps.h"
 #include "motion/kind.h"
 
 const char *const ss_coefficient_columns[COEFFICIENT_COLUMNS][2] = {
     { "m", "" }, { "a", "s" }, { "b", "s" }, { "f", "Hz" }, { "re", "" }, { "im", "" }, { "edge", "" } };
 
-enum { LONGEST = COEFFICIENT_COLUMNS * SS_NUMBER_MAX };
+enum { ROOM = 1 << 16, LONGEST = COEFFICIENT_COLUMNS * SS_NUMBER_MAX };
 
 struct stream {
     ss_writer base;
@@ -33,22 +30,27 @@ struct stream {
     size_t n_gaps;
     int open_end;               /* of coefficients: the length of the record comes last */
     struct rows rows;           /* of events */
-    struct output out;          /* empty between calls */
+    struct {                    /* bytes that will be written; none between calls */
+        FILE *file;
+        size_t used;
+        char buffer[ROOM];
+    } out;
 };
 
 /* Write the buffer, and report what failed. */
 static ss_status
 drain(struct stream *s, ss_error *err)
 {
-    ss_status st = ss_output_drain(&s->out);
-    return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
+    size_t n = s->out.used;
+    s->out.used = 0;
+    return fwrite(s->out.buffer, 1, n, s->out.file) == n ? SS_OK : ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO));
 }
 
 /* Write the name of a cell, if it has one. */
 static ss_status
 name_cell(struct stream *s, const char *name, int first, ss_error *err)
 {
-    ss_status st = s->format->key != NULL || s->out.used > OUTPUT_ROOM - SS_NUMBER_MAX ? drain(s, err) : SS_OK;
+    ss_status st = s->format->key != NULL || s->out.used > ROOM - SS_NUMBER_MAX ? drain(s, err) : SS_OK;
     if (s->format->key != NULL)
         s->format->key(s->out.file, name, first);
     return st;
@@ -60,7 +62,7 @@ write_samples(ss_writer *w, double *const column[], size_t n, ss_error *err)
     struct stream *s = (struct stream *)w;
     size_t (*number)(char *, double, int) = s->format->number;
     const size_t time = s->has_time, cells = s->columns + time;
-    char *to = s->out.buffer + s->out.used, *const last = s->out.buffer + OUTPUT_ROOM - SS_NUMBER_MAX;
+    char *to = s->out.buffer + s->out.used, *const last = s->out.buffer + ROOM - SS_NUMBER_MAX;
     for (size_t i = 0; s->holds == SAMPLES && i < n; i++, s->row++)
         for (size_t k = 0; k < cells; k++) {
             if (to > last || s->names != NULL) {
@@ -108,7 +110,7 @@ write_coefficients(ss_writer *w, const ss_scale *scale, size_t first, size_t n, 
         to += number(to, c[1], 0);
         to += number(to, edge, 1);
         s->out.used = (size_t)(to - s->out.buffer);
-        if (s->out.used > OUTPUT_ROOM - LONGEST)
+        if (s->out.used > ROOM - LONGEST)
             st = drain(s, err);
     }
     return st == SS_OK ? drain(s, err) : st;
@@ -158,7 +160,7 @@ end_stream(ss_writer *w, size_t samples, ss_error *err)
     ss_status st = drain(s, err);
     if (st == SS_OK && s->format->end != NULL)
         st = s->format->end(s->out.file, s->rate, s->columns, s->row, err);
-    if (st == SS_OK && ss_output_flush(s->out.file) != SS_OK)
+    if (st == SS_OK && (fflush(s->out.file) != 0 || ferror(s->out.file)))
         st = ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO));
     return st;
 }

@@ -15,7 +15,6 @@
 #include "base/list.h"
 #include "base/versions.h"
 #include "io/hdf5/h5_write.h"
-#include "io/store.h"
 #include "io/writer.h"
 #include "map/wavelet.h"
 #include "motion/kind.h"
