@@ -1,5 +1,5 @@
 /* contour.c -- draw contours of |W| in decibels over time and frequency, below the signal: the
- * script, its axes and the cone of influence. */
+ * script, its axes, the cone of influence, and the marks of events and features. */
 #include "plot/contour.h"
 #include "plot/series.h"
 #include "plot/style.h"
@@ -26,6 +26,13 @@ ss_contour_opts_init(ss_contour_opts *opts, size_t size)
 
 /* --- axes and cone --------------------------------------------------------------------------- */
 
+/* Decimals of a frequency: six digits at least. */
+static int
+decimals_of(double f)
+{
+    return (int)fmax(6, 5 - floor(log10(f)));
+}
+
 /* Write one side of a shaded area: for the frequencies of band, the times that are sqrt(2) a after
  * t, or before t if the sign is -1, but not beyond stop. */
 static void
@@ -40,7 +47,7 @@ write_side(FILE *out, const script_span *span, double t, int sign, double stop, 
         double edge = t + sign * wavelet_cone(center / (2 * M_PI * f));
         edge = sign > 0 ? fmin(edge, stop) : fmax(edge, stop);
         ss_script_write(out, fmin(fmax(edge, span->from), span->to), decimals, " ");
-        ss_script_write(out, f, ss_contour_decimals(f), "\n");
+        ss_script_write(out, f, decimals_of(f), "\n");
     }
 }
 
@@ -94,6 +101,106 @@ write_frequency_tics(FILE *out, double lo, double hi)
     fputs(between[0] == ',' ? ")\n" : "", out);
 }
 
+/* --- marks: events and features, of which those outside the map are left out ---------------- */
+
+static int
+is_inside(const script_span *span, double t)
+{
+    return t >= span->from && t <= span->to;
+}
+
+static void
+write_time(FILE *out, const script_span *span, double t, const char *behind)
+{
+    ss_script_write(out, t, ss_script_decimals(span->to - span->from), behind);
+}
+
+size_t
+ss_contour_write_spans(FILE *out, const script_span *span, const ss_overlay *overlay)
+{
+    size_t n = 0;
+    double shortest = (span->to - span->from) / CONTOUR_COLUMNS * 2;        /* that is visible */
+    fputs("$spans << EOD\n", out);
+    for (size_t i = 0; i < overlay->n_spans; i++) {
+        double from = fmax(overlay->span[i][0], span->from);
+        double to = fmin(fmax(overlay->span[i][1], overlay->span[i][0] + shortest), span->to);
+        if (!(from <= to))
+            continue;
+        write_time(out, span, from, " ");
+        write_time(out, span, to, "\n");
+        n++;
+    }
+    fputs("EOD\n", out);
+    return n;
+}
+
+/* The number of marks of each kind that are drawn: an empty block is an error in gnuplot. */
+typedef struct marks {
+    size_t events, spans, spikes, maxima;
+} marks;
+
+/* Write datablocks of the events and the overlay inside the map. */
+static marks
+write_marks(FILE *out, const contour_map *map, const ss_contour_opts *contour)
+{
+    const script_span *span = map->span_of_time;
+    const ss_overlay *o = contour->overlay;
+    marks n = { 0 };
+    fputs(contour->n_events > 0 ? "$events << EOD\n" : "", out);
+    for (size_t i = 0; i < contour->n_events; i++)
+        if (is_inside(span, contour->event[i])) {
+            write_time(out, span, contour->event[i], " 0\n");
+            write_time(out, span, contour->event[i], " 1\n\n");
+            n.events++;
+        }
+    fputs(contour->n_events > 0 ? "EOD\n" : "", out);
+    if (o == NULL)
+        return n;
+    fputs("feature_colour = '" MARK_COLOUR "'; rim(part) = fmin*(fmax/fmin)**part\n", out);
+    n.spans = ss_contour_write_spans(out, span, o);
+    fputs("$spikes << EOD\n", out);
+    for (size_t i = 0; i < o->n_spikes; i++)
+        if (is_inside(span, o->spike[i])) {
+            write_time(out, span, o->spike[i], "\n");
+            n.spikes++;
+        }
+    fputs("EOD\n$maxima << EOD\n", out);
+    for (size_t i = 0; i < o->n_maxima; i++) {
+        double f = o->maximum[i][1];
+        if (is_inside(span, o->maximum[i][0]) && f >= map->f[0] && f <= map->f[map->rows - 1]) {
+            write_time(out, span, o->maximum[i][0], " ");
+            ss_script_write(out, f, decimals_of(f), "\n");
+            n.maxima++;
+        }
+    }
+    fputs("EOD\n", out);
+    return n;
+}
+
+/* NULL if every entry of an overlay can be drawn, else the name of the first that cannot. */
+static const char *
+find_unplaced(const ss_overlay *overlay)
+{
+    for (size_t i = 0; i < overlay->n_spans; i++)
+        if (!isfinite(overlay->span[i][0]) || !isfinite(overlay->span[i][1]))
+            return "transition";
+    for (size_t i = 0; i < overlay->n_maxima; i++)
+        if (!isfinite(overlay->maximum[i][0]) || !(overlay->maximum[i][1] > 0)
+            || isinf(overlay->maximum[i][1]))
+            return "maximum";
+    for (size_t i = 0; i < overlay->n_spikes; i++)
+        if (!isfinite(overlay->spike[i]))
+            return "spike";
+    return NULL;
+}
+
+ss_status
+ss_contour_check_overlay(const ss_overlay *overlay, ss_error *err)
+{
+    const char *what = overlay != NULL ? find_unplaced(overlay) : NULL;
+    return what == NULL ? SS_OK : ss_fail(err, SS_EINVAL, "a time or frequency of a %s is not finite", what);
+}
+
 /* --- the script ---------------------------------------------------------------------------- */
 
 #define ROOM 6.8                /* [ems] for the name of the signal, between "(a)" and "(b)" */
@@ -139,8 +246,8 @@ write_variables(FILE *out, const contour_map *map, const ss_contour_opts *contou
     if (!isnan(map->noise))
         ss_print(out, "noise = %g         # dB\n", map->noise);
     fputs("fmin = ", out);
-    ss_script_write(out, fmin, ss_contour_decimals(fmin), "    # Hz\nfmax = ");
-    ss_script_write(out, fmax, ss_contour_decimals(fmax), "  # Hz\n");
+    ss_script_write(out, fmin, decimals_of(fmin), "    # Hz\nfmax = ");
+    ss_script_write(out, fmax, decimals_of(fmax), "  # Hz\n");
     if (contour->palette == NULL && !contour->fill)
         fputs("colours = \"" LEVEL_COLOURS "\"\n", out);
     else
@@ -210,7 +317,7 @@ write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_
     size_t ridge = 0;
     ss_status st = SS_OK;
     write_cone(out, c, map->span_of_time, (const double[2]){ map->f[0], map->f[map->rows - 1] });
-    contour_marks marks = ss_contour_write_marks(out, map, contour);
+    marks n = write_marks(out, map, contour);
     if (contour->ridge) {
         fputs("ridge_colour = '" MARK_COLOUR "'\n", out);
         fputs("$ridge << EOD\n", out);
@@ -238,13 +345,24 @@ write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_
     ss_print(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
             "fs %s noborder lc rgb cone_colour", c->n_gaps + 1,
             contour->fill ? "transparent solid 0.6" : "solid 1");
-    ss_contour_plot_events(out, &marks);
+    if (n.events > 0)
+        fputs(", \\\n    $events using 1:($2 > 0 ? fmax : fmin) with lines lw 0.5 lc rgb event_colour", out);
     if (lines)
         ss_print(out, ", \\\n    for [i=1:words(drawn)] $contour index i-1 using 1:2 with lines %s",
                  contour->fill ? "lw 0.3 lc rgb line_colour" : "lw 1 lc palette cb -word(drawn,i)*step");
     if (ridge > 0)
         fputs(", \\\n    $ridge using 1:2 with points pt 7 ps 0.2*mark lc rgb ridge_colour", out);
-    ss_contour_plot_features(out, &marks);
+    /* bars and marks in the rims of the panel; rings in white and colour, visible on any ground */
+    if (n.spans > 0)
+        fputs(", \\\n    $spans using 1:(rim(0.02)):($2-$1):(0) with vectors nohead lw 3 "
+              "lc rgb feature_colour", out);
+    if (n.spikes > 0)
+        fputs(", \\\n    $spikes using 1:(rim(0.98)) with points pt 11 ps 0.6*mark "
+              "lc rgb feature_colour", out);
+    if (n.maxima > 0)
+        fputs(", \\\n    $maxima using 1:2 with points pt 7 ps 0.9*mark lc rgb 'white', \\\n"
+              "    $maxima using 1:2 with points pt 7 ps 0.7*mark lc rgb feature_colour, \\\n"
+              "    $maxima using 1:2 with points pt 7 ps 0.35*mark lc rgb 'white'", out);
     putc('\n', out);
     return st;
 }
@@ -284,8 +402,11 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
         return ss_fail_column(err, contour->column, signal->head->n_columns);
     if (c->w == NULL && c->source == NULL)
         return ss_fail(err, SS_EINVAL, "no coefficients, and no source of them");
+    for (size_t i = 0; i < contour->n_events; i++)
+        if (!isfinite(contour->event[i]))
+            return ss_fail(err, SS_EINVAL, "a time or frequency of an event is not finite");
     st = check_scales(c, err);
-    return st == SS_OK ? ss_contour_check_marks(contour, err) : st;
+    return st == SS_OK ? ss_contour_check_overlay(contour->overlay, err) : st;
 }
 
 /* Take the options and make the map, in a span of time that is the caller's. */

@@ -36,33 +36,11 @@ ss_status ss_contour_write_fill(FILE *out, const contour_map *map, int levels);
 size_t ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
                         void (*visit)(double t, double f, double level, void *user), void *user);
 
-/* Write a point of the map, given by column and row, as time and frequency, with the texts between
- * and behind them. */
-void ss_contour_write_point(FILE *out, const contour_map *map, const double point[2], char between,
-                            const char *behind);
-/* The next of n points, after first, that is needed to keep a line within a fraction of a pixel. */
-size_t ss_contour_next_point(const contour_map *map, const double (*point)[2], size_t n, size_t first);
-
-/* The number of marks of each kind that are drawn: an empty block is an error in gnuplot. */
-typedef struct contour_marks {
-    size_t events, spans, spikes, maxima;
-} contour_marks;
-
-/* Write datablocks of the events and the overlay inside the map. */
-contour_marks ss_contour_write_marks(FILE *out, const contour_map *map, const ss_contour_opts *contour);
-/* In the plot command: events lie behind the lines, features before them. */
-void ss_contour_plot_events(FILE *out, const contour_marks *marks);
-void ss_contour_plot_features(FILE *out, const contour_marks *marks);
-
 /* Write the datablock $spans, of two times a row, cut at the ends of span; returns the number of rows. */
 size_t ss_contour_write_spans(FILE *out, const script_span *span, const ss_overlay *overlay);
 
 /* SS_EINVAL: a time or frequency is not finite.  overlay may be NULL. */
-ss_status ss_contour_check_marks(const ss_contour_opts *contour, ss_error *err);
 ss_status ss_contour_check_overlay(const ss_overlay *overlay, ss_error *err);
-
-/* Decimals of a frequency: six digits at least. */
-int ss_contour_decimals(double f);
 
 int ss_palette_is_known(const char *name);
 /* The colour below all areas of a palette whose loudest level is light; NULL if it is dark: white paper. */
