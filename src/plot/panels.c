@@ -12,85 +12,40 @@
 #define TIME 1.0                /* and below them [cm] */
 #define ROOM 8.2                /* for the label of a panel [ems] */
 
-/* In the letters of the smallest label. */
-static void
-make_labels(trace t[], size_t n)
-{
-    double font = 1;
-    for (size_t i = 0; i < n; i++) {
-        ss_script_make_label(&t[i].label, t[i].column, t[i].scale, ROOM);
-        font = fmin(font, t[i].label.font);
-    }
-    for (size_t i = 0; i < n; i++)
-        t[i].label.font = font;
-}
-
-/* Another signal: its columns over some panels, and what the first panel's column has beyond it. */
-typedef struct layer {
-    trace *t, left;             /* left: of which column is NULL if there is no difference */
-    size_t *panel, n;
-} layer;
-
 typedef struct drawing {
     FILE *out;
     const ss_plot_opts *opts;
     const script_span *span;
     trace *t;
     size_t n;
-    layer layer[SS_PLOT_OVER];
-    size_t bands;               /* of features */
+    layer layer[SS_PLOT_OVER];          /* other signals: their columns over some panels, */
+    trace *over[SS_PLOT_OVER];
+    trace left[SS_PLOT_OVER];           /* and what the first panel's column has beyond them; of none: no column */
+    size_t bands;                       /* of features */
 } drawing;
 
-/* The name of the data of a trace of signal k over a panel. */
-static void
-name_over(char name[40], size_t k, size_t panel)
-{
-    if (panel == 0)
-        snprintf(name, 40, "$over%s", ss_script_number[k]);
-    else
-        snprintf(name, 40, "$over%s_panel%zu", ss_script_number[k], panel + 1);
-}
-
-/* Write the data of all panels, those over a panel in its scale, and widen its extent. */
+/* Write the data of all panels, those over a panel in its scale, and widen its extent.  All labels have the letters
+ * of the smallest, as the first. */
 static void
 write_data(drawing *d)
 {
     char name[40];
+    double font = 1;
     for (size_t i = 0; i < d->n; i++) {
         snprintf(name, sizeof name, "$panel%zu", i + 1);
         ss_trace_write(d->out, name, &d->t[i]);
+        ss_script_make_label(&d->t[i].label, d->t[i].column, d->t[i].scale, ROOM);
+        font = fmin(font, d->t[i].label.font);
     }
-    make_labels(d->t, d->n);
+    d->t[0].label.font = font;
     for (size_t k = 0; k < d->opts->n_over; k++)
         for (size_t m = 0; m < d->layer[k].n; m++) {
-            trace *over = &d->layer[k].t[m], *t = &d->t[d->layer[k].panel[m]];
+            trace *over = &d->over[k][m], *t = &d->t[d->layer[k].panel[m]];
             over->scale = t->scale;
-            name_over(name, k, d->layer[k].panel[m]);
+            ss_layer_name(name, k, d->layer[k].panel[m]);
             ss_trace_write(d->out, name, over);
             ss_script_widen(&t->extent, over->extent);
         }
-}
-
-/* A line of one sample would be invisible. */
-static void
-plot_panel(const drawing *d, size_t i)
-{
-    const char *by = d->span->n > 1 ? "lines" : "points pt 7 ps 1";
-    int titled = i == 0 && d->opts->n_over > 0;
-    ss_print(d->out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s",
-             d->bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes x1y2 with boxxyerror fill solid noborder "
-             "lc rgb feature_colour, " : "", i + 1, by, titled ? " title name" : "");
-    for (size_t k = 0; k < d->opts->n_over; k++) {
-        char name[60] = "NaN";                          /* an entry of the legend */
-        for (size_t m = 0; m < d->layer[k].n; m++)
-            if (d->layer[k].panel[m] == i) {
-                name_over(name, k, i);
-                strcat(name, " using 1:2");
-            }
-        if (titled || name[0] == '$')
-            ss_script_write_over(d->out, k, name, titled);
-    }
-    fputs(titled ? "\nunset key\n" : "\n", d->out);
 }
 
 /* The differences of all signals from the first panel, which have one scale and label. */
@@ -100,18 +55,18 @@ write_differences(drawing *d, trace *label, ss_error *err)
     trace all = { .extent = SCRIPT_NO_EXTENT };
     char name[] = "difference";
     for (size_t k = 0; k < d->opts->n_over; k++)
-        if (d->layer[k].left.column != NULL)
-            ss_script_widen(&all.extent, d->layer[k].left.extent);
+        if (d->left[k].column != NULL)
+            ss_script_widen(&all.extent, d->left[k].extent);
     if (!(all.extent.lo <= all.extent.hi))
         return ss_fail(err, SS_EINVAL, "no difference can be drawn: no other column lies over the first panel");
     all.scale = ss_script_scale(all.extent);
     ss_script_make_label(&all.label, &(ss_column){ name, d->t[0].column->unit }, all.scale, ROOM);
     for (size_t k = 0; k < d->opts->n_over; k++) {
         char block[24];
-        d->layer[k].left.scale = all.scale;
+        d->left[k].scale = all.scale;
         snprintf(block, sizeof block, "$difference%s", ss_script_number[k]);
-        if (d->layer[k].left.column != NULL)
-            ss_trace_write(d->out, block, &d->layer[k].left);
+        if (d->left[k].column != NULL)
+            ss_trace_write(d->out, block, &d->left[k]);
     }
     *label = all;
     return SS_OK;
@@ -122,7 +77,7 @@ plot_differences(const drawing *d)
 {
     const char *before = "plot ";
     for (size_t k = 0; k < d->opts->n_over; k++)
-        if (d->layer[k].left.column != NULL) {
+        if (d->left[k].column != NULL) {
             ss_print(d->out, "%s$difference%s using 1:2 with lines lw 1 lc rgb over%s", before, ss_script_number[k],
                      ss_script_number[k]);
             before = ", ";
@@ -155,7 +110,7 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     fputs("set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
           "set xtics tics; set xtics format ''\n", out);
     for (size_t k = 0; k < opts->n_over; k++)
-        first[k + 1] = d->layer[k].t[0].column;
+        first[k + 1] = d->over[k][0].column;
     if (opts->n_over > 0)
         ss_script_write_legend(out, opts, first);
     for (size_t i = 0; i < panels; i++) {
@@ -170,8 +125,10 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
         ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t->extent, t->scale), 5);
         if (is_left)
             plot_differences(d);
-        else
-            plot_panel(d, column);
+        else                            /* a line of one sample would be invisible */
+            ss_layers_plot(out, d->layer, opts, column, d->bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes x1y2 with "
+                           "boxxyerror fill solid noborder lc rgb feature_colour, " : "",
+                           d->span->n > 1 ? "lines" : "points pt 7 ps 1");
     }
     return ss_script_end(out);
 }
@@ -244,22 +201,14 @@ read_difference(trace *t, ss_reader *reader, size_t x, ss_reader *over, size_t y
 static ss_status
 read_layer(drawing *d, size_t k, ss_reader *reader, const size_t column[], ss_error *err)
 {
-    const ss_header *head = ss_reader_header(reader);
+    const layer *l = &d->layer[k];
     ss_reader *over = d->opts->over[k];
-    layer *l = &d->layer[k];
     script_span span;
-    size_t *index = malloc(d->n * sizeof *index);
-    l->t = calloc(d->n, sizeof *l->t);
-    l->panel = malloc(d->n * sizeof *l->panel);
-    ss_status st = index != NULL && l->t != NULL && l->panel != NULL ? SS_OK : ss_fail_memory(err, NULL);
-    if (st == SS_OK) {
-        l->n = ss_series_over(index, l->panel, head, column, d->n, ss_reader_header(over), d->opts->alike);
-        st = ss_traces_read(l->t, &span, over, index, l->n, head->start, d->opts, err);
-    }
-    if (st == SS_OK && d->opts->difference && l->panel[0] == 0)
-        st = read_difference(&l->left, reader, column[0], over, index[0], d->opts, err);
-    free(index);
-    return st;
+    d->over[k] = calloc(l->n, sizeof *d->over[k]);
+    ss_status st = d->over[k] == NULL ? ss_fail_memory(err, NULL)
+        : ss_traces_read(d->over[k], &span, over, l->column, l->n, ss_reader_header(reader)->start, d->opts, err);
+    return st == SS_OK && d->opts->difference && l->panel[0] == 0
+        ? read_difference(&d->left[k], reader, column[0], over, l->column[0], d->opts, err) : st;
 }
 
 ss_status
@@ -286,16 +235,18 @@ ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n, co
         index[i] = n > 0 ? column[i] : i;
     if (st == SS_OK)
         st = ss_traces_read(d.t, &span, reader, index, d.n, NAN, &own, err);
+    if (st == SS_OK)
+        st = ss_layers_find(d.layer, head, index, d.n, &own, err);
     for (size_t k = 0; st == SS_OK && k < own.n_over; k++)
         st = read_layer(&d, k, reader, index, err);
     if (st == SS_OK)
         st = write_panels(&d, head, err);
     for (size_t k = 0; k < SS_PLOT_OVER; k++) {
-        ss_traces_free(d.layer[k].t, d.layer[k].n);
-        ss_traces_free(&d.layer[k].left, 1);
-        free(d.layer[k].t);
-        free(d.layer[k].panel);
+        ss_traces_free(d.over[k], d.over[k] != NULL ? d.layer[k].n : 0);
+        ss_traces_free(&d.left[k], 1);
+        free(d.over[k]);
     }
+    ss_layers_free(d.layer);
     ss_traces_free(d.t, d.t != NULL ? d.n : 0);
     free(d.t);
     free(index);

@@ -102,21 +102,64 @@ ss_series_free(series *s)
     free(s->value);
 }
 
-size_t
-ss_series_over(size_t column[], size_t panel[], const ss_header *head, const size_t drawn[], size_t n,
-               const ss_header *over, int alike)
+/* --- layers --------------------------------------------------------------------------------- */
+
+ss_status
+ss_layers_find(layer l[SS_PLOT_OVER], const ss_header *head, const size_t drawn[], size_t n, const ss_plot_opts *opts,
+               ss_error *err)
 {
-    size_t found = 0;
-    for (size_t i = 0; i < n && alike; i++) {
-        int same = ss_header_column(over, head->column[drawn[i]].name);
-        if (same >= 0) {
-            column[found] = (size_t)same;
-            panel[found++] = i;
+    for (size_t k = 0; k < opts->n_over; k++, l++) {
+        const ss_header *over = ss_reader_header(opts->over[k]);
+        l->column = calloc(n, sizeof *l->column);
+        l->panel = calloc(n, sizeof *l->panel);
+        if (l->column == NULL || l->panel == NULL)
+            return ss_fail_memory(err, NULL);
+        for (size_t i = 0; i < n && opts->alike; i++) {
+            int same = ss_header_column(over, head->column[drawn[i]].name);
+            if (same >= 0) {
+                l->column[l->n] = (size_t)same;
+                l->panel[l->n++] = i;
+            }
         }
+        l->n += l->n == 0;                      /* the first column over the first panel */
     }
-    if (found == 0)
-        column[0] = panel[0] = 0;
-    return found > 0 ? found : 1;
+    return SS_OK;
+}
+
+void
+ss_layers_free(layer l[SS_PLOT_OVER])
+{
+    for (size_t k = 0; k < SS_PLOT_OVER; k++) {
+        free(l[k].column);
+        free(l[k].panel);
+    }
+}
+
+void
+ss_layer_name(char name[40], size_t k, size_t panel)
+{
+    int n = snprintf(name, 40, "$over%s", ss_script_number[k]);
+    if (panel > 0)
+        snprintf(name + n, 40 - (size_t)n, "_panel%zu", panel + 1);
+}
+
+void
+ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t panel, const char *before, const char *by)
+{
+    int titled = panel == 0 && opts->n_over > 0;
+    ss_print(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s", before, panel + 1, by,
+             titled ? " title name" : "");
+    for (size_t k = 0; k < opts->n_over; k++) {
+        char name[60] = "NaN";                          /* an entry of the legend */
+        for (size_t m = 0; m < l[k].n; m++)
+            if (l[k].panel[m] == panel) {
+                ss_layer_name(name, k, panel);
+                strcat(name, " using 1:2");
+            }
+        if (titled || name[0] == '$')
+            ss_script_write_over(out, k, name, titled);
+    }
+    fputs(titled ? "\nunset key\n" : "\n", out);
 }
 
 /* --- over time ------------------------------------------------------------------------------ */

@@ -36,10 +36,20 @@ ss_status ss_series_check(const ss_column *column, script_extent of_values, cons
 ss_status ss_series_rewind(series *s, ss_error *err);
 void ss_series_free(series *s);
 
-/* Which columns of another signal are drawn over these n of a signal, as ss_plot_opts.alike says: column[i] over
- * panel[i].  Returns their number, 1 to n. */
-size_t ss_series_over(size_t column[], size_t panel[], const ss_header *head, const size_t drawn[], size_t n,
-                      const ss_header *over, int alike);
+/* Another signal over n panels, as ss_plot_opts.alike says: its column[i] lies over panel[i]. */
+typedef struct layer {
+    size_t *column, *panel, n;  /* n: 1 or more */
+} layer;
+/* Find those of all signals of opts->over, for these columns of a signal; to be freed even after a failure. */
+ss_status ss_layers_find(layer l[SS_PLOT_OVER], const ss_header *head, const size_t drawn[], size_t n,
+                         const ss_plot_opts *opts, ss_error *err);
+void ss_layers_free(layer l[SS_PLOT_OVER]);
+/* The name of the block with the data of signal k over a panel. */
+void ss_layer_name(char name[40], size_t k, size_t panel);
+/* Plot the data of a panel, as lines or points, and all over it; the first panel has the legend.  before: what lies
+ * below them in the plot command, with a comma. */
+void ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t panel, const char *before,
+                    const char *by);
 
 enum { BLOCKS = 2048 };         /* of a column; more than a picture has columns of pixels, even when half full */
 

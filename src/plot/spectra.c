@@ -111,70 +111,19 @@ extent_of(const ss_spectrum *s)
     return e;
 }
 
-/* The spectra of another signal over some panels. */
-typedef struct layer {
-    ss_spectrum **s;
-    size_t *column, *panel, n;
-} layer;
-
-static ss_status
-read_layer(layer *l, ss_reader *over, const ss_header *head, const size_t column[], size_t n,
-           const ss_plot_opts *opts, ss_error *err)
-{
-    l->s = calloc(n, sizeof *l->s);
-    l->column = malloc(n * sizeof *l->column);
-    l->panel = malloc(n * sizeof *l->panel);
-    if (l->s == NULL || l->column == NULL || l->panel == NULL)
-        return ss_fail_memory(err, NULL);
-    l->n = ss_series_over(l->column, l->panel, head, column, n, ss_reader_header(over), opts->alike);
-    return ss_plot_spectra(l->s, over, l->column, l->n, opts, err);
-}
-
-static void
-free_layer(layer *l)
-{
-    for (size_t i = 0; i < l->n; i++)
-        ss_spectrum_free(l->s[i]);
-    free(l->s);
-    free(l->column);
-    free(l->panel);
-}
-
-/* The spectrum of signal k over a panel; NULL: none. */
+/* The spectrum of a signal over a panel; NULL: none. */
 static const ss_spectrum *
-over_panel(const layer *l, size_t panel)
+over_panel(const layer *l, ss_spectrum *const spectrum[], size_t panel)
 {
     for (size_t m = 0; m < l->n; m++)
         if (l->panel[m] == panel)
-            return l->s[m];
+            return spectrum[m];
     return NULL;
-}
-
-/* Panel i and the spectra over it, whose extent is e. */
-static void
-plot_panel(FILE *out, const layer layers[], const ss_plot_opts *opts, size_t i, script_extent e)
-{
-    int titled = i == 0 && opts->n_over > 0;
-    if (!(e.lo <= e.hi)) {
-        fputs("set label 2 '0 at all frequencies' at graph 0.5,0.5 center; set yrange [0.1:1]; set ytics (0)\n"
-              "plot NaN; set yrange [*:*]; set ytics autofreq; unset label 2\n", out);
-        return;
-    }
-    ss_print(out, "plot $panel%zu using 1:2 with lines lw 1 lc rgb colour%s", i + 1, titled ? " title name" : "");
-    for (size_t k = 0; k < opts->n_over; k++) {
-        char block[60] = "NaN";
-        int is_there = over_panel(&layers[k], i) != NULL;
-        if (is_there)
-            snprintf(block, sizeof block, "$over%s_panel%zu using 1:2", ss_script_number[k], i + 1);
-        if (is_there || titled)
-            ss_script_write_over(out, k, block, titled);
-    }
-    fputs(titled ? "\nunset key\n" : "\n", out);
 }
 
 static ss_status
 write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, ss_spectrum *const spectrum[],
-             const layer layers[], const ss_plot_opts *opts, ss_error *err)
+             const layer layers[], ss_spectrum **const over_them[], const ss_plot_opts *opts, ss_error *err)
 {
     double font = 1, legend = ss_script_legend(opts), from = spectrum[0]->step, to = 0;
     char name[40];
@@ -188,7 +137,7 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
     stack.top -= legend;
     to = (double)(s->n - 1) * s->step;
     for (size_t k = 0; k < opts->n_over; k++) {
-        over = layers[k].s[0];
+        over = over_them[k][0];
         from = fmin(from, over->step);
         to = fmax(to, (double)(over->n - 1) * over->step);
         first[k + 1] = &ss_reader_header(opts->over[k])->column[layers[k].column[0]];
@@ -200,8 +149,8 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
         snprintf(name, sizeof name, "$panel%zu", i + 1);
         write_densities(out, name, spectrum[i], opts->decibels);
         for (size_t k = 0; k < opts->n_over; k++) {
-            snprintf(name, sizeof name, "$over%s_panel%zu", ss_script_number[k], i + 1);
-            if ((over = over_panel(&layers[k], i)) != NULL)
+            ss_layer_name(name, k, i);
+            if ((over = over_panel(&layers[k], over_them[k], i)) != NULL)
                 write_densities(out, name, over, opts->decibels);
         }
         label_of(&label, &head->column[column[i]], opts->decibels);
@@ -215,7 +164,7 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
         script_extent e = extent_of(spectrum[i]);
         double gap = i + 1 < n ? 0.08 * PANEL : 0;
         for (size_t k = 0; k < opts->n_over; k++)
-            if ((over = over_panel(&layers[k], i)) != NULL)
+            if ((over = over_panel(&layers[k], over_them[k], i)) != NULL)
                 ss_script_widen(&e, extent_of(over));
         if (!opts->decibels)
             ss_script_write_decade_range(out, e.lo, e.hi);
@@ -227,7 +176,11 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
         label_of(&label, &head->column[column[i]], opts->decibels);
         label.font = font;
         ss_script_write_panel(&stack, PANEL - gap, gap, &label);
-        plot_panel(out, layers, opts, i, e);
+        if (e.lo <= e.hi)
+            ss_layers_plot(out, layers, opts, i, "", "lines");
+        else
+            fputs("set label 2 '0 at all frequencies' at graph 0.5,0.5 center; set yrange [0.1:1]; set ytics (0)\n"
+                  "plot NaN; set yrange [*:*]; set ytics autofreq; unset label 2\n", out);
     }
     return ss_script_end(out);
 }
@@ -238,6 +191,7 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
 {
     ss_plot_opts own;
     layer layers[SS_PLOT_OVER] = { { .n = 0 } };
+    ss_spectrum **over[SS_PLOT_OVER] = { NULL };
     if (out == NULL || head == NULL || column == NULL || spectrum == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_script_take(&own, given, err);
@@ -245,11 +199,20 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
         st = ss_script_check_over(&own, err);
     if (st == SS_OK && n == 0)
         st = ss_fail(err, SS_EINVAL, "no columns to draw");
-    for (size_t k = 0; st == SS_OK && k < own.n_over; k++)
-        st = read_layer(&layers[k], own.over[k], head, column, n, &own, err);
     if (st == SS_OK)
-        st = write_panels(out, head, column, n, spectrum, layers, &own, err);
-    for (size_t k = 0; k < SS_PLOT_OVER; k++)
-        free_layer(&layers[k]);
+        st = ss_layers_find(layers, head, column, n, &own, err);
+    for (size_t k = 0; st == SS_OK && k < own.n_over; k++) {
+        over[k] = calloc(layers[k].n, sizeof *over[k]);
+        st = over[k] == NULL ? ss_fail_memory(err, NULL)
+            : ss_plot_spectra(over[k], own.over[k], layers[k].column, layers[k].n, &own, err);
+    }
+    if (st == SS_OK)
+        st = write_panels(out, head, column, n, spectrum, layers, over, &own, err);
+    for (size_t k = 0; k < SS_PLOT_OVER; k++) {
+        for (size_t i = 0; over[k] != NULL && i < layers[k].n; i++)
+            ss_spectrum_free(over[k][i]);
+        free(over[k]);
+    }
+    ss_layers_free(layers);
     return st;
 }
