@@ -19,7 +19,7 @@
 #include "io/table.h"
 #include "find/events.h"
 #include "find/numbers.h"
-#include "study/trade/common.h"
+#include "study/trade/trade.h"
 #include "motion/kind.h"
 #include "scene/scene.h"
 

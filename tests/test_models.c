@@ -13,7 +13,7 @@
 #include "shipped.h"
 #include "unit.h"
 #include "scene/key.h"
-#include "study/trade/common.h"
+#include "study/trade/trade.h"
 
 static ss_models *
 models_of(const ss_scene *scene)

@@ -5,7 +5,7 @@
  * contain at most one each, and located to 1e-9 of the part; the error of their value is the
  * square of this.  The work is f_k |dx| in slip, elsewhere a Gauss quadrature of f v, of order 10
  * in each part. */
-#include "study/sweep/meter.h"
+#include "study/sweep/sweep.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,13 +54,6 @@ point_at(walk *w, double s)
     double q[MAX_DIM], dqdt[MAX_DIM];
     ss_walk_at(w, s, q, dqdt);
     return point_of(w, s, q, dqdt);
-}
-
-static point
-point_at_start(walk *w)
-{
-    static const double none[MAX_DIM] = { 0 };
-    return point_of(w, 0, w->m.now.q, w->still ? none : w->e->dq0);
 }
 
 static void
@@ -116,17 +109,6 @@ in_transition(const state *m, const point *p)
     return m->model->in_transition != NULL && m->model->in_transition(m, p->slip);
 }
 
-static void
-count_extremum_of_a(meter *r, const state *m, const point *p)
-{
-    double t = r->time + p->s;
-    if (!in_transition(m, p))
-        return;
-    if (r->now.n++ == 0)
-        r->now.first = t;
-    r->now.last = t;
-}
-
 /* Add the spacings of a transition's extrema.  Fewer than three are no oscillation, since the base alone
  * causes two. */
 static void
@@ -165,28 +147,20 @@ end_transition(meter *r, int closes)
     count_ring(r, &joined);
 }
 
-/* The power of the friction at s. */
-static double
-power_at(walk *w, double s)
-{
-    const state *m = &w->m.now;
-    double q[MAX_DIM], dqdt[MAX_DIM];
-    ss_sample sample;
-    ss_walk_at(w, s, q, dqdt);
-    m->model->sample(m, base_force(m, m->u + s), q, dqdt, &sample);
-    return sample.f * sample.v;
-}
-
 static double
 work_between(walk *w, double lo, double hi)
 {
     static const double node[] = { 0, 0.53846931010568309104, 0.90617984593866399280 };
     static const double weight[] = { 0.56888888888888888889, 0.47862867049936646804,
                                      0.23692688505618908751 };
+    const state *m = &w->m.now;
     double sum = 0, half = (hi - lo) / 2;
     for (int i = -2; i <= 2; i++) {
-        double s = lo + half + (i < 0 ? -1 : 1) * node[i < 0 ? -i : i] * half;
-        sum += weight[i < 0 ? -i : i] * power_at(w, s);
+        double s = lo + half + (i < 0 ? -1 : 1) * node[i < 0 ? -i : i] * half, q[MAX_DIM], dqdt[MAX_DIM];
+        ss_sample sample;
+        ss_walk_at(w, s, q, dqdt);
+        m->model->sample(m, base_force(m, m->u + s), q, dqdt, &sample);
+        sum += weight[i < 0 ? -i : i] * sample.f * sample.v;
     }
     return half * sum;
 }
@@ -200,8 +174,11 @@ measure_part(meter *r, walk *w, const point *lo, const point *hi)
         if ((r->wanted & by_rate[which]) && rate_of(lo, which) * rate_of(hi, which) < 0) {
             point p = extremum(w, *lo, *hi, which);
             widen_extremes(r, &p);
-            if (which == OF_A)
-                count_extremum_of_a(r, &w->m.now, &p);
+            if (which != OF_A || !in_transition(&w->m.now, &p))
+                continue;
+            r->now.last = r->time + p.s;
+            if (r->now.n++ == 0)
+                r->now.first = r->now.last;
         }
     if (!in_transition(&w->m.now, hi))
         leave_transition(r);
@@ -217,10 +194,10 @@ force_varies(const state *m)
 /* --- courses ------------------------------------------------------------------------------- */
 
 ss_status
-ss_course_begin(course *c, int cycles, double cycle)
+ss_course_begin(course *c, int n, double cycle)
 {
     ss_course_free(c);
-    *c = (course){ .cycles = cycles, .n = (size_t)cycles * COURSE_A_CYCLE, .interval = cycle / COURSE_A_CYCLE };
+    *c = (course){ .cycles = n, .n = (size_t)n * COURSE_A_CYCLE, .interval = cycle / COURSE_A_CYCLE };
     for (int i = 0; i < COURSE_COLUMNS; i++)
         if ((c->value[i] = malloc(c->n * sizeof **c->value)) == NULL)
             return SS_ENOMEM;
@@ -236,18 +213,6 @@ ss_course_free(course *c)
     }
 }
 
-/* Record the course along a leg that begins at this time. */
-static void
-record_course(course *c, walk *w, double time)
-{
-    for (double s; c->done < c->n && (s = (double)c->done * c->interval - time) < w->h; c->done++) {
-        point p = point_at(w, fmax(0, s));
-        const double row[COURSE_COLUMNS] = { p.x, p.v, p.a, p.f };
-        for (int i = 0; i < COURSE_COLUMNS; i++)
-            c->value[i][c->done] = row[i];
-    }
-}
-
 void
 ss_meter_leg(meter *r, walk *w)
 {
@@ -255,7 +220,8 @@ ss_meter_leg(meter *r, walk *w)
     size_t parts = still ? 1 : (size_t)ceil(w->h / ss_step_cap(&w->m.now));
     if (!w->m.now.model->linear && !still)
         parts *= 2;
-    point lo = point_at_start(w), first = lo;
+    static const double none[MAX_DIM] = { 0 };
+    point lo = point_of(w, 0, w->m.now.q, w->still ? none : w->e->dq0), first = lo;
     widen_extremes(r, &lo);
     for (size_t i = 1; i <= parts; i++) {
         point hi = point_at(w, i < parts ? w->h * (double)i / (double)parts : w->h);
@@ -269,8 +235,13 @@ ss_meter_leg(meter *r, walk *w)
     }
     if (!force_varies(&w->m.now))
         r->energy += w->m.now.f0 * (lo.slid - first.slid);
-    if (r->course != NULL)
-        record_course(r->course, w, r->time);
+    course *c = r->course;
+    for (double s; c != NULL && c->done < c->n && (s = (double)c->done * c->interval - r->time) < w->h; c->done++) {
+        point p = point_at(w, fmax(0, s));
+        const double row[COURSE_COLUMNS] = { p.x, p.v, p.a, p.f };
+        for (int i = 0; i < COURSE_COLUMNS; i++)
+            c->value[i][c->done] = row[i];
+    }
     r->time += w->h;
     if (w->m.now.mode == 0)
         r->stick += w->h;
@@ -292,20 +263,20 @@ ss_meter_event(meter *r, const ss_event *event)
 }
 
 void
-ss_meter_end(meter *r, int cycles, int closes, double value[])
+ss_meter_end(meter *r, int n, int closes, double value[])
 {
     if (closes && r->first_slip != 0 && r->first_slip == r->slip)
         r->microslips++;
     end_transition(r, closes);
-    value[SS_STOPS] = (double)r->stops / cycles;
+    value[SS_STOPS] = (double)r->stops / n;
     value[SS_STICK_FRACTION] = r->stick / r->time;
     value[SS_AMPLITUDE] = (r->x_hi - r->x_lo) / 2;
     value[SS_X_MAX] = fmax(fabs(r->x_hi), fabs(r->x_lo));
     value[SS_V_MAX] = r->v_max;
     value[SS_A_MAX] = r->a_max;
-    value[SS_ENERGY] = r->energy / cycles;
-    value[SS_MICROSLIPS] = (double)r->microslips / (2 * cycles);
-    value[SS_CYCLE_TIME] = r->time / cycles;
+    value[SS_ENERGY] = r->energy / n;
+    value[SS_MICROSLIPS] = (double)r->microslips / (2 * n);
+    value[SS_CYCLE_TIME] = r->time / n;
     value[SS_PEAK_VELOCITY] = r->v_max;
     value[SS_FORCE_DROP] = r->stiffness * (r->x_hi - r->x_lo);
     value[SS_TRANSITION] = r->spacings > 0 ? (double)r->spacings / (2 * r->spacing) : NAN;

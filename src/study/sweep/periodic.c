@@ -5,7 +5,7 @@
  * differences shrink gives the remaining distance, and a slow approach is not mistaken for the
  * limit.  Newton's method may replace the last part of the approach; it finds any motion that is near,
  * so what it finds is accepted only if it is the one that the motion approaches. */
-#include "study/sweep/periodic.h"
+#include "study/sweep/sweep.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,17 +26,6 @@ find_multipliers(finder *f, const motion *start, int period)
     double least = c->how->kind == CLOSED_FORM ? 1e-10 : 1e-6, time = period * value[SS_CYCLE_TIME];
     value[SS_LYAPUNOV] = value[SS_FLOQUET] > least ? log(value[SS_FLOQUET]) / time : NAN;
     value[SS_LYAPUNOV_ERROR] = 0;
-}
-
-static void
-record_strobes(finder *f, const motion *start, int n)
-{
-    ss_cycles_begin_at(&f->c, start);
-    for (int i = 0; f->c.status == SS_OK && i < n; i++) {
-        double v = speed_of(&f->c.w.m.now) + f->c.scene->surface_velocity;
-        f->out->strobe[f->out->n_strobes++] = (ss_strobe){ ss_section_of(&f->c.w.m).x, v };
-        ss_cycles_go(&f->c, 1, NULL);
-    }
 }
 
 /* Measure n further cycles; period is 0 if the motion does not return. */
@@ -70,9 +59,14 @@ measure_cycles(finder *f, int n, int period)
         ss_cycles_exponent(c, o->settle > 0 ? o->settle : o->max_cycles, &value[SS_LYAPUNOV],
                            &value[SS_LYAPUNOV_ERROR]);
     }
-    f->out->n_strobes = 0;
-    if (o->strobe > 0)
-        record_strobes(f, &start, period > 0 ? period : o->strobe);
+    int strobes = o->strobe > 0 && period > 0 ? period : o->strobe;
+    if (strobes > 0)
+        ss_cycles_begin_at(c, &start);
+    for (f->out->n_strobes = 0; c->status == SS_OK && f->out->n_strobes < (size_t)strobes; f->out->n_strobes++) {
+        double v = speed_of(&c->w.m.now) + c->scene->surface_velocity;
+        f->out->strobe[f->out->n_strobes] = (ss_strobe){ ss_section_of(&c->w.m).x, v };
+        ss_cycles_go(c, 1, NULL);
+    }
 }
 
 /* --- Newton's method ------------------------------------------------------------------------- */

@@ -11,7 +11,7 @@
 #include "io/input.h"
 #include "io/record.h"
 #include "motion/method.h"
-#include "study/sweep/grid.h"
+#include "study/sweep/sweep.h"
 
 /* 1 if this key is varied, or is not about the motion but about its record. */
 static int
@@ -42,14 +42,6 @@ write_scene(struct rows *rows, const ss_sweep_text *sweep)
     }
     free(text);
     return st;
-}
-
-static void
-write_axis(struct rows *rows, const ss_axis *axis)
-{
-    char from[SS_NUMBER_MAX], to[SS_NUMBER_MAX];
-    ss_rows_note(rows, "vary: %s=%s:%s:%zu%s", axis->key, ss_number_text(from, axis->from),
-                 ss_number_text(to, axis->to), axis->n, axis->log ? ":log" : "");
 }
 
 static void
@@ -125,6 +117,7 @@ static ss_status
 make_header(char **out, const ss_sweep_text *sweep, ss_error *err)
 {
     struct rows rows;
+    char from[SS_NUMBER_MAX], to[SS_NUMBER_MAX];
     size_t size;
     *out = NULL;
     FILE *text = open_memstream(out, &size);
@@ -134,8 +127,9 @@ make_header(char **out, const ss_sweep_text *sweep, ss_error *err)
     if (st == SS_OK) {
         ss_rows_note(&rows, "scene: %s", sweep->name);
         st = write_scene(&rows, sweep);
-        for (size_t i = 0; i < sweep->opts->n_axes; i++)
-            write_axis(&rows, &sweep->opts->axis[i]);
+        for (const ss_axis *a = sweep->opts->axis; a < sweep->opts->axis + sweep->opts->n_axes; a++)
+            ss_rows_note(&rows, "vary: %s=%s:%s:%zu%s", a->key, ss_number_text(from, a->from),
+                         ss_number_text(to, a->to), a->n, a->log ? ":log" : "");
         write_options(&rows, sweep->opts->steady, sweep->scene);
         write_row(&rows, sweep, &(ss_sweep_row){ .index = 0 }, NULL);           /* the names */
     }

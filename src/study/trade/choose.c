@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/range.h"
 #include "motion/method.h"
-#include "study/trade/runs.h"
+#include "study/trade/trade.h"
 
 #define OUTRAGEOUS 300              /* a method may take so many times the steps of the reference */
 

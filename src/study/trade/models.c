@@ -13,7 +13,7 @@
 #include "map/map.h"
 #include "motion/method.h"
 #include "study/curve.h"
-#include "study/trade/common.h"
+#include "study/trade/trade.h"
 
 static const ss_models_opts usual = { .size = sizeof usual, .span = 80, .threads = 1 };
 
@@ -129,54 +129,32 @@ simulate(const ss_scene *scene, portrait *p, double *seconds, ss_error *err)
     return st;
 }
 
+/* Simulate a scene, transform its record and find its features.  A record may have no usable scale. */
 static ss_status
-make_signal(portrait *p, const ss_scene *scene, ss_error *err)
+portray(portrait *p, const ss_scene *scene, const ss_models_opts *how, double *seconds, ss_error *err)
 {
     const ss_sim_columns columns = { 1, COLUMNS, { 0, 1, 2, 3 } };
     ss_header *head = NULL;
+    ss_morlet_opts transform = ss_morlet_defaults;
+    ss_features_opts opts;
+    *p = (portrait){ .seen = 0 };
     ss_status st = ss_sim_header(&head, scene, &columns, err);
     if (st == SS_OK)
         st = ss_signal_new(&p->signal, head, ss_scene_samples(scene), err);
     ss_header_free(head);
-    return st;
-}
-
-static ss_status
-make_map(portrait *p, const ss_models_opts *how, ss_error *err)
-{
-    ss_morlet_opts opts = ss_morlet_defaults;
-    opts.threads = how->threads;
-    ss_status st = ss_morlet_transform(&p->map, p->signal, A, &opts, err);
     if (st == SS_OK)
+        st = simulate(scene, p, seconds, err);
+    transform.threads = how->threads;
+    if (st == SS_OK && (st = ss_morlet_transform(&p->map, p->signal, A, &transform, err)) == SS_OK)
         p->largest = ss_coefficients_max(p->map);
-    return st == SS_ESCALE ? SS_OK : st;
-}
-
-static ss_status
-find_features(portrait *p, const ss_scene *scene, const ss_models_opts *how, ss_error *err)
-{
-    ss_features_opts opts;
     ss_features_opts_init(&opts, sizeof opts);
     opts.mass = scene->mass;
     opts.stiffness = scene->stiffness;
     opts.displacement = 0;
     opts.force = F;
     opts.threads = how->threads;
-    return ss_features_find(&p->features, p->signal, A, &opts, err);
-}
-
-/* Simulate a scene, transform its record and find its features. */
-static ss_status
-portray(portrait *p, const ss_scene *scene, const ss_models_opts *how, double *seconds, ss_error *err)
-{
-    *p = (portrait){ .seen = 0 };
-    ss_status st = make_signal(p, scene, err);
-    if (st == SS_OK)
-        st = simulate(scene, p, seconds, err);
-    if (st == SS_OK)
-        st = make_map(p, how, err);
-    if (st == SS_OK)
-        st = find_features(p, scene, how, err);
+    if (st == SS_OK || st == SS_ESCALE)
+        st = ss_features_find(&p->features, p->signal, A, &opts, err);
     for (size_t i = 0; st == SS_OK && i < p->signal->n; i++)    /* x is compared as x - U t */
         p->signal->values[i] -= scene->base_velocity * (scene->settle + (double)i / scene->rate);
     return st;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "study/trade/common.h"
+#include "study/trade/trade.h"
 
 #define ALIKE 1.2                   /* times within this factor differ by chance */
 

@@ -6,7 +6,7 @@
  * last bit, because two methods that round alike may agree on digits that the scene does not
  * determine. */
 #include "base/number.h"
-#include "study/trade/runs.h"
+#include "study/trade/trade.h"
 
 #include <float.h>
 #include <math.h>
@@ -19,7 +19,6 @@
 #include "base/progress.h"
 #include "motion/engine.h"
 #include "study/curve.h"
-#include "study/trade/common.h"
 
 /* At most so many samples are compared.  It is a prime, so that samples fall on all phases of the base
  * whatever number of its cycles the record has. */
@@ -57,23 +56,17 @@ ss_trade_cpu_time(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* x is compared as x - U t, which stays small. */
-static double
-pulled_by(const ss_scene *scene, double t)
-{
-    return scene->base_velocity * (scene->settle + t);
-}
-
 /* Keep one sample of each stride, at a place that varies (Knuth's multiplicative hash), so that all phases
  * are seen even if a stride is a whole number of periods. */
 static int
 keep_samples(const ss_sample *s, size_t n, void *user)
 {
     run *k = user;
+    const ss_scene *scene = &k->p->scene;
     for (size_t i = 0; i < n; i++, k->seen++) {
         size_t block = k->seen / k->p->stride, within = k->seen % k->p->stride;
         if (block < k->p->n && within == (uint32_t)block * UINT32_C(2654435761) % k->p->stride) {
-            k->x[block] = s[i].x - pulled_by(&k->p->scene, s[i].t);
+            k->x[block] = s[i].x - scene->base_velocity * (scene->settle + s[i].t);  /* it stays small */
             k->a[block] = s[i].a;
         }
     }

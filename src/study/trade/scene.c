@@ -6,8 +6,7 @@
 #include "base/progress.h"
 #include "base/sort.h"
 #include "motion/method.h"
-#include "study/trade/common.h"
-#include "study/trade/runs.h"
+#include "study/trade/trade.h"
 
 enum { REPEATS = 5 };               /* short rows are measured so many times */
 #define SHORT 0.1                   /* [s] */
@@ -40,23 +39,16 @@ typedef struct measurement {
     run ref, run;
 } measurement;
 
-static int
-keeps(const ss_trade_row *row, double accuracy)
-{
-    return row->status == SS_OK && row->missed == 0 && row->invented == 0
-        && MARGIN * row->error_x <= accuracy;
-}
-
 const ss_trade_row *
 ss_trade_cheapest(const ss_trade *trade, double accuracy)
 {
     if (trade == NULL)
         return NULL;
     const ss_trade_row *best = NULL;
-    for (size_t i = 0; i < trade->n; i++)
-        if (keeps(&trade->row[i], accuracy)
-            && (best == NULL || trade->row[i].seconds < best->seconds))
-            best = &trade->row[i];
+    for (const ss_trade_row *row = trade->row; row < trade->row + trade->n; row++)
+        if (row->status == SS_OK && row->missed == 0 && row->invented == 0 && MARGIN * row->error_x <= accuracy
+            && (best == NULL || row->seconds < best->seconds))
+            best = row;
     return best;
 }
 

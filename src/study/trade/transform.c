@@ -4,7 +4,7 @@
  * computed at random translations and at the largest |W|, where the features of the signal are.
  * Its time also gives an estimate for the definition on the whole grid, which is not begun if it
  * would take too long. */
-#include "study/trade/common.h"
+#include "study/trade/trade.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,7 +14,6 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "map/plan.h"
-#include "study/trade/runs.h"
 
 /* The first and the last accuracy are those of ss_trade_tolerance. */
 enum { EACH = 40, ENGINES = 3, LOOSEST = 1, TIGHTEST = 12, ROWS = ENGINES * (TIGHTEST - LOOSEST + 1) };

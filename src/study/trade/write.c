@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include "base/error.h"
 #include "io/record.h"
-#include "study/trade/common.h"
+#include "study/trade/trade.h"
 
 enum { DIGITS = 3 };            /* a measurement does not deserve more */
 

@@ -1,15 +1,73 @@
-/* cycles.h -- a motion cycle by cycle, and its derivative with respect to the state at its start.
+/* sweep.h -- a grid of scenes; their motion cycle by cycle, its measures, and the periodic state.
  *
  * A cycle is a cycle of the forcing.  In a scene without forcing (autonomous), it goes from one
  * onset of stick to the next, or where nothing sticks from one time at which the mass becomes slower than
  * its pull to the next; its duration may vary. */
-#ifndef CYCLES_H
-#define CYCLES_H
+#ifndef SWEEP_H
+#define SWEEP_H
 
 #include <float.h>
 #include <gsl/gsl_complex.h>
+#include <stickslip/sweep.h>
 #include "motion/method.h"
-#include "study/sweep/meter.h"
+#include "motion/walk.h"
+
+/* --- the grid (sweep.c) -------------------------------------------------------------------- */
+
+/* own and steady, to which it points then, become the caller's options. */
+ss_status ss_sweep_opts_take(ss_sweep_opts *own, ss_steady_opts *steady, const ss_sweep_opts *given,
+                             ss_error *err);
+/* The number of points in the grid; SS_EINVAL if there are none or too many. */
+ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
+/* The values of the axes at this point of the grid, whose last axis varies fastest. */
+void ss_sweep_values(const ss_sweep_opts *opts, size_t index, double value[]);
+
+/* --- measures along a walk (meter.c) ------------------------------------------------------- */
+
+#define MODEL_ERRORS (0xffu << SS_MODEL_ERROR_X)
+
+/* x - U t, v, a and f at equal times over some cycles. */
+enum { COURSE_COLUMNS = 4, COURSE_A_CYCLE = 2000 };
+typedef struct course {
+    int cycles;
+    size_t n, done;                 /* of samples */
+    double interval;                /* [s] */
+    double *value[COURSE_COLUMNS];
+} course;
+
+/* Make an empty course with room for so many cycles; to be freed with ss_course_free. */
+ss_status ss_course_begin(course *c, int n, double cycle);
+void ss_course_free(course *c);
+
+/* Extrema of a within one transition. */
+typedef struct ring {
+    size_t n;
+    double first, last;             /* times */
+} ring;
+
+typedef struct meter {
+    unsigned wanted;
+    course *course;                 /* NULL: not wanted */
+    int needs_course;               /* 1: the inside of the legs is needed, not only their ends */
+    double stiffness;
+    double time, stick, x_lo, x_hi, v_max, a_max, energy;
+    size_t stops, microslips;
+    int slip, first_slip;           /* directions of the last slip, and of the first one if the slip
+                                       before it is unknown */
+    ring now, begun_in;             /* begun_in: that of the transition in which the meter began */
+    int in_first;
+    double spacing;
+    size_t spacings;
+} meter;
+
+void ss_meter_begin(meter *r, unsigned wanted, const state *m);
+void ss_meter_leg(meter *r, walk *w);
+void ss_meter_event(meter *r, const ss_event *event);
+/* Compute the measures of so many cycles.  closes: 1 if they are a period.  A value that is not
+ * wanted may be wrong. */
+void ss_meter_end(meter *r, int n, int closes, double value[]);
+
+/* --- cycles, and their derivative with respect to the state at their start (cycles.c) ------ */
 
 /* The state at the start of a cycle: x - U t, v over the surface (the second number of a state that has none),
  * and y of the model (memory), 0 if it has none. */
@@ -80,5 +138,29 @@ ss_status ss_tangent_multipliers(const tangent *t, double *first, double *second
 /* The largest Lyapunov exponent over so many further cycles, and its standard error; NaN if a cycle has no
  * derivative. */
 void ss_cycles_exponent(cycles *c, unsigned long n, double *exponent, double *error);
+
+/* --- the periodic state (periodic.c) ------------------------------------------------------- */
+
+#define FLOQUET (1u << SS_FLOQUET | 1u << SS_FLOQUET_2 | 1u << SS_FLOQUET_ANGLE)
+#define LYAPUNOV (1u << SS_LYAPUNOV | 1u << SS_LYAPUNOV_ERROR)
+
+enum { SECTIONS = 2 * SS_PERIOD_MAX + 1 };
+
+typedef struct finder {
+    cycles c;
+    section last[SECTIONS];             /* the latest sections, in a ring */
+    unsigned long recorded;             /* sections so far */
+    ss_steady *out;
+    course course;                      /* of the cycles that were measured, if it is wanted */
+    double missed;                      /* distance from the start to the end of the measured cycles */
+    unsigned long unresolved;           /* events in these cycles: see ss_sim_stats */
+} finder;
+
+/* 1 if shooting is possible. */
+int ss_periodic_can_shoot(const ss_scene *scene, const struct method *how);
+/* Find the state, from f->c with scene, opts, how and err, and measure it into f->out.  Returns the
+ * status of f->c.  f is to be freed even after a failure. */
+ss_status ss_periodic_find(finder *f);
+void ss_periodic_free(finder *f);
 
 #endif
