@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include <stickslip.h>
-#include "study/sweep/sweep.h"
+#include "study/sweep/grid.h"
 #include "shipped.h"
 #include "unit.h"
 #include "io/table.h"

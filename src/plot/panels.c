@@ -42,7 +42,7 @@ write_data(drawing *d)
         for (size_t m = 0; m < d->layer[k].n; m++) {
             trace *over = &d->over[k][m], *t = &d->t[d->layer[k].panel[m]];
             over->scale = t->scale;
-            ss_layer_name(name, k, d->layer[k].panel[m]);
+            ss_layer_name(name, k, d->layer[k].panel[m], 1);
             ss_trace_write(d->out, name, over);
             ss_script_widen(&t->extent, over->extent);
         }
@@ -126,8 +126,8 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
         if (is_left)
             plot_differences(d);
         else                            /* a line of one sample would be invisible */
-            ss_layers_plot(out, d->layer, opts, column, d->bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes x1y2 with "
-                           "boxxyerror fill solid noborder lc rgb feature_colour, " : "",
+            ss_layers_plot(out, d->layer, opts, column, 1, d->bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes x1y2 "
+                           "with boxxyerror fill solid noborder lc rgb feature_colour, " : "",
                            d->span->n > 1 ? "lines" : "points pt 7 ps 1");
     }
     return ss_script_end(out);

@@ -136,15 +136,16 @@ ss_layers_free(layer l[SS_PLOT_OVER])
 }
 
 void
-ss_layer_name(char name[40], size_t k, size_t panel)
+ss_layer_name(char name[40], size_t k, size_t panel, int first)
 {
     int n = snprintf(name, 40, "$over%s", ss_script_number[k]);
-    if (panel > 0)
+    if (panel >= (size_t)first)
         snprintf(name + n, 40 - (size_t)n, "_panel%zu", panel + 1);
 }
 
 void
-ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t panel, const char *before, const char *by)
+ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t panel, int first, const char *before,
+               const char *by)
 {
     int titled = panel == 0 && opts->n_over > 0;
     ss_print(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s", before, panel + 1, by,
@@ -153,7 +154,7 @@ ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t pane
         char name[60] = "NaN";                          /* an entry of the legend */
         for (size_t m = 0; m < l[k].n; m++)
             if (l[k].panel[m] == panel) {
-                ss_layer_name(name, k, panel);
+                ss_layer_name(name, k, panel, first);
                 strcat(name, " using 1:2");
             }
         if (titled || name[0] == '$')

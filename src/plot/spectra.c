@@ -149,7 +149,7 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
         snprintf(name, sizeof name, "$panel%zu", i + 1);
         write_densities(out, name, spectrum[i], opts->decibels);
         for (size_t k = 0; k < opts->n_over; k++) {
-            ss_layer_name(name, k, i);
+            ss_layer_name(name, k, i, 0);
             if ((over = over_panel(&layers[k], over_them[k], i)) != NULL)
                 write_densities(out, name, over, opts->decibels);
         }
@@ -177,7 +177,7 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
         label.font = font;
         ss_script_write_panel(&stack, PANEL - gap, gap, &label);
         if (e.lo <= e.hi)
-            ss_layers_plot(out, layers, opts, i, "", "lines");
+            ss_layers_plot(out, layers, opts, i, 0, "", "lines");
         else
             fputs("set label 2 '0 at all frequencies' at graph 0.5,0.5 center; set yrange [0.1:1]; set ytics (0)\n"
                   "plot NaN; set yrange [*:*]; set ytics autofreq; unset label 2\n", out);

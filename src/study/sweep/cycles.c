@@ -7,7 +7,7 @@
  * removes one direction of the derivative.  If the engine has none, walks that start at neighbouring
  * states give it.  Without forcing and with true sticks it is 0: a stick lasts until the pull has
  * raised the force to f_s, and this happens at the same x - U t wherever the stick began. */
-#include "study/sweep/sweep.h"
+#include "study/sweep/cycles.h"
 
 #include <math.h>
 #include <string.h>

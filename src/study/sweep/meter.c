@@ -5,7 +5,7 @@
  * contain at most one each, and located to 1e-9 of the part; the error of their value is the
  * square of this.  The work is f_k |dx| in slip, elsewhere a Gauss quadrature of f v, of order 10
  * in each part. */
-#include "study/sweep/sweep.h"
+#include "study/sweep/cycles.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  * differences shrink gives the remaining distance, and a slow approach is not mistaken for the
  * limit.  Newton's method may replace the last part of the approach; it finds any motion that is near,
  * so what it finds is accepted only if it is the one that the motion approaches. */
-#include "study/sweep/sweep.h"
+#include "study/sweep/cycles.h"
 
 #include <math.h>
 #include <string.h>

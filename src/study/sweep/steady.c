@@ -7,7 +7,7 @@
 #include "base/range.h"
 #include "motion/method.h"
 #include "study/curve.h"
-#include "study/sweep/sweep.h"
+#include "study/sweep/cycles.h"
 
 const ss_range ss_steady_tolerances = { 1e-13, 0.1 };
 static const ss_steady_opts usual = { .size = sizeof usual, .tol = 1e-9, .max_period = 8, .max_cycles = 10000,

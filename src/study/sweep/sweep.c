@@ -13,7 +13,7 @@
 #include "scene/key.h"
 #include "base/pool.h"
 #include "base/progress.h"
-#include "study/sweep/sweep.h"
+#include "study/sweep/grid.h"
 
 static const ss_sweep_opts usual = { .size = sizeof usual, .shards = 1, .threads = 1 };
 

@@ -11,7 +11,7 @@
 #include "io/input.h"
 #include "io/record.h"
 #include "motion/method.h"
-#include "study/sweep/sweep.h"
+#include "study/sweep/grid.h"
 
 /* 1 if this key is varied, or is not about the motion but about its record. */
 static int

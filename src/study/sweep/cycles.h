@@ -1,26 +1,16 @@
-/* sweep.h -- a grid of scenes; their motion cycle by cycle, its measures, and the periodic state.
+/* cycles.h -- a motion cycle by cycle, its measures, and the periodic state.
  *
  * A cycle is a cycle of the forcing.  In a scene without forcing (autonomous), it goes from one
  * onset of stick to the next, or where nothing sticks from one time at which the mass becomes slower than
  * its pull to the next; its duration may vary. */
-#ifndef SWEEP_H
-#define SWEEP_H
+#ifndef CYCLES_H
+#define CYCLES_H
 
 #include <float.h>
 #include <gsl/gsl_complex.h>
 #include <stickslip/sweep.h>
 #include "motion/method.h"
 #include "motion/walk.h"
-
-/* --- the grid (sweep.c) -------------------------------------------------------------------- */
-
-/* own and steady, to which it points then, become the caller's options. */
-ss_status ss_sweep_opts_take(ss_sweep_opts *own, ss_steady_opts *steady, const ss_sweep_opts *given,
-                             ss_error *err);
-/* The number of points in the grid; SS_EINVAL if there are none or too many. */
-ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
-/* The values of the axes at this point of the grid, whose last axis varies fastest. */
-void ss_sweep_values(const ss_sweep_opts *opts, size_t index, double value[]);
 
 /* --- measures along a walk (meter.c) ------------------------------------------------------- */
 
