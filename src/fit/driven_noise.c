@@ -19,50 +19,39 @@
 #define SHARED 1e-4                     /* ridge of the terms of a free law, which are alike */
 enum { FEWEST = 100 };                  /* differences whose size is known */
 
-/* For each row the row of another passage that is nearest to it, or the row itself if it is left out. */
 ss_status
 ss_driven_partners(const driven *d, size_t *partner)
 {
-    double (*place)[4] = malloc(d->n * sizeof *place);
-    size_t *passage = malloc(d->n * sizeof *passage), turns = 0;
-    char *is_turn = malloc(d->n);
-    if (place == NULL || passage == NULL || is_turn == NULL) {
-        free(place);
-        free(passage);
-        free(is_turn);
+    typedef struct passing { double at[4]; size_t turns; } passing;
+    passing *p = malloc(d->n * (sizeof *p + 1));
+    char *is_turn = (char *)(p + d->n);
+    if (p == NULL)
         return SS_ENOMEM;
-    }
     ss_driven_turns(d, fmax(DRIVEN_TURN, d->least), is_turn);
-    for (size_t i = 0, last = 0, before = 0; i < d->n; i++) {
+    for (size_t i = 0, last = 0, before = 0, turns = 0; i < d->n; i++) {
         if (is_turn[i]) {
             before = last;
             last = i;
             turns++;
         }
-        place[i][0] = d->x[i];
-        place[i][1] = d->v[i];
-        place[i][2] = d->x[last];
-        place[i][3] = d->x[before];
-        passage[i] = turns;
+        p[i] = (passing){ { d->x[i], d->v[i], d->x[last], d->x[before] }, turns };
     }
     for (size_t i = 0; i < d->n; i++) {
         double nearest = INFINITY;
         partner[i] = i;
         for (size_t j = 0; j < d->n && d->used[i]; j++) {
             double distance = 0;
-            if (!d->used[j] || (passage[j] <= passage[i] + 1 && passage[i] <= passage[j] + 1))
+            if (!d->used[j] || (p[j].turns <= p[i].turns + 1 && p[i].turns <= p[j].turns + 1))
                 continue;
             for (int k = 0; k < 4; k++)
-                distance += (place[i][k] - place[j][k]) * (place[i][k] - place[j][k]);
+                distance += (p[i].at[k] - p[j].at[k]) * (p[i].at[k] - p[j].at[k]);
             if (distance < nearest) {
                 nearest = distance;
                 partner[i] = j;
             }
         }
     }
-    free(place);
-    free(passage);
-    free(is_turn);
+    free(p);
     return SS_OK;
 }
 

@@ -9,7 +9,7 @@
  * and speed follow from it and can be compared with those given.  With damping, or with another
  * model, slips have no closed form, or none with so few unknowns.  The scene is then simulated and
  * fitted to some slips together (pulled.c). */
-#include "fit/pull.h"
+#include "fit/pulled.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,8 +17,6 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "base/progress.h"
-#include "fit/pulled.h"
-#include "fit/column.h"
 #include "scene/model.h"
 
 enum { FITTED = 4 };            /* parameters of a slip */

@@ -3,7 +3,7 @@
  * A scene represents all rigs within the spread of its parameters.  Each scene is fitted to the same
  * samples by simulation, whatever its model, so that their residuals can be compared.  Of all masses,
  * stiffnesses and speeds with the same motion, those with the least change are chosen. */
-#include "fit/pull.h"
+#include "fit/pulled.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,6 @@
 #include "base/number.h"
 #include "base/progress.h"
 #include "fit/order.h"
-#include "fit/pulled.h"
 #include "scene/model.h"
 
 /* A scene and its fit to the falls. */

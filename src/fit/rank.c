@@ -11,8 +11,7 @@
 #include "base/progress.h"
 #include "fit/forced.h"
 #include "fit/order.h"
-#include "fit/pull.h"
-#include "fit/column.h"
+#include "fit/pulled.h"
 
 static ss_status
 check(const ss_signal *signal, size_t column, size_t n, const ss_rank_opts *opts, ss_error *err)

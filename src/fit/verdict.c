@@ -2,8 +2,8 @@
  *
  * * Scenes are fitted to all samples: one explains them if it leaves no more than noise.
  *
- * * A law is judged by what it leaves where it was not fitted.  The simplest law that is as good as the best is
- * named, if it is not refuted; if another as good does not contain it, nobody can tell.
+ * * A law is judged by what it leaves where it was not fitted.  Of those as good as the best and not refuted the
+ * simplest is named; if another does not contain it, nobody can tell.
  *
  * * A law is refuted if a free law predicts significantly more: then a law is missing.  A real contact is no law;
  * its friction wanders, its rig has play.  Of this a free law predicts no more; but a part of what is left must be
@@ -99,35 +99,31 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
 {
     char names[128] = "", number[SS_NUMBER_MAX], times[SS_NUMBER_MAX];
     size_t count = 0, simplest = 0;
-    unsigned tied = 0;
+    unsigned fit = 0;
     *best = 0;
     for (size_t i = 1; i < n; i++)
         *best = c[i].left < c[*best].left ? i : *best;
     const candidate *most = &c[*best];
     for (size_t i = 0; i < n; i++) {
         c[i].tied = c[i].left - most->left <= AS_GOOD * most->left || errors_behind(&c[i], most, power) <= 2;
-        tied |= c[i].tied ? c[i].law : 0;
+        fit |= c[i].tied && !is_refuted(&c[i]) ? c[i].law : 0;
     }
     for (size_t i = 0; i < n; i++)
-        if (c[i].tied && (c[i].contains & tied) == 0) {
+        if ((c[i].law & fit) != 0 && (c[i].contains & fit) == 0) {
             simplest = i;
             count++;
             ss_verdict_append(names, sizeof names, c[i].name);
         }
     ss_number_fixed(number, 1 - most->left, 4);
-    if (c[0].tied || 1 - most->left < EXPLAINED) {
-        snprintf(answer, room, "none of these: %s%s explains %s of the force that was held out",
-                 c[0].tied ? "no law explains more than the null; " : "", most->name, number);
-        return SS_NONE_FITS;
-    }
-    const candidate *judged = count == 1 ? &c[simplest] : most;
-    if (is_refuted(judged)) {
-        const double beyond = judged->fitted / ss_verdict_noise(judged);
+    if (c[0].tied || 1 - most->left < EXPLAINED || count == 0) {
+        const double beyond = most->fitted / ss_verdict_noise(most);
         const int is_noisy = beyond > BEYOND_NOISE;
-        ss_number_rounded(times, is_noisy ? beyond : judged->better, 3);
-        snprintf(answer, room, "none of these: %s explains %s of the force that was held out, but %s %s %s",
-                 judged->name, ss_number_fixed(number, 1 - judged->left, 4), is_noisy ? "leaves" : "a free law predicts more, by", times,
-                 is_noisy ? "times the noise" : "errors");
+        int length = snprintf(answer, room, "none of these: %s%s explains %s of the force that was held out",
+                              c[0].tied ? "no law explains more than the null; " : "", most->name, number);
+        ss_number_rounded(times, is_noisy ? beyond : most->better, 3);
+        if (count == 0)
+            snprintf(answer + length, room - (size_t)length, ", but %s %s %s", is_noisy ? "leaves"
+                     : "a free law predicts more, by", times, is_noisy ? "times the noise" : "errors");
         return SS_NONE_FITS;
     }
     if (count > 1) {
