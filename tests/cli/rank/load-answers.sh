@@ -25,3 +25,11 @@ ss-rank --load load --column shear --normal-stress normal step.csv | show
 ss-rank --load load --column mu --set stiffness=1500 step.csv | grep stiffness:
 ss-rank --load load --column mu --scale load=1e-3 --unit load=mm step.csv | show
 ss-rank --load load --column mu --from 50 --to 180 --format csv step.csv | cut -d , -f 1,2
+# Drawn: path, friction, and of each law its friction and what it leaves, of which the right one leaves less.
+ss-rank --load load --column mu step.csv -o step.gp
+grep -c '^\$step' step.gp
+awk '/^[$]step0/ { on = 1; next } /^EOD/ { on = 0 }
+    on { n++; path = $1
+         for (k = 3; k < 6; k += 2) { d = $2 - $k; l = $(k + 1); dd[k] += d * d; ll[k] += l * l; dl[k] += d * l } }
+    END { print (n > 200), (path > 540 && path < 549.1), (dl[3] > .9 * sqrt(dd[3] * ll[3])),
+              (dl[5] > .9 * sqrt(dd[5] * ll[5])), (ll[3] < ll[5]) }' step.gp
