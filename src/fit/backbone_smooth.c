@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WALKS = 12, PASSES = 4, PARTS = 4 };
+enum { WALKS = 12, PASSES = 4, MOST_PASSES = 20, PARTS = 4 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
 #define FAR 1.0                 /* the most by which ln s and p change in a pass */
 #define SMALL .005              /* damping over its mean below which its logarithm is none */
@@ -202,12 +202,13 @@ ss_place_walk(place *at, double v)
     memcpy(at->walk, w, sizeof w);
 }
 
-/* One pass through ln A: the curve is moved to what is smooth about it. */
-static void
+/* One pass through ln A: the curve is moved to what is smooth about it.  Returns 1 if some of it should move farther. */
+static int
 smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], double (*lost)[2])
 {
     double start[STATES][STATES] = { { 100 }, { 0, 100 }, { 0, 0, 4 } };
     place end;
+    int is_far = 0;
     for (size_t i = 0; i < n; i++) {
         double gain = hypot(b[i].at.s, small), x[3], moved[2][3], ignore[2];
         p[i] = (place){ .see = { { 1 }, { 0, -gain }, { 0, 0, 1 } } };
@@ -236,7 +237,9 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
     for (size_t i = 0; i < n; i++) {
         double *to = level[i], gain = hypot(b[i].at.s, small);
         to[0] = b[i].level = p[i].mean[0];
-        to[1] += fmax(fmin(-p[i].mean[1] / gain - to[1], FAR), -FAR);
+        double by = -p[i].mean[1] / gain - to[1];
+        is_far |= fabs(by) > FAR;
+        to[1] += fmax(fmin(by, FAR), -FAR);
         to[2] += fmax(fmin(p[i].mean[2] - to[2], FAR), -FAR);
         b[i].at.s = small * sinh(to[1]);
         b[i].error[LEVEL] = sqrt(p[i].square[1]) * hypot(b[i].at.s, small) / gain;
@@ -247,6 +250,7 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
         b[i].lag = b[i].at.s * b[i].at.s + b[i].at.ds;
         b[i].lag_error = hypot(gain * gain * sqrt(p[i].square[2]), half);
     }
+    return is_far;
 }
 
 static void
@@ -298,8 +302,8 @@ ss_blocks_smooth(block *b, size_t n, int has_phase)
         level[i][0] = b[i].y[LEVEL];
         level[i][1] = asinh(b[i].at.s / (SMALL * unit));
     }
-    for (int pass = 0; has_room && pass < PASSES; pass++)
-        smooth_level(p, b, n, SMALL * unit, level, lost);
+    for (int pass = 0, is_far = 0; has_room && (pass < PASSES || (is_far && pass < MOST_PASSES)); pass++)
+        is_far = smooth_level(p, b, n, SMALL * unit, level, lost);
     if (has_room && has_phase)
         smooth_phase(p, b, n, unit, lost);
     free(p);
