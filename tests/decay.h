@@ -11,7 +11,7 @@
 
 #include <stddef.h>
 
-enum { DECAY_SLIDERS = 160 };
+enum { DECAY_SLIDERS = 200 };
 
 typedef struct decay {
     long double w, amplitude;           /* [rad/s], [m] */

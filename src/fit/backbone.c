@@ -23,9 +23,11 @@ enum {
     PARTS = 8,                  /* in which a line is looked at */
     SOME = 1024,                /* terms of a spectrum that tell what is usual */
     HARMONICS = 9,              /* of the decay, which are no lines */
-    LEVELS = 20                 /* blocks of a level */
+    LEVELS = 20,                /* blocks of a level */
+    SLOW = 4                    /* periods to twice the amplitude, as no blow takes */
 };
 #define LONG 12.0               /* periods of a block, where noise wants it long */
+#define GROWS 2.0               /* times the last amplitude: what grows again */
 #define HIT 3.0                 /* times what the blocks behind it leave: a blow is in the first
                                    block */
 #define SURE .02                 /* error of ln A below which a block alone is not biased */
@@ -41,6 +43,7 @@ typedef struct decay {
     size_t n, group;            /* samples, each of so many of the record's */
     double unit;                /* of x: a power of 2, near the largest sample */
     double w;                   /* per sample: where to look */
+    double *size;               /* of it, in the period from each sample on */
     size_t first, end;          /* samples of the decay, nearly */
     lines beside;
     block *block;
@@ -120,15 +123,20 @@ take_record(decay *d, const double *x, size_t n)
     return SS_OK;
 }
 
-/* Set first, where the mean over a period, turned by w, is largest, and end, where it is near its least. */
+/* Set size, of the mean over a period turned by w, first, where it is largest, and end, where it is near its
+ * least. */
 static ss_status
 find_extent(decay *d)
 {
     size_t width = (size_t)fmax(round(2 * M_PI / d->w), 1), n = d->n > width ? d->n - width + 1 : 0;
     double complex *turned = malloc((d->n + 1) * sizeof *turned), sum = 0;
     double re = 1, im = 0, was, c = cos(d->w), s = sin(d->w);
-    double *size = malloc((n + 1) * sizeof *size), least = INFINITY;
-    for (size_t i = 0; turned != NULL && size != NULL && i < d->n; i++) {
+    double *size = d->size = malloc((n + 1) * sizeof *size), least = INFINITY;
+    if (turned == NULL || size == NULL) {
+        free(turned);
+        return SS_ENOMEM;
+    }
+    for (size_t i = 0; i < d->n; i++) {
         turned[i] = isnan(d->x[i]) ? 0 : d->x[i] * re - d->x[i] * im * I;
         was = re;
         re = re * c - im * s;
@@ -137,20 +145,33 @@ find_extent(decay *d)
         if (i + 1 < width)
             continue;
         size_t k = i + 1 - width;
-        size[k] = cabs(sum);
+        size[k] = cabs(sum) * 2 / (double)width;
         if (size[k] > size[d->first]) {
             d->first = k;
             least = INFINITY;
         }
         least = fmin(least, size[k]);
     }
-    for (d->end = d->first; size != NULL && d->end < n && size[d->end] > 2 * least; d->end++)
+    for (d->end = d->first; d->end < n && (size[d->end] > 2 * least || size[d->first] < 8 * least); d->end++)
         ;
     d->end = n > 0 ? d->end + width - 1 : 0;
     free(turned);
-    ss_status st = turned != NULL && size != NULL ? SS_OK : SS_ENOMEM;
-    free(size);
-    return st;
+    return SS_OK;
+}
+
+/* 1: behind the last block the amplitude grows again by as much as noise never makes it grow, and slower than a
+ * blow does. */
+static int
+grows_again(const decay *d)
+{
+    size_t width = (size_t)fmax(round(2 * M_PI / d->w), 1), n = d->n > width ? d->n - width + 1 : 0;
+    size_t from = d->block[d->n_blocks - 1].end, most = from, half = from;
+    for (size_t i = from; i < n; i++)
+        most = d->size[i] > d->size[most] ? i : most;
+    for (size_t i = from; i < most; i++)
+        half = d->size[i] < d->size[most] / 2 ? i : half;
+    return most < n && d->size[most] > GROWS * exp(d->block[d->n_blocks - 1].y[LEVEL])
+        && most - half > SLOW * width;
 }
 
 /* --- block by block -------------------------------------------------------------------------- */
@@ -172,20 +193,23 @@ block_length(const decay *d, bend at, double amplitude, double noise)
     return (size_t)ceil(fmax(fmax(length, (double)(d->end - d->first) / 400), 14 + 3. * (double)d->beside.n));
 }
 
-/* The best of fits of the first block, from many frequencies. */
+/* The best of fits of the first block, from many frequencies; of a long one to its start first. */
 static int
 first_block(const decay *d, block *b, size_t length, double s)
 {
+    size_t part = (size_t)fmin((double)length, ceil(LONG * 2 * M_PI / d->w));
     int found = 0;
-    double half = M_PI / (double)length;
-    for (double w = d->w * .7; w < d->w * 1.3; w += half / 2) {
+    for (double w = d->w * .7; w < d->w * 1.3; w += M_PI / 2 / (double)part) {
         block trial;
-        if (ss_block_fit(&trial, d->x, d->first, d->first + length, (bend){ .s = s, .w = w }, &d->beside, 0)
+        if (ss_block_fit(&trial, d->x, d->first, d->first + part, (bend){ .s = s, .w = w }, &d->beside, 0)
             && fabs(trial.rate[PHASE] - d->w) < .4 * d->w && (!found || trial.left < b->left)) {
             *b = trial;
             found = 1;
         }
     }
+    for (; found && part < length; part *= 3)
+        found = ss_block_fit(b, d->x, d->first, d->first + (3 * part < length ? 3 * part : length),
+                             (bend){ .s = s, .w = b->rate[PHASE] }, &d->beside, 0);
     return found;
 }
 
@@ -572,6 +596,8 @@ find(decay *d, const double *x, size_t n, decay_source *source)
         } else if (st == SS_OK && d->n_blocks >= FEW && (int)d->beside.n < most)
             st = add_line(d, &more);
     }
+    if (st == SS_OK && d->n_blocks >= FEW && grows_again(d))
+        d->stop = source->beats = "the amplitude grows";
     return st;
 }
 
@@ -608,7 +634,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
         return ss_fail(err, SS_EINVAL, "an option is out of its range");
     const ss_column *of = &signal->head->column[column];
     decay_source source = { signal->head->rate, !(own.level_frequency > 0), of->unit, ss_motion_order(of->unit),
-                            own.mass, 1 };
+                            own.mass, 1, NULL };
     if (own.mass > 0 && source.order < 0)
         return ss_fail(err, SS_EINVAL, "a mass needs a column in m, m/s or m/s^2, and %s is in '%s'", of->name,
                        of->unit);
@@ -637,6 +663,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     if (st == SS_OK && b->why == NULL)
         make_rows(b, &d, &source);
     free(d.x);
+    free(d.size);
     free(d.block);
     if (st == SS_OK)
         *out = b;

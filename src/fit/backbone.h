@@ -50,7 +50,8 @@ typedef struct place {          /* of a block */
     double see[3][STATES];      /* y, its rate and its bend, of the states */
     double seen[2], tie, variance[2];   /* y, and the rate less tie times y, whose errors are independent */
     double turn[3][3], shift[3], walk[3][3];    /* to the next place: x becomes turn x + shift, with variance
-                                                   q walk */
+                                                   q walk, and of y stir */
+    double stir;
     double x[STATES], p[STATES][STATES];        /* mean and variance by what this place and those before tell */
     double h[2][STATES], gain[2][STATES], news[2], sure[2];     /* of the filter's steps */
     double mean[3], square[3];  /* of y, its rate and its bend: mean and variance */
@@ -77,6 +78,7 @@ typedef struct decay_source {
     int order;                  /* of the derivative of x in SI units that it is; -1: it is none */
     double mass;                /* [kg]; 0: unknown */
     double unit;                /* of amplitudes in the column's unit */
+    const char *beats;          /* not NULL: no mechanism, as the amplitude grows again */
 } decay_source;
 
 /* 0, 1, 2 for a unit of x, x' or x'' in SI units; -1: it is none. */

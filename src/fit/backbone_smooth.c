@@ -17,6 +17,7 @@
 enum { WALKS = 12, PASSES = 4, MOST_PASSES = 20, PARTS = 4 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
 #define FAR 1.0                 /* the most by which ln s and p change in a pass */
+#define EXACT 3.0               /* times as likely as not a law is exact */
 #define SMALL .005              /* damping over its mean below which its logarithm is none */
 
 static double
@@ -87,7 +88,7 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
         memset(at[i].mean, 0, sizeof at[i].mean + sizeof at[i].square);
     memset(end, 0, sizeof *end);
     for (int w = 0; w < WALKS; w++) {
-        double q = pow(10, -6 + .75 * w), likelihood = 0, r[STATES] = { 0 }, sure[STATES][STATES] = { { 0 } };
+        double q = pow(10, -6.5 + .8 * w), likelihood = 0, r[STATES] = { 0 }, sure[STATES][STATES] = { { 0 } };
         memcpy(at->x, x, sizeof at->x);
         memcpy(at->p, start, sizeof at->p);
         at->p[2][2] += q;
@@ -98,13 +99,14 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
             memcpy(at[i + 1].x, at[i].x, sizeof at->x);
             memcpy(at[i + 1].p, at[i].p, sizeof at->p);
             turn(at[i + 1].p, at[i].turn, states, 0);
+            at[i + 1].p[0][0] += at[i].stir;
             for (int k = 0; k < 3; k++) {
                 at[i + 1].x[k] = at[i].shift[k] + dot(at[i].turn[k], at[i].x, 3);
                 for (int j = 0; j < 3; j++)
                     at[i + 1].p[k][j] += q * at[i].walk[k][j];
             }
         }
-        likelihood += w == 0 && states > 3 ? log(WALKS - 1) : 0;    /* a law is exact as likely as not */
+        likelihood += w == 0 && states > 3 ? log(EXACT * (WALKS - 1)) : 0;
         double ease = likelihood > best ? exp(best - likelihood) : 1;
         best = fmax(best, likelihood);
         double weight = exp(likelihood - best);

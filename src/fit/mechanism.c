@@ -11,6 +11,7 @@
  * the rival contains it. */
 #include "fit/backbone.h"
 
+#include <complex.h>
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdio.h>
@@ -18,11 +19,16 @@
 #include <string.h>
 #include "base/least.h"
 
-enum { LN_A, TURN, W, S, C, SHAPE, BEND, UNKNOWNS };    /* at the start; w; viscous s; of the mechanism */
+enum { LN_A, TURN, W, S, C, SHAPE, BEND, RATIO, UNKNOWNS };     /* at the start; w; viscous s; of the mechanism */
+enum { TAKEN = 64 };            /* samples of the smooth curve to begin from */
+#define TWO_MODES SS_MECHANISMS                 /* no mechanism, but a rival of all */
 #define TRUST .05               /* of s: the error of what is said of it */
+#define SLIPPING .2             /* of what rates change by in half a period: the error of what a slider, which
+                                   slips in a part of it, is said to do */
 #define HARMONIC .15            /* times a contact's stiffness re the spring's: the error that a sine makes */
 #define NEARLY 6.0              /* of BIC: the better one cannot be told */
-#define GAIN 1.0                /* of chi^2 an unknown: one that contains the better one is a rival then */
+#define CHANCE .25              /* probability of such a gain of chi^2: one that contains the better one is a
+                                   rival then */
 #define REJECT 1e-3             /* probability of so large a chi^2 */
 
 const char *const ss_mechanism_names[SS_MECHANISMS + 1] = {
@@ -33,13 +39,16 @@ static const struct law {
     unsigned contains;          /* the mechanisms that are cases of it, as bits */
     double shape[5];            /* to start from, up to 0 */
     ss_range shapes;
-} laws[SS_MECHANISMS] = {
+} laws[SS_MECHANISMS + 1] = {
     [SS_VISCOUS] = { { 1, 1, 1, 1 }, 0, { 1 }, { 1, 1 } },
     [SS_COULOMB_DAMPING] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
     [SS_VISCOUS_AND_COULOMB] = { { 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING, { 1 }, { 1, 1 } },
-    [SS_JENKINS] = { { 1, 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS, { .05, .1, .2, .4, .7 }, { .01, 1 } },
+    [SS_JENKINS] = { { 1, 1, 1, 1, 1, 1 },     /* of a stiff spring it is Coulomb's */
+                     1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING | 1 << SS_VISCOUS_AND_COULOMB,
+                     { .05, .1, .2, .4, .7 }, { .01, 1 } },
     [SS_MICROSLIP] = { { 1, 1, 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_QUADRATIC, { .25, .5, .8 }, { .1, 1 } },
     [SS_QUADRATIC] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
+    [TWO_MODES] = { { 1, 1, 1, 1, 1, 1, 1, 1 }, 0, { 1 }, { -1e9, 1e9 } },
 };
 
 /* A block for the fit: in units of the start's amplitude and of the mean damping. */
@@ -112,12 +121,32 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
 /* What a mechanism says of a block: ln A and phase, and their rates. */
 typedef struct told {
     double y[TRACKS], rate[TRACKS], lag;
+    double slip[TRACKS];        /* error of the rates */
 } told;
+
+/* The same of two modes that beat: of s = u[S] and w = u[W], and of u[C] and u[SHAPE] beside it. */
+static void
+tell_two(told *out, const trial *of, const double u[UNKNOWNS])
+{
+    double complex first = -u[S] + u[W] * I, second = -u[C] + u[SHAPE] * I;
+    for (size_t i = 0; i < of->n; i++) {
+        const point *p = &of->p[i];
+        double complex a = cexp(first * p->t), b = cexp(u[BEND] + u[RATIO] * I + second * p->t);
+        double complex sum = a + b, rate = (first * a + second * b) / sum;
+        double turn = u[TURN] + carg(sum);
+        out[i] = (told){ { u[LN_A] + log(cabs(sum)), turn + 2 * M_PI * round((p->y[PHASE] - turn) / (2 * M_PI)) },
+                         { creal(rate), cimag(rate) }, 0, { 0 } };
+    }
+}
 
 static void
 tell(told *out, const trial *of, const double u[UNKNOWNS])
 {
     double y[TRACKS] = { u[LN_A], u[TURN] };
+    if (of->kind == TWO_MODES) {
+        tell_two(out, of, u);
+        return;
+    }
     for (size_t i = 0; i < of->n; i++) {
         const point *p = &of->p[i];
         double dt = i > 0 ? p->t - p[-1].t : 0, k[4][TRACKS];
@@ -215,6 +244,48 @@ begin(const trial *of, const block *b, double unit, double ln_a, double u[UNKNOW
     return left;
 }
 
+/* Solve sum |z[k + 2] - c[1] z[k + 1] - c[0] z[k]|^2 / |z[k]|^2 = least for c, or with modes z[k] = c[0] m[0]^k +
+ * c[1] m[1]^k. */
+static void
+solve_two(double complex c[2], const double complex *z, size_t n, const double complex *mode)
+{
+    double aa = 0, bb = 0;
+    double complex ab = 0, ay = 0, by = 0;
+    for (size_t k = 0; k + 2 < n; k++) {
+        double weight = 1 / (creal(z[k]) * creal(z[k]) + cimag(z[k]) * cimag(z[k]));
+        double complex a = mode != NULL ? cpow(mode[0], (double)k) : z[k];
+        double complex b = mode != NULL ? cpow(mode[1], (double)k) : z[k + 1], y = z[mode != NULL ? k : k + 2];
+        aa += weight * creal(a * conj(a)), bb += weight * creal(b * conj(b));
+        ab += weight * conj(a) * b, ay += weight * conj(a) * y, by += weight * conj(b) * y;
+    }
+    double det = aa * bb - creal(ab * conj(ab));
+    c[0] = (bb * ay - ab * by) / det;
+    c[1] = (aa * by - conj(ab) * ay) / det;
+}
+
+/* Set u to the two modes of the smooth curve, by Prony's method. */
+static void
+begin_two(const point *p, const block *b, size_t n, double ln_a, double w, double u[UNKNOWNS])
+{
+    double complex z[TAKEN], c[2], mode[2];
+    double step = p[n - 1].t / (TAKEN - 1);
+    for (size_t k = 0, i = 0; k < TAKEN; k++) {
+        double t = p->t + (double)k * step;
+        while (i + 2 < n && p[i + 1].t < t)
+            i++;
+        double part = (t - p[i].t) / (p[i + 1].t - p[i].t);
+        double first = b[i].phase - w * (b[i].t - b->t), next = b[i + 1].phase - w * (b[i + 1].t - b->t);
+        z[k] = cexp((1 - part) * (b[i].level + first * I) + part * (b[i + 1].level + next * I) - ln_a);
+    }
+    solve_two(c, z, TAKEN, NULL);
+    double complex root = csqrt(c[1] * c[1] / 4 + c[0]);
+    mode[0] = c[1] / 2 + root, mode[1] = c[1] / 2 - root;
+    solve_two(c, z, TAKEN, mode);
+    double complex first = clog(mode[0]) / step, second = clog(mode[1]) / step, ratio = clog(c[1] / c[0]);
+    memcpy(u, (double[UNKNOWNS]){ log(cabs(c[0])), carg(c[0]), cimag(first), -creal(first), -creal(second),
+                                  cimag(second), creal(ratio), cimag(ratio) }, UNKNOWNS * sizeof *u);
+}
+
 typedef struct fitted {
     ss_mechanism kind;
     double u[UNKNOWNS], covariance[UNKNOWNS * UNKNOWNS], squares, free, p, bic;
@@ -224,12 +295,14 @@ static ss_status
 fit(fitted *f, trial *of, const block *b, double unit, double ln_a)
 {
     const struct law *law = &laws[of->kind];
-    static const double difference[UNKNOWNS] = { 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6 };
+    static const double difference[UNKNOWNS] = { 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6 };
     ss_range range[UNKNOWNS];
     double least_left = INFINITY, unknowns = 0;
     least_end end;
     f->kind = of->kind;
-    for (size_t i = 0; i < 5 && law->shape[i] > 0; i++) {
+    if (of->kind == TWO_MODES)
+        begin_two(of->p, b, of->n, ln_a, of->w * unit, f->u);
+    for (size_t i = 0; of->kind != TWO_MODES && i < 5 && law->shape[i] > 0; i++) {
         double u[UNKNOWNS] = { [SHAPE] = law->shape[i] }, left = begin(of, b, unit, ln_a, u);
         if (left < least_left) {
             least_left = left;
@@ -238,7 +311,7 @@ fit(fitted *f, trial *of, const block *b, double unit, double ln_a)
     }
     for (int k = 0; k < UNKNOWNS; k++) {
         int is_free = law->free[k] && (of->tracks == TRACKS || (k != TURN && k != W && k != BEND));
-        int has_sign = k == LN_A || k == TURN || k == W;
+        int has_sign = k == LN_A || k == TURN || k == W || of->kind == TWO_MODES;
         range[k] = !is_free ? (ss_range){ f->u[k], f->u[k] } : k == SHAPE ? law->shapes
             : has_sign ? (ss_range){ -1e9, 1e9 } : (ss_range){ 0, 1e3 };
         unknowns += is_free;
@@ -353,6 +426,11 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
             to->variance[0] = cov[0] * b[i].noise;
             to->variance[1] = (cov[2] - cov[1] * cov[1] / cov[0]) * b[i].noise / unit / unit;
             ss_place_walk(to, lost);
+            size_t from = i > 0 ? i - 1 : 0, next = i + 1 < n ? i + 1 : i;
+            double change = fabs(at[next].rate[c] - at[from].rate[c]) / (of->p[next].t - of->p[from].t);
+            at[i].slip[c] = f->kind == SS_JENKINS ? SLIPPING * change * M_PI / (of->w + f->u[W]) : 0;
+            to->stir = pow(at[i].slip[c] * t, 2);
+            to->variance[1] += pow(at[i].slip[c], 2);
         }
     for (size_t k = 0; k < UNKNOWNS; k++) {
         double u[UNKNOWNS], sigma = sqrt(f->covariance[k * UNKNOWNS + k]);
@@ -389,7 +467,8 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
         const place *level = &p[i], *phase = of->tracks > 1 ? &p[n + i] : level;
         double mean[3] = { at[i].rate[LEVEL] + level->mean[1], at[i].rate[PHASE] + phase->mean[1],
                            at[i].lag + level->mean[2] };
-        double variance[3] = { level->square[1], phase->square[1], level->square[2] };
+        double variance[3] = { level->square[1] + pow(at[i].slip[LEVEL], 2),
+                               phase->square[1] + pow(at[i].slip[PHASE], 2), level->square[2] };
         sum[i].level += weight * (at[i].y[LEVEL] + level->mean[0]);
         for (int k = 0; k < 3; k++) {
             sum[i].mean[k] += weight * mean[k];
@@ -425,14 +504,22 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     while (best < f + SS_MECHANISMS - 1 && best->p < REJECT)
         best++;
     best = best->p < REJECT ? f : best;
+    int is_other = best->p < REJECT || source->beats != NULL;
+    if (!is_other && source->has_phase) {
+        trial of = { TWO_MODES, p, n, TRACKS, w / unit, what };
+        fitted two;
+        is_other = fit(&two, &of, b, unit, ln_a) == SS_OK && two.bic + NEARLY < best->bic;
+    }
     out->chi2_dof = best->squares / best->free;
     mixed *sum = calloc(n, sizeof *sum);
     double whole = 0, error[3];
     st = sum != NULL ? SS_OK : SS_ENOMEM;
-    for (const fitted *x = best; st == SS_OK && best->p >= REJECT && x < f + SS_MECHANISMS; x++) {
+    for (const fitted *x = best; st == SS_OK && !is_other && x < f + SS_MECHANISMS; x++) {
         int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY;
         unsigned is_more = laws[x->kind].contains >> best->kind & 1;
-        if (x == best || (is_near && (!is_more || best->squares - x->squares > GAIN * (best->free - x->free)))) {
+        if (is_more)
+            is_near &= gsl_cdf_chisq_Q(best->squares - x->squares, best->free - x->free) < CHANCE;
+        if (x == best || is_near) {
             trial of = { x->kind, p, n, source->has_phase ? 2 : 1, w / unit, what };
             double weight = exp((best->bic - x->bic) / 2);
             out->mechanism[out->n_mechanisms++] = x->kind;

@@ -48,7 +48,7 @@ draw(ss_mechanism kind)
         double chi = -.8 + .7 * uniform(), sum = 0, most = between(.03, .2);
         of.sliders = DECAY_SLIDERS;
         for (size_t i = 0; i < of.sliders; i++) {
-            of.d[i] = 3 * powl(10, -4 * (long double)i / (long double)of.sliders);
+            of.d[i] = 3 * powl(10, -5 * (long double)i / (long double)of.sliders);
             sum += (double)(of.kappa[i] = powl(of.d[i], chi + 1));
         }
         for (size_t i = 0; i < of.sliders; i++)
