@@ -67,7 +67,8 @@ FILE *tool_open(const char *path);
 ss_reader *tool_read_rows(const char *path, const ss_read_opts *opts);
 /* Room for so many rows of n columns, to be freed by one free(), or die. */
 double **tool_columns(size_t n, size_t rows);
-/* Read at most max rows, as ss_reader_rows does, or die.  Returns their number; 0 at the end. */
+/* Read at most max rows, as ss_reader_rows does.  Returns their number; 0 at the end.  Dies at a bad row, when those
+ * before it were given. */
 size_t tool_rows(ss_reader *reader, double *const column[], size_t max);
 /* Read a whole signal from "-", a file or HDF5 (with ":/dataset"), or die. */
 ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);

@@ -78,12 +78,15 @@ tool_columns(size_t n, size_t rows)
 size_t
 tool_rows(ss_reader *reader, double *const column[], size_t max)
 {
-    size_t n;
-    ss_error err = { 0 };
-    ss_status st = ss_reader_rows(reader, column, max, &n, &err);
+    static ss_error err;                /* of a row that comes behind those that were given */
+    static ss_status st;
+    size_t n = 0;
+    if (st == SS_OK)
+        st = ss_reader_rows(reader, column, max, &n, &err);
     if (tool_stopping())                /* the last row may be a part of one */
         return 0;
-    tool_check(st, &err);
+    if (n == 0)
+        tool_check(st, &err);
     return n;
 }
 

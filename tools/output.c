@@ -133,8 +133,14 @@ rename_columns(ss_header **head, const char *path, const tool_texts *names)
         free(old);
     }
     tool_check(ss_header_select(&made, *head, NULL, 0, 0, NULL), NULL);
-    for (size_t c = 0; c < columns; c++)
+    for (size_t c = 0; c < columns; c++) {
+        for (size_t other = 0; other < c; other++)
+            if (strcmp(is[c], is[other]) == 0)
+                tool_usage("--name: two columns would have the name '%s'", is[c]);
+        if ((*head)->has_time && strcmp(is[c], "t") == 0)
+            tool_usage("--name: t is the name of the time");
         tool_check(ss_header_add_column(made, is[c], (*head)->column[c].unit, NULL), NULL);
+    }
     made->has_time = (*head)->has_time;
     ss_header_free(*head);
     *head = made;

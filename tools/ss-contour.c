@@ -21,7 +21,7 @@ static const char usage[] =
 "      --level=DB       0 dB is |W| of DB re 1, not the largest |W|\n"
 "      --palette=NAME   viridis, cividis, plasma, inferno, magma, grey; or NAME_r\n"
 "      --ridge          mark at each time the frequencies where |W| is largest;\n"
-"                       with -o FILE.tsv or .csv write them, with amplitudes\n"
+"                       with -o FILE.tsv, .csv, .json or --format write them\n"
 "      --fmin=HZ, --fmax=HZ  draw these frequencies (all); for times see --from\n"
 "      --detrend=NAME   of a recording, subtract none, mean or linear first\n"
 "      --signal=FILE    for panel (a); -c, --column=NAME|N: its column\n"
@@ -31,7 +31,7 @@ static const char usage[] =
 "      --title=TEXT     default: scene or model of the signal\n"
 TOOL_READING_USAGE
 "      --style=STYLE    paper (default) or screen, half as large again\n"
-"  -o, --output=FILE    .gp (default, on standard output), .png, .svg, .pdf, .eps\n"
+"  -o, --output=FILE    .gp .png .svg .pdf .eps; --format=tsv|csv|json of --ridge\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";
 
 typedef struct drawing {
@@ -262,7 +262,8 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         TOOL_NUMBER(0, "fmax", &d->opts.fmax, ss_morlet_ranges.frequency),
         TOOL_TEXT(0, "signal", &d->signal_path), TOOL_TEXT('c', "column", &d->column),
         TOOL_TEXT(0, "events", &d->events), TOOL_TEXT(0, "features", &d->features),
-        TOOL_TEXT(0, "follow", &d->follow), TOOL_TEXT(0, "title", &plot->title), TOOL_STYLE(&plot->style), TOOL_OUTPUT(&d->output) };
+        TOOL_TEXT(0, "follow", &d->follow), TOOL_TEXT(0, "title", &plot->title), TOOL_STYLE(&plot->style), TOOL_OUTPUT(&d->output),
+        TOOL_FORMAT_OF_WORDS(&d->kind) };
     int first = TOOL_PARSE(argc, argv, options, &d->reading);
     if (d->follow != NULL && first == argc)
         tool_usage("--follow=FILE needs SECONDS, the length of what it shows");
@@ -277,8 +278,10 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         d->opts.noise = 0;
     if (d->opts.fmin > 0 && d->opts.fmax > 0 && d->opts.fmin >= d->opts.fmax)
         tool_usage("--fmin does not lie below --fmax");
+    if (tool_given("format") && (!d->opts.ridge || d->follow != NULL))
+        tool_usage("--format is of the rows of --ridge");
     d->kind = d->follow != NULL ? tool_output_kind(d->follow, TOOL_PICTURES, TOOL_PNG)
-        : tool_output_kind(d->output, d->opts.ridge ? TOOL_PICTURES | TOOL_WORDS : TOOL_PICTURES, TOOL_GP);
+        : tool_output_kind(d->output, d->opts.ridge ? TOOL_PICTURES | TOOL_WORDS : TOOL_PICTURES, d->kind);
     if (d->kind < TOOL_STREAM && d->follow == NULL)
         tool_script_to(d->output);
     tool_reading_end(&d->reading, d->column);
@@ -326,7 +329,7 @@ int
 main(int argc, char *argv[])
 {
     ss_plot_opts opts;
-    drawing d = { .path = NULL };
+    drawing d = { .kind = TOOL_GP };
 
     ss_plot_opts_init(&opts, sizeof opts);
     ss_contour_opts_init(&d.opts, sizeof d.opts);

@@ -24,7 +24,8 @@ static const char usage[] =
 "      --residual=FILE   what the law leaves, row by row\n"
 "      --load=NAME|N     the load point; --normal-stress=NAME|N: of shear stress\n"
 TOOL_READING_USAGE
-"  -o, --output=FILE     .tsv, .csv, .json or a picture; --format=tsv|csv|json\n"
+"  -o, --output=FILE     .tsv, .csv, .json; --format=tsv|csv|json of stdout; with\n"
+"                        --motion or --load a picture: .gp .png .svg .pdf .eps\n"
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
 

@@ -89,18 +89,20 @@ count_cells(const struct text *x, const char *line, const char *shape, size_t nu
 }
 
 /* *yes becomes 1 if this is the first line of data; then separator and columns are set.  Empty cells at its end
- * count if each has a name in the line above. */
+ * count if each has a name in the line above.  Blanks are separators of thousands, and not of cells, where other
+ * separators leave as many cells as there are names. */
 static ss_status
 is_data(struct text *x, const char *line, int *yes)
 {
     size_t columns = x->t.n_columns, last = x->n_head;
     while (last > 0 && x->head[last - 1].comment)
         last--;
+    int grouped = 0;
     *yes = 0;
     for (size_t i = 0; !*yes && i < CANDIDATES; i++) {
         char separator = candidate[i];
         size_t numbers, names = 0;
-        if (separator == ' ' ? x->labview : strchr(line, separator) == NULL)
+        if (separator == ' ' ? x->labview || grouped : strchr(line, separator) == NULL)
             continue;
         if (last > 0 && (ss_text_may_lack(x) || !x->labview))
             names = ss_text_split(x, x->head[last - 1].text, separator);
@@ -110,6 +112,8 @@ is_data(struct text *x, const char *line, int *yes)
         if (shape == NULL)
             return SS_ENOMEM;
         size_t n = count_cells(x, line, shape, numbers);
+        for (size_t k = 0; strlen(shape) == names && k < names; k++)
+            grouped |= strchr(x->cell[k], ' ') != NULL && ss_cell_is_grouped(x->cell[k]);
         free(shape);
         if (n == 0 || (n == 1 && separator != ';' && separator != ' '))
             continue;

@@ -5,4 +5,4 @@ printf "# stickslip signal 1\n# rate: 10\n# columns: t/s x/m\n0\t1\n0.1\t3\n" | 
 echo "-- names"
 printf 't,x (m),y\n0,1,2\n1,3,4\n' > names.csv
 ss-cat --name x=left --name 2=right names.csv
-for wrong in x x= =y z=y; do ss-cat --name $wrong names.csv || echo "exit $?"; done
+for wrong in x x= =y z=y y=x x=t; do ss-cat --name $wrong names.csv || echo "exit $?"; done
