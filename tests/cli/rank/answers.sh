@@ -13,6 +13,7 @@ ss-signal sine -d 0 | answer
 ss-signal sine -d 4 --amplitude 0 | answer
 ss-sim state-variable | ss-noise --snr 20 | answer
 cut -f 1,2 rows | grep -v '^#' | head -n 1
+awk '/^# noise:/ { print ($3 / (100 / 101) - 1) ^ 2 < 0.01 }' rows      # of 20 dB
 # a force, by its column; another rig by its mass
 ss-sim compliant-light | answer -c f
 # not in SI units, and named otherwise
