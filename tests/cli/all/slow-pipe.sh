@@ -14,15 +14,20 @@ tail -n 1 out
 # Delimited text, too, with a rate or with times on a clock: each row is there before the next one is sent.
 echo "-- delimited"
 rows() { seq "$1" "$2" | awk '{ printf "%.3f,%d\n", $1 / 1000, $1 % 7 }'; }
-comes() {                               # ROWS OPTIONS: so many rows come before the others are sent
+there() { until [ "$(grep -c '^[^#]' out)" = "$1" ]; do sleep 0.1; done; }
+comes() {                               # ROWS OPTIONS: so many rows come before the others are sent, then one by one
     first=$1
     shift
     : > out
     ss-cat "$@" < in > out &
     exec 3> in
     { echo t,x; rows 1 "$first"; } >&3
-    until [ "$(grep -c '^[^#]' out)" = "$first" ]; do sleep 0.1; done
-    rows $((first + 1)) 300 >&3
+    there "$first"
+    for row in $((first + 1)) $((first + 2)); do
+        rows "$row" "$row" >&3
+        there "$row"
+    done
+    rows $((first + 3)) 300 >&3
     exec 3>&-
     wait
     { echo t,x; rows 1 300; } > run.csv
