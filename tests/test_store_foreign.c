@@ -461,6 +461,24 @@ a_missing_signal_is_told_from_a_damaged_one(void **state)
 }
 
 static void
+a_rate_that_none_can_be_is_no_clock(void **state)
+{
+    static const double rate[] = { 0, -5, INFINITY, NAN };
+    const ss_read_opts opts = { READ_OPTS, .rate = 0 };
+    ss_signal *back = NULL;
+    (void)state;
+    write_foreign(0);
+    for (size_t i = 0; i < sizeof rate / sizeof *rate; i++) {
+        put_attribute("/line", "rate", rate[i]);
+        assert_int_equal(load_place(&back, "/line", &opts, NULL), SS_ECLOCK);
+    }
+    put_attribute("/line", "rate", 5);
+    assert_int_equal(load_place(&back, "/line", &opts, NULL), SS_OK);
+    assert_true(back->head->rate == 5);
+    ss_signal_free(back);
+}
+
+static void
 a_fifo_keeps_its_first_bytes(void **state)
 {
     char fifo[80];
@@ -488,6 +506,7 @@ main(void)
         cmocka_unit_test(a_start_too_late_for_its_rate_is_refused),
         cmocka_unit_test(attributes_that_are_no_notes_are_skipped),
         cmocka_unit_test(a_missing_signal_is_told_from_a_damaged_one),
+        cmocka_unit_test(a_rate_that_none_can_be_is_no_clock),
         cmocka_unit_test(a_fifo_keeps_its_first_bytes),
     };
     return cmocka_run_group_tests_name("store foreign", tests, make_dir, remove_dir);
