@@ -693,6 +693,24 @@ make_ranking(ss_rank_row row[2], ss_verdict verdict)
 }
 
 static void
+rows_on_a_full_disk_are_an_error(void **state)
+{
+    static const char *const scene[] = { "mine", "other" };
+    const ss_ranking_text about = { "run.tsv", "acc", "its unit", scene, 0 };
+    static const ss_format format[] = { SS_TSV, SS_CSV, SS_JSON };
+    ss_rank_row row[2];
+    ss_ranking r = make_ranking(row, SS_NAMED);
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        FILE *full = fopen("/dev/full", "w");
+        if (full == NULL)
+            skip();
+        assert_int_equal(ss_ranking_write(&r, &about, NULL, full, format[i], NULL), SS_EIO);
+        fclose(full);
+    }
+}
+
+static void
 reads_back_the_ranking_that_it_writes(void **state)
 {
     static const char *const scene[] = { "mine", "other[x=1]" };
@@ -778,6 +796,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_each_format_that_is_written),
         cmocka_unit_test(reads_back_the_events_that_it_writes),
+        cmocka_unit_test(rows_on_a_full_disk_are_an_error),
         cmocka_unit_test(reads_back_the_ranking_that_it_writes),
         cmocka_unit_test(refuses_tables_that_are_malformed),
         cmocka_unit_test(keeps_the_record_s_bound_whatever_comes_together),
