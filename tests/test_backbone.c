@@ -127,6 +127,32 @@ rows_are_smooth_where_the_amplitude_grows(void **state)
     assert_true(rows > 500 && jumps <= 3);
 }
 
+/* A decay beside a line that stays and has more power, and one whose first periods lose most of the motion. */
+static void
+the_decay_need_not_be_the_strongest_line(void **state)
+{
+    enum { N = 4000, RATE = 400 };
+    const double zeta = .02, w = 20 * PI;
+    (void)state;
+    seed = 7;
+    for (int is_steady = 0; is_steady < 2; is_steady++) {
+        ss_signal *signal = new_signal(N, RATE, 100, "x", "m");
+        for (int i = 0; i < N; i++) {
+            double t = (double)i / RATE, slow = exp(-(is_steady ? 1 : .05) * zeta * w * t);
+            signal->values[i] = (slow + (is_steady ? 0 : 6 * exp(-.25 * w * t))) * cos(w * t)
+                + (is_steady ? .12 * cos(1.97 * w * t) : 0) + .001 * gauss();
+        }
+        ss_backbone *b = find(signal, NULL);
+        if (b->why != NULL)
+            fail_msg("%s", b->why);
+        const ss_value v = b->row[b->n / 2].damping_ratio;
+        print_message("%zu rows, %s, damping %g +- %g\n", b->n, b->start, v.value, v.error);
+        assert_true(fabs(v.value - (is_steady ? 1 : .05) * zeta) <= 4 * v.error && v.error < .1 * v.value);
+        ss_backbone_free(b);
+        ss_signal_free(signal);
+    }
+}
+
 /* Parameters of the exact rigs, within 4 of their errors; forces with a mass of 2 kg. */
 static void
 parameters_and_scenes_are_those_of_the_rig(void **state)
@@ -330,6 +356,7 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_decay_need_not_be_the_strongest_line),
         cmocka_unit_test(rows_are_smooth_where_the_amplitude_grows), cmocka_unit_test(bands_hold_and_mechanisms_are_named),
         cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
         cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),

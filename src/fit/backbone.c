@@ -19,6 +19,7 @@
 enum {
     RICH = 32,                  /* samples a period that are enough */
     FEW = 3,                    /* blocks that are a decay */
+    TRIED = 2,                  /* lines beside the strongest, one of which may be the decay */
     REFITS = 2,                 /* smooth curves, each through blocks fitted about the last */
     PARTS = 8,                  /* in which a line is looked at */
     SOME = 1024,                /* terms of a spectrum that tell what is usual */
@@ -73,9 +74,9 @@ spectrum(real_fft *f, size_t *size, const double *x, size_t n, int is_tapered)
 }
 
 /* The frequency of the strongest line in n samples, per sample, weighed by frequency, as slow changes have more
- * power than they matter; near > 0: of those about it.  0: there is none. */
+ * power than they matter; near > 0: of those about it; other than the lines tried.  0: there is none. */
 static ss_status
-find_line(double *w, const double *x, size_t n, double near)
+find_line(double *w, const double *x, size_t n, double near, const double *tried, size_t n_tried)
 {
     size_t size;
     real_fft f;
@@ -86,12 +87,16 @@ find_line(double *w, const double *x, size_t n, double near)
     double unit = 2 * M_PI / (double)size, *power = f.x;
     for (size_t k = 1; k <= size / 2; k++)
         power[k] /= (double)k;
-    for (size_t k = (size_t)(2.5 * (double)size / (double)n); k < size / 2; k++)
-        if (k > 0 && power[k] >= power[k - 1] && power[k] > power[k + 1] && power[k] > best
-            && (near == 0 || fabs((double)k * unit - near) < NEAR * near)) {
+    for (size_t k = (size_t)(2.5 * (double)size / (double)n); k < size / 2; k++) {
+        const double at = (double)k * unit;
+        int is_other = near == 0 || fabs(at - near) < NEAR * near;
+        for (size_t i = 0; i < n_tried; i++)
+            is_other &= fabs(at - tried[i]) > NEAR * tried[i];
+        if (is_other && k > 0 && power[k] >= power[k - 1] && power[k] > power[k + 1] && power[k] > best) {
             best = power[k];
-            *w = (double)k * unit;
+            *w = at;
         }
+    }
     ss_real_fft_free(&f);
     return SS_OK;
 }
@@ -549,29 +554,26 @@ no_decay(const decay *d)
             ? "it has under three blocks of periods"
             : "nothing stands above the noise for three blocks of periods";
     const block *b = d->block, *last = b + d->n_blocks - 1;
+    for (size_t i = 0; i < d->n_blocks; i++)
+        if (!isfinite(b[i].at.s + b[i].at.w))
+            return "its damping changes too fast from block to block";
     double lost = b->y[LEVEL] - last->y[LEVEL];
     double error = sqrt(b->cov[LEVEL][0] * b->noise + last->cov[LEVEL][0] * last->noise);
     return lost > 5 * error && lost > .05 ? NULL : "the oscillation does not decay";
 }
 
+/* Find the decay of the line w, beside another if this is not 0 and is not w. */
 static ss_status
-find(decay *d, const double *x, size_t n, decay_source *source)
+find_at(decay *d, const double *x, size_t n, double w, double other)
 {
-    double strongest = 0;
-    ss_status st = find_line(&d->w, x, n, 2 * M_PI * d->opts->mode / source->rate);
-    if (st == SS_OK && d->opts->mode > 0)
-        st = find_line(&strongest, x, n, 0);
-    if (st != SS_OK)
-        return st;
-    d->group = (size_t)fmax(floor(2 * M_PI / d->w / RICH), 1);
-    d->w *= (double)d->group;
-    source->rate /= (double)d->group;
-    st = d->w > 0 ? take_record(d, x, n) : SS_OK;
-    strongest *= (double)d->group;
-    if (st == SS_OK && d->w > 0 && fabs(strongest - d->w) > NEAR * d->w && strongest < 3 && d->opts->mode > 0) {
+    d->group = w > 0 ? (size_t)fmax(floor(2 * M_PI / w / RICH), 1) : 1;
+    d->w = w * (double)d->group;
+    ss_status st = w > 0 ? take_record(d, x, n) : SS_OK;
+    other *= (double)d->group;
+    if (st == SS_OK && w > 0 && other > 0 && fabs(other - d->w) > NEAR * d->w && other < 3) {
         d->beside.n = 1;                        /* a mode that is weaker is not seen without the strongest */
-        d->beside.s[0] = line_decay(&strongest, d->x, d->n);
-        d->beside.w[0] = strongest;
+        d->beside.s[0] = line_decay(&other, d->x, d->n);
+        d->beside.w[0] = other;
     }
     if (st == SS_OK && d->w > 0)
         st = find_extent(d);
@@ -596,6 +598,36 @@ find(decay *d, const double *x, size_t n, decay_source *source)
         } else if (st == SS_OK && d->n_blocks >= FEW && (int)d->beside.n < most)
             st = add_line(d, &more);
     }
+    return st;
+}
+
+/* Find the decay of the line that is asked for, or else of the strongest; of another if this has no three blocks. */
+static ss_status
+find(decay *d, const double *x, size_t n, decay_source *source)
+{
+    const decay none = *d;
+    const double near = 2 * M_PI * d->opts->mode / source->rate;
+    double line[TRIED + 1] = { 0 };
+    ss_status st = find_line(line, x, n, 0, NULL, 0);
+    if (st == SS_OK && near > 0)
+        st = find_line(line + 1, x, n, near, NULL, 0);
+    if (st == SS_OK)
+        st = find_at(d, x, n, line[near > 0], near > 0 ? line[0] : 0);
+    for (size_t k = 1; st == SS_OK && near == 0 && d->n_blocks < FEW && k <= TRIED; k++) {
+        decay other = none;
+        st = find_line(line + k, x, n, 0, line, k);
+        if (st != SS_OK || line[k] == 0)
+            break;
+        st = find_at(&other, x, n, line[k], line[0]);
+        if (other.n_blocks >= FEW) {
+            decay was = *d;
+            *d = other;
+            other = was;
+        }
+        free(other.x);
+        free(other.block);
+    }
+    source->rate /= (double)d->group;
     if (st == SS_OK && d->n_blocks >= FEW && grows_again(d))
         d->stop = source->beats = "the amplitude grows";
     return st;

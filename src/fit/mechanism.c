@@ -321,8 +321,8 @@ fit(fitted *f, trial *of, const block *b, double unit, double ln_a)
     ss_status st = ss_least_fit(&end, &of_fit, f->u, NULL, f->covariance);
     f->squares = end.squares;
     f->free = (double)of_fit.rows - unknowns;
-    f->p = gsl_cdf_chisq_Q(end.squares, f->free);
-    f->bic = end.squares + unknowns * log((double)of_fit.rows);
+    f->p = isfinite(end.squares) ? gsl_cdf_chisq_Q(end.squares, f->free) : 0;
+    f->bic = (isfinite(end.squares) ? end.squares : INFINITY) + unknowns * log((double)of_fit.rows);
     return st;
 }
 
