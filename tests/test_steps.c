@@ -126,6 +126,10 @@ finds_the_truth_of_simulated_rocks(void **state)
     r = usual;
     r.ramp = 0.02 * 400e-6 / 10e-6;
     answers("ramp", &r, 6, 1, 0);
+    r = usual;
+    r.path_noise = 1e-7;
+    r.jump = 1.5e-6;
+    answers("a sensor jumps", &r, 10, 1, 0);
     r = (rock){ .is_slip = 1, .a = .006, .b = .0045, .Dc = 8e-6, .k = 1500, .drift = -3, .speed = { 10e-6, 1e-6 },
                 .until = { 20, 220 }, .noise = 3e-5, .memory = .7, .n = 1500 };
     answers("down", &r, 7, 1, 0);

@@ -3,7 +3,9 @@
  * A sensor of the path has noise, of which a stiff spring would make noise of friction; and friction that answers
  * to its own model's noise is fitted by too small a, b and k.  So the path is first cut into lines, again and
  * again where two of them fit best, as long as they are significantly better than one; and the load point moves on
- * a chain of links that meet where the lines do.
+ * a chain of links that meet where the lines do.  A link that noise does not explain stays as recorded.  But where
+ * a sensor jumps and friction does not, the load point has not moved: so one that moves at the speeds of the slides
+ * alone is tried too, and the likelier path is kept.
  *
  * Lines whose speeds differ by less than a fifth are one slide.  A line that is short beside its neighbours, in
  * time and way, is the ramp of a servo; it belongs to the change between these.  A step begins in the second half
@@ -24,6 +26,7 @@
 #include "signal/header.h"
 
 enum { FEWEST = 4, MOST = 4096 };      /* rows of a line, and of a step */
+enum { ROOM = 8 };              /* columns of a step: time, friction, two paths, two laws along either */
 #define CHANGE 0.2              /* the least relative change of speed */
 #define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
 #define NOISY 9                 /* times the noise: mean square off a link that noise explains */
@@ -34,18 +37,26 @@ enum { FEWEST = 4, MOST = 4096 };      /* rows of a line, and of a step */
 
 const char *const ss_step_law_names[SS_STEP_LAWS] = { "aging", "slip" };
 
+/* What the lines of a slide say of it, however its sensor jumps between them. */
+typedef struct slide {
+    double meets;               /* when it meets the one before [s] */
+    double speed, weight;       /* mean of its lines, by how well each shows it */
+    corner begins[2];           /* on a chain of lines, and of slides: where it begins */
+} slide;
+
 typedef struct line {
     size_t first, end;          /* rows */
     double speed, error;
     double at, from, squares;   /* it passes the point (at, from); sum of squares about it */
+    slide of;
 } line;
 
 typedef struct path {
     const double *t;
-    double *x;
+    double *x, *moved[2];       /* as recorded, and on either chain */
     size_t n;
     long double (*sum)[5];      /* of t, x, t t, t x, x x of the rows before */
-    double rounding, saved;     /* of the sums of squares; squares that a cut must save */
+    double rounding, saved, noise;      /* of the sums of squares; squares that a cut must save; of the path */
     double start;               /* x of the first row, as recorded */
     line *line;
     size_t lines, room;
@@ -61,7 +72,7 @@ fit_line(const path *p, size_t first, size_t end, line *out)
     long double tt = s[2] - s[0] * s[0] / n, tx = s[3] - s[0] * s[1] / n, xx = s[4] - s[1] * s[1] / n;
     double left = (double)fmaxl(xx - tx * tx / tt, 0);
     *out = (line){ first, end, (double)(tx / tt), sqrt((left + p->rounding) / (double)(n - 2) / (double)tt),
-                   (double)(s[0] / n), (double)(s[1] / n), left };
+                   (double)(s[0] / n), (double)(s[1] / n), left, out->of };
     return left;
 }
 
@@ -69,7 +80,7 @@ fit_line(const path *p, size_t first, size_t end, line *out)
 static ss_status
 cut(path *p, size_t first, size_t end)
 {
-    line whole, a = { 0 }, left, right;
+    line whole = { 0 }, a = { 0 }, left = { 0 }, right = { 0 };
     double least = fit_line(p, first, end, &whole);
     for (size_t i = first + FEWEST; i + FEWEST <= end; i++) {
         double squares = fit_line(p, first, i, &left) + fit_line(p, i, end, &right);
@@ -86,6 +97,8 @@ cut(path *p, size_t first, size_t end)
     if (more == NULL)
         return SS_ENOMEM;
     p->line = more;
+    const double lasts = p->t[end - 1] - p->t[first];
+    whole.of = (slide){ .speed = whole.speed, .weight = (double)(end - first) * lasts * lasts };
     more[p->lines++] = whole;
     return SS_OK;
 }
@@ -138,13 +151,19 @@ join(path *p)
                 likest = i;
         again = p->lines > 1 && difference(&p->line[likest]) < 1;
         if (again) {
-            fit_line(p, p->line[likest].first, p->line[likest + 1].end, &p->line[likest]);
+            line *l = &p->line[likest];
+            const double weight = l[0].of.weight + l[1].of.weight;
+            fit_line(p, l[0].first, l[1].end, l);
+            l->of.speed += l[1].of.weight / weight * (l[1].of.speed - l->of.speed);
+            l->of.weight = weight;
             drop(p, likest + 1, 1);
         }
         for (size_t i = 0; !again && i + 2 < p->lines; i++)
             for (size_t n = 1; !again && i + n + 1 < p->lines; n++)
-                if ((again = is_ramp(p, &p->line[i], n)))
+                if ((again = is_ramp(p, &p->line[i], n))) {
+                    p->line[i + n + 1].of.meets = (p->line[i + 1].of.meets + p->line[i + n + 1].of.meets) / 2;
                     drop(p, i + 1, n);
+                }
     }
 }
 
@@ -160,32 +179,38 @@ noise_of(const path *p, double *off)
     return ss_wander_variance(off, p->n - 2);
 }
 
-/* The time at which line k begins: where it meets the one before, if that is near, else its first row. */
+/* The time at which a line meets the next, if that is near, else that of the next one's first row. */
 static double
-joint(const path *p, size_t k)
+joint(const path *p, const line *l)
 {
-    const line *l = &p->line[k > 0 ? k - 1 : 0];
-    const double first = k < p->lines ? p->t[p->line[k].first] : p->t[p->n - 1];
-    if (k == 0 || k == p->lines)
-        return first;
+    const double first = p->t[l[1].first];
     double apart = l[0].from - l[0].speed * l[0].at - (l[1].from - l[1].speed * l[1].at);
     double meet = p->t[0] + apart / (l[1].speed - l[0].speed);
     double before = (p->t[l[0].first] + first) / 2, behind = (first + p->t[l[1].end - 1]) / 2;
     return meet > before && meet < behind ? meet : first;
 }
 
-/* Move the path onto the chain of straight links between such joints that is nearest to it; but a link that noise
- * does not explain stays as recorded.  SS_ENOMEM. */
+/* The time at which a line ends. */
+static double
+end_of(const path *p, size_t k)
+{
+    return k + 1 < p->lines ? p->line[k + 1].of.meets : p->t[p->n - 1];
+}
+
+/* Move the path onto the chain of straight links between such joints that is nearest to it, but where noise does not
+ * explain what a link leaves.  SS_ENOMEM. */
 static ss_status
-chain(path *p, double noise)
+chain(path *p)
 {
     const size_t joints = p->lines + 1;
     double *on = calloc(4 * joints, sizeof *on), *beside = on + joints, *sum = on + 2 * joints, *at = on + 3 * joints;
     if (on == NULL)
         return SS_ENOMEM;
+    memcpy(p->moved[0], p->x, p->n * sizeof *p->x);
     for (int pass = 0; pass < 2; pass++) {
+        int fits = 0;
         for (size_t k = 0, i = 0, end; k < p->lines; k++, i = end) {
-            const double from = joint(p, k), to = joint(p, k + 1);
+            const double from = p->line[k].of.meets, to = end_of(p, k);
             double squares = 0;
             for (end = i; end < p->n && (p->t[end] < to || k + 1 == p->lines); end++) {
                 double u = (p->t[end] - from) / (to - from), x = p->x[end] - p->start;
@@ -197,9 +222,12 @@ chain(path *p, double noise)
                 sum[k + 1] += u * x;
                 squares += off * off;
             }
-            for (size_t j = i; pass == 1 && squares < NOISY * noise * (double)(end - i) && j < end; j++) {
+            const int fitted = fits;
+            fits = pass == 1 && squares < NOISY * p->noise * (double)(end - i) + p->rounding;
+            p->line[k].of.begins[0] = fits && fitted ? (corner){ from, p->start + at[k] } : (corner){ NAN, NAN };
+            for (size_t j = i; fits && j < end; j++) {
                 double u = (p->t[j] - from) / (to - from);
-                p->x[j] = p->start + (1 - u) * at[k] + u * at[k + 1];
+                p->moved[0][j] = p->start + (1 - u) * at[k] + u * at[k + 1];
             }
         }
         gsl_vector_view d = gsl_vector_view_array(on, joints), e = gsl_vector_view_array(beside, joints - 1);
@@ -211,96 +239,99 @@ chain(path *p, double noise)
     return SS_OK;
 }
 
-/* Find the lines of different speed, and move the path onto its lines, but for rows that noise does not
- * explain. */
+/* Let the load point slide at the speeds of the slides alone, one from where the last ends. */
+static void
+slide_on(path *p)
+{
+    double x = p->start;
+    for (size_t k = 0, i = 0; k < p->lines; k++) {
+        slide *s = &p->line[k].of;
+        const double to = end_of(p, k);
+        s->begins[1] = (corner){ s->meets, x };
+        for (; i < p->n && (p->t[i] < to || k + 1 == p->lines); i++)
+            p->moved[1][i] = x + s->speed * (p->t[i] - s->meets);
+        x += s->speed * (to - s->meets);
+    }
+}
+
+/* Find the lines of different speed, and both paths. */
 static ss_status
 find_lines(path *p)
 {
-    double *off = malloc(p->n * sizeof *off);
+    double *off = malloc(3 * p->n * sizeof *off);
     p->sum = malloc((p->n + 1) * sizeof *p->sum);
-    ss_status st = off != NULL && p->sum != NULL ? SS_OK : SS_ENOMEM;
-    if (st == SS_OK) {
-        const double from = p->start = p->x[0], way = p->x[p->n - 1] - from, noise = noise_of(p, off);
-        memset(p->sum[0], 0, sizeof p->sum[0]);
-        for (size_t i = 0; i < p->n; i++) {
-            long double t = p->t[i] - p->t[0], x = p->x[i] - from, of[5] = { t, x, t * t, t * x, x * x };
-            for (int k = 0; k < 5; k++)
-                p->sum[i + 1][k] = p->sum[i][k] + of[k];
-        }
-        p->rounding = 10 * DBL_EPSILON * way * way;
-        p->saved = fmax(SIGNIFICANT * noise, p->rounding);
-        st = cut(p, 0, p->n);
-        if (st == SS_OK)
-            st = chain(p, noise);
+    p->moved[0] = off;
+    p->moved[1] = off + p->n;
+    if (off == NULL || p->sum == NULL)
+        return SS_ENOMEM;
+    const double from = p->start = p->x[0], way = p->x[p->n - 1] - from;
+    p->noise = noise_of(p, off);
+    memset(p->sum[0], 0, sizeof p->sum[0]);
+    for (size_t i = 0; i < p->n; i++) {
+        long double t = p->t[i] - p->t[0], x = p->x[i] - from, of[5] = { t, x, t * t, t * x, x * x };
+        for (int k = 0; k < 5; k++)
+            p->sum[i + 1][k] = p->sum[i][k] + of[k];
     }
+    p->rounding = 10 * DBL_EPSILON * way * way;
+    p->saved = fmax(SIGNIFICANT * p->noise, p->rounding);
+    ss_status st = cut(p, 0, p->n);
+    for (size_t k = 0; st == SS_OK && k < p->lines; k++)
+        p->line[k].of.meets = k > 0 ? joint(p, &p->line[k - 1]) : p->t[0];
     if (st == SS_OK)
+        st = chain(p);
+    if (st == SS_OK) {
         join(p);
-    free(off);
+        slide_on(p);
+    }
     return st;
 }
 
 /* --- a step -------------------------------------------------------------------------------- */
 
-/* Where a line meets the next, if that is between their rows. */
-static void
-find_corner(corner *c, const path *p, const line *l, size_t first, double sign)
-{
-    double off = 0, before, behind;
-    *c = (corner){ NAN, NAN };
-    if (l == NULL)
-        return;
-    const size_t at = l[1].first;
-    const double step = fabs(p->x[at] - p->x[at - 1]), t = p->t[0];
-    for (int k = 0; k < 2; k++)
-        off = fmax(off, fabs(p->x[at - 1 + k] - p->start - l[k].from - l[k].speed * (p->t[at - 1 + k] - t - l[k].at)));
-    before = l[0].from - l[0].speed * l[0].at;
-    behind = l[1].from - l[1].speed * l[1].at;
-    c->t = t + (before - behind) / (l[1].speed - l[0].speed);
-    c->load = sign * (p->start + before + l[0].speed * (c->t - t) - p->x[first]);
-    if (!(off < 1e-3 * step && c->t > p->t[at - 1] && c->t < p->t[at]))
-        c->t = NAN;
-}
-
 /* Take the rows of a step, whose slide begins with line `at`; the next `lines` belong to it. */
 static ss_status
-take(ss_step *s, track *r, const path *p, const double *mu, size_t at, size_t lines, double sign)
+take(ss_step *s, track r[2], const path *p, const double *mu, size_t at, size_t lines, double sign)
 {
     const line *l = &p->line[at];
     const size_t first = at > 0 ? (l->first + l->end) / 2 : l->first, all = l[lines - 1].end - first;
-    const size_t apart = all / MOST + 1;
-    double *room = malloc(5 * all * sizeof *room);
+    const size_t apart = all / MOST + 1, n = all / apart;
+    double *room = malloc(ROOM * n * sizeof *room);
     if (room == NULL)
         return SS_ENOMEM;
+    s->n = n;
     s->t = room;
-    s->path = room + all;
-    s->friction = room + 2 * all;
-    s->law[0].model = room + 3 * all;
-    s->law[1].model = room + 4 * all;
-    for (size_t i = 0; i < all / apart; i++) {
-        double sum[3] = { 0 };
+    s->friction = room + n;
+    line whole = { 0 };
+    fit_line(p, first, l->end, &whole);
+    for (int k = 0; k < 2; k++)
+        r[k] = (track){ .n = n, .t = s->t, .mu = s->friction, .load = room + (2 + (size_t)k) * n, .changes = lines - 1,
+                        .speed = sign * (k == 0 ? whole.speed : l->of.speed) };
+    s->path = r[0].load;
+    for (size_t i = 0; i < n; i++) {
+        double sum[4] = { 0 };
         for (size_t k = first + i * apart; k < first + (i + 1) * apart; k++) {
-            sum[0] += p->t[k] / (double)apart;
-            sum[1] += sign * (p->x[k] - p->x[first]) / (double)apart;
-            sum[2] += mu[k] / (double)apart;
+            const double of[4] = { p->t[k], mu[k], sign * (p->moved[0][k] - p->x[first]),
+                                   sign * (p->moved[1][k] - p->x[first]) };
+            for (int j = 0; j < 4; j++)
+                sum[j] += of[j] / (double)apart;
         }
-        s->t[s->n] = sum[0];
-        s->path[s->n] = sum[1];
-        s->friction[s->n++] = sum[2];
+        for (size_t j = 0; j < 4; j++)
+            room[j * n + i] = sum[j];
     }
-    line slide;
-    fit_line(p, first, l->end, &slide);
-    *r = (track){ .n = s->n, .t = s->t, .load = s->path, .mu = s->friction, .changes = lines - 1,
-                  .speed = sign * slide.speed };
-    for (size_t k = 1; k < lines; k++)
-        r->change[k - 1] = (l[k].first - first) / apart;
-    double middle = 0, mean = 0;                /* the slide begins on its line, not on its first row's noise */
-    for (size_t i = 0; i < r->change[0]; i++) {
-        middle += (s->t[i] - s->t[0]) / (double)r->change[0];
-        mean += s->path[i] / (double)r->change[0];
+    for (int which = 0; which < 2; which++) {
+        track *to = &r[which];
+        for (size_t k = 1; k < lines; k++) {        /* means of rows are too coarse for corners */
+            const corner c = l[k].of.begins[which];
+            to->change[k - 1] = (l[k].first - first) / apart;
+            to->corner[k - 1] = (corner){ apart == 1 ? c.t : NAN, sign * (c.load - p->x[first]) };
+        }
+        double middle = 0, mean = 0;                /* the slide begins on its line, not on its first row's noise */
+        for (size_t i = 0; i < to->change[0]; i++) {
+            middle += (s->t[i] - s->t[0]) / (double)to->change[0];
+            mean += to->load[i] / (double)to->change[0];
+        }
+        to->load[0] = mean - to->speed * middle;
     }
-    s->path[0] = mean - r->speed * middle;
-    for (size_t k = 1; k < lines; k++)          /* means of rows are too coarse for corners */
-        find_corner(&r->corner[k - 1], p, apart == 1 && l[k - 1].end == l[k].first ? &l[k - 1] : NULL, first, sign);
     s->at = p->t[l[1].first];
     s->before = r->speed;
     s->after = sign * l[lines - 1].speed;
@@ -315,12 +346,15 @@ forget(ss_value *v)
         *v = (ss_value){ NAN, NAN };
 }
 
+/* Fit both laws to a track; model: room for their friction.  *likely becomes the larger logarithm of likelihood. */
 static ss_status
-judge(ss_step *s, const track *r, double stiffness)
+fit_laws(ss_step_law law[SS_STEP_LAWS], double *model, const track *r, double stiffness, double *likely)
 {
-    for (int i = 0; i < SS_STEP_LAWS; i++) {
-        ss_step_law *l = &s->law[i];
-        ss_status st = ss_loaded_fit(l, l->model, r, i == SS_STEP_SLIP, stiffness);
+    *likely = -INFINITY;
+    for (int i = 0; i < SS_STEP_LAWS; i++, model += r->n) {
+        ss_step_law *l = &law[i];
+        ss_status st = ss_loaded_fit(l, model, r, i == SS_STEP_SLIP, stiffness);
+        l->model = model;
         if (st == SS_EDATA)
             *l = (ss_step_law){ NAN, NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN,
                                 l->model };
@@ -331,7 +365,29 @@ judge(ss_step *s, const track *r, double stiffness)
         forget(&l->stiffness);
         if (stiffness > 0)
             l->stiffness = (ss_value){ stiffness, 0 };
+        *likely = fmax(*likely, l->log_likelihood);
     }
+    return SS_OK;
+}
+
+/* Fit a step along the first track, or the other one if that is likelier, and say which law it is. */
+static ss_status
+judge(ss_step *s, const track r[2], double noise, double stiffness)
+{
+    ss_step_law other[SS_STEP_LAWS];
+    double apart = 0, likely[2], *models = s->t + 4 * r->n;
+    ss_status st = fit_laws(s->law, models, r, stiffness, &likely[0]);
+    for (size_t i = 0; i < r->n; i++)
+        apart = fmax(apart, fabs(r[1].load[i] - r[0].load[i]));
+    if (st == SS_OK && apart * apart > NOISY * noise) {
+        st = fit_laws(other, models + 2 * r->n, &r[1], stiffness, &likely[1]);
+        if (st == SS_OK && likely[1] > likely[0]) {
+            memcpy(s->law, other, sizeof other);
+            s->path = r[1].load;
+        }
+    }
+    if (st != SS_OK)
+        return st;
     double ahead = s->law[SS_STEP_SLIP].log_likelihood - s->law[SS_STEP_AGING].log_likelihood;
     s->best = ahead > 0 || isnan(s->law[SS_STEP_AGING].log_likelihood) ? SS_STEP_SLIP : SS_STEP_AGING;
     const ss_step_law *best = &s->law[s->best];
@@ -385,14 +441,14 @@ fit_steps(ss_steps *out, const path *p, const double *mu, double sign, double st
     for (size_t i = 0, lines; st == SS_OK && i + 1 < p->lines; i += lines - 1) {
         const line *l = &p->line[i];
         int holds = fabs(l[1].speed) < STILL * fabs(l[0].speed) && i + 2 < p->lines;
-        track record;
+        track record[2];
         lines = holds ? 3 : 2;
         if (!(sign * l->speed > 0) || (i > 0 && fabs(l->speed) < STILL * fabs(l[-1].speed)))
             continue;
         ss_step *s = &out->step[out->n++];
-        st = take(s, &record, p, mu, i, lines, sign);
+        st = take(s, record, p, mu, i, lines, sign);
         if (st == SS_OK)
-            st = judge(s, &record, stiffness);
+            st = judge(s, record, p->noise, stiffness);
     }
     return st;
 }
@@ -422,6 +478,7 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
                      signal->head->column[load].name);
     free(p.sum);
     free(p.line);
+    free(p.moved[0]);
     free(x);
     if (st == SS_OK)
         *out = made;
