@@ -14,7 +14,7 @@
 /* --- the law driven is the law simulated ---------------------------------------------------- */
 
 typedef struct place {
-    double t, x, f;             /* f: NaN at an event */
+    double t, x, v, f;          /* f: NaN at an event */
 } place;
 
 typedef struct places {
@@ -35,14 +35,14 @@ static int
 add_samples(const ss_sample *s, size_t n, void *user)
 {
     for (size_t i = 0; i < n; i++)
-        add(user, (place){ s[i].t, s[i].x, s[i].f });
+        add(user, (place){ s[i].t, s[i].x, s[i].v, s[i].f });
     return 0;
 }
 
 static int
 add_event(const ss_event *e, void *user)
 {
-    add(user, (place){ e->t, e->x, NAN });
+    add(user, (place){ e->t, e->x, NAN, NAN });
     return 0;
 }
 
@@ -82,6 +82,35 @@ drives_as_it_simulates(void **unused)
     print_message("%zu events, f within %.1e N\n", events, worst);
     assert_true(events > 50 && worst <= 1e-9 * scene.friction);
     free(p.at);
+}
+
+/* Rate and state, from one sample to the next at the mean speed: of an age whose time is h V/Dc = .01 or less, this
+ * neglects (h V/Dc)^2/12 of b N. */
+static void
+drives_rate_and_state_as_it_simulates(void **unused)
+{
+    (void)unused;
+    for (int law = 0; law < 2; law++) {
+        const char *const settings[] = { law ? "law=slip" : "law=aging", "settle=0", "duration=.5", "rate=20000" };
+        ss_scene s;
+        places p = { 0 };
+        ss_sim_opts opts;
+        assert_int_equal(ss_scene_load(&s, "rate-and-state-mild", settings, 4, NULL), SS_OK);
+        ss_sim_opts_init(&opts, sizeof opts);
+        opts.samples = add_samples;
+        opts.user = &p;
+        assert_int_equal(ss_sim_run(&s, &opts, NULL, NULL), SS_OK);
+        double memory = log(ss_scene_get(&s, "reference_velocity") / s.base_velocity), worst = 0;
+        for (size_t i = 1; i < p.n; i++) {
+            const piece q = { p.at[i].x - p.at[i - 1].x, p.at[i].t - p.at[i - 1].t, p.at[i].v, 0 };
+            double part[DRIVEN_PARTS];
+            s.model->drive(&s, &memory, &q, part);
+            worst = fmax(worst, fabs(part[0] + part[1] + part[2] - p.at[i].f));
+        }
+        print_message("f within %.1e N\n", worst);
+        assert_true(p.n == 10000 && worst <= 1e-4 / 12 * .015 * 10);
+        free(p.at);
+    }
 }
 
 /* --- laws in closed form -------------------------------------------------------------------- */
@@ -211,6 +240,44 @@ finds_sign_velocity_and_delay(void **unused)
     assert_number(k, "delay", 10. / ROWS, "s");
     ss_motion_ranking_free(k);
     ss_signal_free(r.signal);
+}
+
+/* Rate and state, whose age is integrated in steps of a twentieth of a row.  Where the speed is the same to and fro,
+ * it is dry friction. */
+static void
+names_rate_and_state_where_the_speed_varies(void **unused)
+{
+    enum { FINE = 20 };
+    const double N = 3, a = 0.03, b = 0.02, Dc = 0.4;       /* kN, mm */
+    (void)unused;
+    for (int is_steady = 0; is_steady < 2; is_steady++) {
+        recording r = record();
+        double age = 1;
+        for (int i = 0; i < ROWS; i++) {
+            double h = 10. / ROWS / FINE;
+            if (is_steady) {
+                int at = i % 300;
+                r.x[i] = at < 150 ? at / 75. : 4 - at / 75.;
+                r.v[i] = at < 150 ? 4 : -4;
+            }
+            for (int k = 0; k < FINE && i > 0; k++)
+                age += h * (1 - fabs(r.v[i - 1] + (k + 0.5) / FINE * (r.v[i] - r.v[i - 1])) * age / Dc);
+            r.f[i] = N * (r.v[i] > 0 ? 1 : -1) * (1 + a * log(fabs(r.v[i])) + b * log(age / Dc));
+        }
+        add_noise(r.f, 0.01, 21);
+        ss_motion_ranking *k = rank(&r, 0, NULL);
+        assert_named(k, is_steady ? "coulomb" : "rate-and-state");
+        if (!is_steady) {
+            const double V0 = ss_scene_get(&k->scene, "reference_velocity") * 1e3, level = 1 + (a - b) * log(V0);
+            assert_number(k, "normal_force", N * level, "kN");
+            assert_number(k, "direct_effect", a / level, "1");
+            assert_number(k, "evolution_effect", b / level, "1");
+            assert_number(k, "critical_slip_distance", Dc, "mm");
+            assert_non_null(strstr(k->confounded, "normal_force with reference_friction"));
+        }
+        ss_motion_ranking_free(k);
+        ss_signal_free(r.signal);
+    }
 }
 
 /* Dahl's law: an exponential of the motion between turns. */
@@ -367,9 +434,11 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drives_as_it_simulates),
+        cmocka_unit_test(drives_rate_and_state_as_it_simulates),
         cmocka_unit_test(names_an_elastic_slider),
         cmocka_unit_test(finds_sign_velocity_and_delay),
         cmocka_unit_test(names_dahl),
+        cmocka_unit_test(names_rate_and_state_where_the_speed_varies),
         cmocka_unit_test(names_dry_friction),
         cmocka_unit_test(names_dry_friction_read_late),
         cmocka_unit_test(does_not_judge_what_tells_nothing),

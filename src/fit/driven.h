@@ -26,6 +26,7 @@ typedef struct driven_law {
     size_t parts;                   /* forces whose amplitudes are its own; 1: the sum of the model's parts */
     struct { const char *name, *unit; } number[LAW_NUMBERS];    /* keys of scenes */
     void (*numbers)(double number[], const double u[], const double c[]);   /* c: amplitudes of its parts */
+    const char *confounded;         /* what no motion separates; or NULL */
     unsigned contains;              /* a bit for each row that is a limit of this one */
 } driven_law;
 /* laws.c: the rows, from the simplest; the first is the null.  NULL after the last. */

@@ -92,7 +92,7 @@ move_earlier(problem *p, double late)
 static void
 fill_columns(problem *p, const double u[UNKNOWNS])
 {
-    static const double ones[DRIVEN_PARTS] = { 1, 1 };
+    static const double ones[DRIVEN_PARTS] = { 1, 1, 1 };
     const driven *d = p->d;
     double memory = 0, part[DRIVEN_PARTS] = { 0 };
     ss_scene scene = ss_scene_defaults;
@@ -107,8 +107,8 @@ fill_columns(problem *p, const double u[UNKNOWNS])
         const piece q = { i > 0 ? p->x[i] - p->x[i - 1] : 0, i > 0 ? d->t[i] - d->t[i - 1] : 0, p->v[i], d->slow };
         scene.model->drive(&scene, &memory, &q, part);
         p->column[PART][i] = p->law->parts > 1 ? part[0] : part[0] + part[1];
-        if (p->law->parts > 1)
-            p->column[PART + 1][i] = part[1];
+        for (size_t k = 1; k < p->law->parts; k++)
+            p->column[PART + k][i] = part[k];
     }
     for (size_t i = 0; i < d->n && p->column[SINE] != NULL; i++) {
         double angle = (d->middle + p->x[i] * d->length) * d->angle;

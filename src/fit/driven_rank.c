@@ -234,6 +234,8 @@ find_confounded(ss_motion_ranking *out, const driven_result *r, const driven *d)
     }
     if (fabs(xa) > 0.98 * sqrt(xx * aa))
         ss_verdict_append(out->confounded, sizeof out->confounded, "inertia with tilt (the motion is one sine)");
+    if (r->law->confounded != NULL)
+        ss_verdict_append(out->confounded, sizeof out->confounded, r->law->confounded);
     if (r->law->parts == 1)
         ss_verdict_append(out->confounded, sizeof out->confounded, "friction that differs by direction with offset");
 }

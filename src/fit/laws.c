@@ -69,10 +69,21 @@ lugre(double number[], const double u[], const double c[])
     number[4] = c[1];
 }
 
+/* The amplitudes are N mu0, N a and N b at the rms speed, which is the unit; N is that of mu0 = 1. */
+static void
+rate_and_state(double number[], const double u[], const double c[])
+{
+    number[0] = c[0];
+    number[1] = number[2] = 1;
+    number[3] = c[1] / c[0];
+    number[4] = c[2] / c[0];
+    number[5] = exp(u[LENGTH]);
+}
+
 #define BIT(name) (1u << (name))
 enum {
     IS_LINEAR, IS_COULOMB, IS_STRIBECK, IS_COMPLIANT, IS_DAHL, IS_LUGRE, IS_COMPLIANT_GAP, IS_BOUC_WEN,
-    IS_BOUC_WEN_GAP
+    IS_BOUC_WEN_GAP, IS_RATE_AND_STATE
 };
 #define SIMPLE BIT(IS_LINEAR) | BIT(IS_COULOMB)
 #define SMALL (-4.6)                /* the logarithm of a length that a contact does not show */
@@ -105,6 +116,10 @@ static const driven_law list[] = {
         .number = { AMOUNT, STIFFNESS, FORM, { "gap", "m" }, OTHER_SIDE },
         .contains = SIMPLE | BIT(IS_COMPLIANT) | BIT(IS_DAHL) | BIT(IS_BOUC_WEN) | BIT(IS_COMPLIANT_GAP),
         .free = BIT(LENGTH) | BIT(EXPONENT) | BIT(BETA) | BIT(GAP) },
+    [IS_RATE_AND_STATE] = { .name = "rate-and-state", .model = "rate-and-state", .parts = 3, .numbers = rate_and_state,
+        .number = { { "normal_force", "N" }, { "reference_friction", "1" }, { "reference_velocity", "m/s" },
+                    { "direct_effect", "1" }, { "evolution_effect", "1" }, { "critical_slip_distance", "m" } },
+        .confounded = "normal_force with reference_friction", .contains = SIMPLE, .free = BIT(LENGTH) },
 };
 
 const driven_law *

@@ -16,22 +16,25 @@
 #include <stickslip.h>
 #include "../uniform.h"
 
-enum { ROWS = 4000, FINE = 40, LAWS = 8 };
+enum { ROWS = 4000, FINE = 40, LAWS = 9, RATE_AND_STATE = 8 };
 
 static const char *const names[LAWS] = { "coulomb", "stribeck", "compliant", "dahl", "lugre", "compliant-gap",
-                                         "bouc-wen", "bouc-wen-gap" };
+                                         "bouc-wen", "bouc-wen-gap", "rate-and-state" };
 /* A law and those that contain it. */
-static const char *const within[LAWS][9] = {
-    { "coulomb", "stribeck", "compliant", "dahl", "lugre", "compliant-gap", "bouc-wen", "bouc-wen-gap", NULL },
+static const char *const within[LAWS][10] = {
+    { "coulomb", "stribeck", "compliant", "dahl", "lugre", "compliant-gap", "bouc-wen", "bouc-wen-gap",
+      "rate-and-state", NULL },
     { "stribeck", "lugre", NULL }, { "compliant", "compliant-gap", "bouc-wen", "bouc-wen-gap", NULL },
     { "dahl", "lugre", "bouc-wen", "bouc-wen-gap", NULL }, { "lugre", NULL },
-    { "compliant-gap", "bouc-wen-gap", NULL }, { "bouc-wen", "bouc-wen-gap", NULL }, { "bouc-wen-gap", NULL } };
+    { "compliant-gap", "bouc-wen-gap", NULL }, { "bouc-wen", "bouc-wen-gap", NULL }, { "bouc-wen-gap", NULL },
+    { "rate-and-state", NULL } };
 
 /* What a draw is made of; lengths in units of the rms motion, speeds of the rms speed. */
 typedef struct truth {
     int law;
     double f, d, other, gap, n, p, rise, speed, shape, damping;
     double viscous, tilt, offset, inertia;
+    double a, b;                                /* of rate and state; its distance is d */
     double wander, place, side, drift, late;    /* what the law does not say */
 } truth;
 
@@ -88,6 +91,8 @@ clip(double x, double from, double to)
 static double
 rate_of(const truth *r, double z, double v)
 {
+    if (r->law == RATE_AND_STATE)
+        return 1 - fabs(v) * z / r->d;
     double way = v > 0 ? 1 : -1, g = 1 + (r->rise - 1) * exp(-v * v / (r->speed * r->speed));
     if (r->law == 3 || r->law == 4)
         return v - fabs(v) * z / (r->d * (r->law == 4 ? g : 1));
@@ -103,6 +108,7 @@ friction_of(const truth *r, double z, double rate, double v)
     case 0: return r->f * way;
     case 1: return r->f * way * (1 + (r->rise - 1) * exp(-pow(fabs(v) / r->speed, r->shape)));
     case 4: return r->f * z / r->d + r->damping * rate;
+    case RATE_AND_STATE: return r->f * way * (1 + r->a * log(fabs(v)) + r->b * log(z / r->d));
     case 5: return r->f / r->d * y * (y < 0 ? r->p : 1);
     default: return r->f * y / r->d;
     }
@@ -113,7 +119,7 @@ static void
 simulate(ss_signal *s, double clean[ROWS], const truth *r, int kind, double db, uint64_t *seed)
 {
     const double cycles = 10, h = cycles / ROWS / FINE;
-    double *x = s->values, *f = x + ROWS, phase[3], z = 0, noise = 0, m[3];
+    double *x = s->values, *f = x + ROWS, phase[3], z = r->law == RATE_AND_STATE ? r->d : 0, noise = 0, m[3];
     double sx = 0, sv = 0, sa = 0, sum = 0, squares = 0, wander = gauss(seed), before = 0;
     const double keep = exp(-cycles / ROWS);
     for (int k = 0; k < 3; k++)
@@ -170,6 +176,10 @@ draw(int law, uint64_t *seed)
                 .p = between(seed, .5, 1), .rise = between(seed, 1.2, 2), .speed = scaled(seed, .05, .6),
                 .shape = between(seed, 1, 2), .damping = between(seed, 0, .3), .viscous = between(seed, 0, .3),
                 .tilt = between(seed, 0, .3), .offset = between(seed, -.3, .3), .inertia = between(seed, 0, .2) };
+    if (law == RATE_AND_STATE) {
+        r.a = scaled(seed, .01, .06);
+        r.b = r.a * between(seed, .3, 1.6);
+    }
     r.gap = law == 5 || law == 7 ? scaled(seed, .1, .7) : 0;
     return r;
 }
@@ -183,6 +193,8 @@ known(const truth *r, const char *name, double *value)
         { "friction", r->f }, { "static_friction", r->f * r->rise }, { "contact_stiffness", k }, { "gap", r->gap },
         { "friction_negative", r->f * other * (r->law == 5 ? r->other : 1) },
         { "contact_stiffness_negative", k * other },
+        { "normal_force", r->f }, { "direct_effect", r->a }, { "evolution_effect", r->b },
+        { "critical_slip_distance", r->d },
         { "exponent", r->n }, { "beta_fraction", r->p }, { "stribeck_velocity", r->speed },
         { "stribeck_exponent", r->shape }, { "bristle_stiffness", k }, { "bristle_damping", r->damping } };
     for (size_t i = 0; i < sizeof of / sizeof *of; i++)
