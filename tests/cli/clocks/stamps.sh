@@ -26,3 +26,6 @@ read_stamps 0000-00-00T00:00:00 0000-00-00T00:00:01
 read_stamps 2024:03:05 2024:03:06
 read_stamps 2024-03-05T24:00:00 2024-03-05T24:00:01
 column 00:01 00:02 | refused ss-cat -q --time time
+# of several stamps off the others' line, the one that is farthest is named
+awk 'BEGIN { print "t,a"; for (i = 0; i < 40; i++) print i / 10 + (i == 7) * .01 - (i == 25) * .03 + (i == 33) * .02 "," i }' > off.csv
+! ss-cat off.csv
