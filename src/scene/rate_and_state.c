@@ -84,7 +84,7 @@ enum { LARGE = 20 };                /* beyond, exp(-2 w) is 0 beside 1 */
 typedef struct contact {
     double E, G, V, over;           /* V = E - G, and V - U */
     double ratio;                   /* b/a */
-    double renewal, L;              /* U exp(-s), log of V theta/Dc */
+    double renewal, L;              /* U exp(-s) of the law of aging, log of V theta/Dc */
     double s_rate, by_V, by_s;      /* s', and its derivatives by V and s */
 } contact;
 
@@ -103,15 +103,23 @@ steady_friction(const ss_scene *s)
     return s->own[NORMAL] * s->own[DIRECT] * friction_at(s, s->base_velocity);
 }
 
+/* U exp(z), and by how much it is over U: without cancellation, by one exponential. */
+static double
+grown(double U, double z, double *over)
+{
+    double all = fabs(z) < 1 ? 0 : U * exp(z);
+    *over = fabs(z) < 1 ? U * expm1(z) : all - U;
+    return fabs(z) < 1 ? U + *over : all;
+}
+
 static contact
 contact_at(const state *m, const double q[])
 {
     const ss_scene *s = m->scene;
     double U = s->base_velocity, Dc = s->own[DISTANCE], steady = m->f0 / (s->own[NORMAL] * s->own[DIRECT]);
-    contact c = { .ratio = s->own[EVOLUTION] / s->own[DIRECT], .renewal = U * exp(-q[2]) };
-    double rise = q[1] - c.ratio * q[2], log_V = rise;
-    c.E = U * exp(rise);
-    c.over = U * expm1(rise);
+    contact c = { .ratio = s->own[EVOLUTION] / s->own[DIRECT] };
+    double rise = q[1] - c.ratio * q[2], log_V = rise, younger;
+    c.E = grown(U, rise, &c.over);
     if (steady + fmin(q[1], 0) < LARGE) {
         double all = -expm1(-2 * steady), G = U / all * exp(-2 * steady);       /* of the steady slide */
         c.E /= all;
@@ -126,7 +134,8 @@ contact_at(const state *m, const double q[])
         c.by_V = -(c.L + 1) / Dc;
         c.by_s = -c.V / Dc;
     } else {
-        c.s_rate = (U * expm1(-q[2]) - c.over) / Dc;
+        c.renewal = grown(U, -q[2], &younger);
+        c.s_rate = (younger - c.over) / Dc;
         c.by_V = -1 / Dc;
         c.by_s = -c.renewal / Dc;
     }
