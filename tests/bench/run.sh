@@ -96,3 +96,12 @@ start() {       # COMMAND ...: CPU ms a run
         awk -F '[ms ]+' 'END { printf "%.1f", ($1 * 60 + $2 + $3 * 60 + $4) / 300 * 1000 }'
 }
 echo "CPU ms a run: empty program $(start "$out/empty"), ss-cat --version $(start ss-cat --version)"
+
+# Features of a live signal: five minutes at 1 kHz, with transitions and without any.
+echo
+echo "ss-features --stream of 300 s at 1 kHz: five transitions a second, from 10 and 5 Hz on; white noise"
+ss-sim -c t,a -s duration=300 -s rate=1000 compliant-light | ss-noise --snr 40 --seed 7 --format au > "$out/live.au"
+ss-signal noise --duration 300 --rate 1000 --seed 7 --format au > "$out/still.au"
+for signal in '10 live' '5 live' '10 still'; do
+    ss-features -v --stream --fmin "${signal% *}" "$out/${signal#* }.au" 2>&1 > /dev/null | grep CPU
+done

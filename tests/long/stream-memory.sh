@@ -23,6 +23,14 @@ watch 200 --dense --voices 2 --octaves=-8:1.5 -o x.h5
 watch 1000 --voices 2 --octaves=-8:1.5 -o x.h5
 rm x.h5
 
+# The last seconds of a live signal: as much after 10^7 samples as after 10^5.
+for seconds in 100 10000; do
+    ss-signal noise --rate 1000 --duration $seconds --format au > in &
+    below 50000 ss-contour -q --follow x.png 2 < in
+    wait
+done
+rm x.png
+
 # Delimited text in a file, of one kind or another, and HDF5, in constant memory.
 ss-signal noise --rate 10000 --duration 1000 --format csv > long.csv
 { tr ',' ';' < long.csv | tr . ,; } > comma.csv

@@ -12,12 +12,18 @@ awk '/^[0-9]/ && $7 != "-"' stream.tsv | wc -l | awk '{ print ($1 > 20) }'
 
 echo "-- as they come, and stopped"
 mkfifo in
-last() { awk '/^[0-9]/ && $2 < 4.4 { t = $2 } END { print t + 0 }' "$1"; }
-stopped() {     # what ends .6 s before 5 s is there, while the pipe is open, and the numbers, once nothing comes
+last() { awk -v by="$1" '/^[0-9]/ && $2 < by - .6 { t = $2 } END { print t + 0 }' "$2"; }
+stopped() {     # what ends .6 s before now is there, while the pipe is open, and the numbers, once nothing comes
     tool=$!
     exec 3> in
-    { awk '/^#/ || $1 < 5' run.tsv; printf '5\t1'; } >&3      # the last row may be of more digits
-    until [ "$(last out)" = "$(last stream.tsv)" ]; do sleep 0.1; done
+    from=-1
+    for now in 3.4 3.7 4.1 4.35 4.6 4.95; do
+        awk -v from=$from -v now=$now '/^#/ { if (from < 0) print; next } $1 >= from && $1 < now' run.tsv >&3
+        until [ "$(last $now out)" = "$(last $now stream.tsv)" ]; do sleep 0.1; done
+        from=$now
+    done
+    awk -v from=$from '/^[^#]/ && $1 >= from && $1 < 5' run.tsv >&3
+    printf '5\t1' >&3           # the last row may be of more digits
     echo there
     kill -TERM "$tool"
     wait "$tool" 2> /dev/null || echo "a signal: $(($? > 128))"
