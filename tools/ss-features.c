@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const char usage[] =
 "usage: ss-features [options] [FILE ...]\n"
@@ -56,6 +57,21 @@ typedef struct found {
     ss_features *features;
 } found;
 
+/* Say who knows more of a friction beside the path of its load point. */
+static void
+refer_to_load(const ss_header *head, size_t column)
+{
+    char dimension;
+    int per_time;
+    for (size_t i = 0; i < head->n_columns; i++) {
+        const ss_column *c = &head->column[i];
+        if (i != column && strncasecmp(c->name, "load", 4) == 0 && ss_unit_size(c->unit, &dimension, &per_time) > 0
+            && dimension == 'm' && per_time == 0)
+            tool_warn("where the speed of %s changes, 'ss-rank --load %s --column %s' gives rate and state",
+                      c->name, c->name, head->column[column].name);
+    }
+}
+
 static found
 find_features(const request *req, const char *path)
 {
@@ -68,6 +84,7 @@ find_features(const request *req, const char *path)
     ss_status st = ss_features_find(&f.features, f.signal, f.column, &f.opts, &err);
     if (st != SS_OK)
         tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
+    refer_to_load(head, f.column);
     tool_note("noise of rms %.3g, local maxima: %zu, spikes: %zu, %s", f.features->noise,
               f.features->n_maxima, f.features->spikes->n, ss_spikes_verdict(f.features->spikes));
     if (f.opts.stiffness > f.features->number[SS_TOTAL_STIFFNESS].value)
