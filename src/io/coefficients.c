@@ -72,15 +72,6 @@ copy_header(coefficient_reader *r)
     return st;
 }
 
-/* Read the options that determine the grid. */
-static ss_status
-read_options(coefficient_reader *r)
-{
-    ss_error why = { 0 };
-    ss_status st = ss_coefficients_take_notes(r->coef, &r->opts, &why);
-    return st == SS_EDATA ? ss_fail(r->err, st, "%s: %s", r->in->source->name, why.text) : st;
-}
-
 /* --- rows */
 
 static ss_status
@@ -123,18 +114,6 @@ find_part(coefficient_reader *r, const double number[])
     return SS_OK;
 }
 
-static ss_status
-append(part *p, double re, double im)
-{
-    double *w = ss_list_room(p->w, &p->room, p->n, 2 * sizeof *w);
-    if (w == NULL)
-        return SS_ENOMEM;
-    p->w = w;
-    p->w[2 * p->n] = re;
-    p->w[2 * p->n++ + 1] = im;
-    return SS_OK;
-}
-
 /* The edge of coefficient k in a record of n samples; SIZE_MAX if the end is not known. */
 static int
 known_edge(const coefficient_reader *r, const part *p, size_t k, size_t n)
@@ -170,7 +149,13 @@ append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
         return refuse(r, "b is %.9g s where the grid has %.9g s", number[2], b);
     if (!edge_fits(r, p, number[6]))
         return refuse(r, "edge is %g, not what the cone of influence gives", number[6]);
-    return append(p, number[4], number[5]);
+    double *w = ss_list_room(p->w, &p->room, p->n, 2 * sizeof *w);
+    if (w == NULL)
+        return SS_ENOMEM;
+    p->w = w;
+    p->w[2 * p->n] = number[4];
+    p->w[2 * p->n++ + 1] = number[5];
+    return SS_OK;
 }
 
 /* Check all that depends on the length of the record: the number of translations of a scale, and where
@@ -285,13 +270,17 @@ static ss_status
 read_all(coefficient_reader *r, FILE *in, const char *name)
 {
     struct opening o = { .kind = SS_KIND_COEFFICIENTS, .late_note = read_late_note, .user = r };
+    ss_error why = { 0 };
     ss_status st = ss_reader_open(&r->in, in, name, &o, r->err);
     if (st != SS_OK)
         return st;
     r->coef = calloc(1, sizeof *r->coef);
     if (r->coef == NULL)
         return SS_ENOMEM;
-    if ((st = copy_header(r)) != SS_OK || (st = read_options(r)) != SS_OK)
+    st = copy_header(r);
+    if (st == SS_OK && (st = ss_coefficients_take_notes(r->coef, &r->opts, &why)) == SS_EDATA)
+        ss_fail(r->err, st, "%s: %s", r->in->source->name, why.text);
+    if (st != SS_OK)
         return st;
     r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);
     if (r->part_of == NULL)

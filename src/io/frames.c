@@ -5,19 +5,12 @@
 #include "base/error.h"
 #include "io/frames.h"
 
-static uint64_t
-gather(const unsigned char *p, sample_type type)
-{
-    uint64_t x = 0;
-    for (unsigned i = 0; i < type.bytes; i++)
-        x = x << 8 | p[type.little_endian ? type.bytes - 1 - i : i];
-    return x;
-}
-
 double
 ss_sample_raw(const unsigned char *p, sample_type type)
 {
-    uint64_t bits = gather(p, type);
+    uint64_t bits = 0;
+    for (unsigned i = 0; i < type.bytes; i++)
+        bits = bits << 8 | p[type.little_endian ? type.bytes - 1 - i : i];
     if (type.is_float && type.bytes == sizeof(double)) {
         double x;
         memcpy(&x, &bits, sizeof x);
@@ -35,14 +28,6 @@ ss_sample_raw(const unsigned char *p, sample_type type)
     return -(double)(~bits & (sign - 1)) - 1;
 }
 
-/* Integers as fractions of full scale, [-1, 1). */
-static double
-decode(const unsigned char *p, sample_type type)
-{
-    double x = ss_sample_raw(p, type);
-    return type.is_float ? x : ldexp(x, 1 - 8 * (int)type.bytes) - (type.is_unsigned ? 1 : 0);
-}
-
 static ss_status
 refuse_end(const struct frames *f, size_t frame, size_t rest, ss_error *err)
 {
@@ -55,11 +40,14 @@ refuse_end(const struct frames *f, size_t frame, size_t rest, ss_error *err)
                    (unsigned long long)f->bytes_left);
 }
 
+/* Integers become fractions of full scale, [-1, 1). */
 static ss_status
 decode_row(struct frames *f, const char *p, double *const column[], size_t at, ss_error *err)
 {
     for (size_t c = 0; c < f->base.head->n_columns; c++) {
-        double x = decode((const unsigned char *)p + c * f->type.bytes, f->type);
+        double x = ss_sample_raw((const unsigned char *)p + c * f->type.bytes, f->type);
+        if (!f->type.is_float)
+            x = ldexp(x, 1 - 8 * (int)f->type.bytes) - (f->type.is_unsigned ? 1 : 0);
         if (column[c] != NULL)
             column[c][at] = x;
         if (!isfinite(x))
@@ -69,16 +57,6 @@ decode_row(struct frames *f, const char *p, double *const column[], size_t at, s
     }
     f->row++;
     return SS_OK;
-}
-
-/* 1 if these four bytes can be the name of a chunk: letters. */
-static int
-names_chunk(const char *name)
-{
-    for (int i = 0; i < 4; i++)
-        if (name[i] < ' ' || name[i] > '~')
-            return 0;
-    return 1;
 }
 
 static ss_status
@@ -103,7 +81,10 @@ skip_chunks(struct frames *f, ss_error *err)
         if (st != SS_OK || (in->hi == in->lo && left <= 1))
             return st;
         const unsigned char *p = (const unsigned char *)in->buffer + in->lo;
-        if (in->hi - in->lo < CHUNK_HEADER || !names_chunk((const char *)p))
+        int is_name = in->hi - in->lo >= CHUNK_HEADER;
+        for (int i = 0; is_name && i < 4; i++)
+            is_name = p[i] >= ' ' && p[i] <= '~';
+        if (!is_name)
             return refuse_rest(f, err);
         left = p[4] | (uint64_t)p[5] << 8 | (uint64_t)p[6] << 16 | (uint64_t)p[7] << 24;
         left += left % 2;

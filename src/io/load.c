@@ -28,19 +28,6 @@ file_of(const char *path)
     return strndup(path, colon != NULL ? (size_t)(colon - path) : strlen(path));
 }
 
-/* Refuse what is not read to its end, or only once: a pipe, a device. */
-static ss_status
-check_regular(const char *path, ss_error *err)
-{
-    struct stat st;
-    char *file = file_of(path);
-    if (file == NULL)
-        return ss_fail_memory(err, path);
-    int regular = stat(file, &st) != 0 || S_ISREG(st.st_mode) || S_ISDIR(st.st_mode);   /* these fail when opened */
-    free(file);
-    return regular ? SS_OK : ss_fail(err, SS_EDATA, "%s: not a regular file, which the motion of a base must be", path);
-}
-
 /* Write the checksum of a file to text. */
 static ss_status
 sum_file(char text[48], const char *path, ss_error *err)
@@ -82,9 +69,14 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
     ss_error why = { 0 };
     if (base == NULL || path == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = check_regular(path, err);
-    if (st == SS_OK)
-        st = ss_signal_read(&signal, NULL, path, NULL, err);
+    struct stat is;
+    char *file = file_of(path);
+    if (file == NULL)
+        return ss_fail_memory(err, path);
+    int regular = stat(file, &is) != 0 || S_ISREG(is.st_mode) || S_ISDIR(is.st_mode);   /* these fail when opened */
+    free(file);
+    ss_status st = regular ? ss_signal_read(&signal, NULL, path, NULL, err)     /* a pipe can be read only once */
+        : ss_fail(err, SS_EDATA, "%s: not a regular file, which the motion of a base must be", path);
     if (st != SS_OK)
         return st;
     int c = base_column(signal->head, column);

@@ -18,18 +18,6 @@ typedef struct table_reader {
 } table_reader;
 
 static ss_status
-add_note(table_reader *r, const char *text, ss_error *err)
-{
-    ss_table *t = r->table;
-    char **more = ss_list_room(t->note, &r->notes, t->n_notes, sizeof *more);
-    if (more == NULL)
-        return ss_fail_memory(err, r->in.name);
-    t->note = more;
-    more[t->n_notes] = strdup(text);
-    return more[t->n_notes++] != NULL ? SS_OK : ss_fail_memory(err, r->in.name);
-}
-
-static ss_status
 add_column(table_reader *r, char *label, ss_error *err)
 {
     ss_table *t = r->table;
@@ -103,6 +91,7 @@ static ss_status
 read_lines(table_reader *r, ss_kind kind, ss_error *err)
 {
     static const char columns[] = "# columns: ";
+    ss_table *t = r->table;
     char *line;
     ss_status st = ss_input_begin(&r->in, kind, err);
     while (st == SS_OK && (st = ss_input_row(&r->in, &line, err)) == SS_OK && line != NULL)
@@ -110,9 +99,13 @@ read_lines(table_reader *r, ss_kind kind, ss_error *err)
             st = read_columns(r, line + strlen(columns), err);
         else if (line[0] != '#')
             st = read_row(r, line, err);
-        else if (strstr(line, ": ") != NULL)
-            st = add_note(r, line + 1 + strspn(line + 1, " "), err);
-    if (st == SS_OK && r->table->n_columns == 0)
+        else if (strstr(line, ": ") != NULL) {
+            char **more = ss_list_room(t->note, &r->notes, t->n_notes, sizeof *more);
+            t->note = more != NULL ? more : t->note;
+            if (more == NULL || (more[t->n_notes++] = strdup(line + 1 + strspn(line + 1, " "))) == NULL)
+                st = ss_fail_memory(err, r->in.name);
+        }
+    if (st == SS_OK && t->n_columns == 0)
         return ss_fail(err, SS_EDATA, "%s: no '# columns:' line in the header", r->in.name);
     return st;
 }

@@ -84,36 +84,17 @@ exit_side(const tracer *t, cell_side p)
     return (mean >= t->level) == (corner >= t->level) ? p.side ^ 1 : 3 - p.side;
 }
 
-/* Step into the cell beyond the side; 0 at the border. */
-static int
-step_over(const tracer *t, cell_side *p)
-{
-    static const int dx[] = { 0, 1, 0, -1 }, dy[] = { -1, 0, 1, 0 };
-    size_t i = p->i + (size_t)dx[p->side], j = p->j + (size_t)dy[p->side];
-    if (i >= t->map->nx - 1 || j >= t->map->ny - 1)     /* -1 is SIZE_MAX here */
-        return 0;
-    *p = (cell_side){ i, j, (p->side + 2) % 4 };
-    return 1;
-}
-
-/* Is the grid point on the left, on the way into the cell through the side, at the level or above? */
-static int
-is_high_left(const tracer *t, cell_side p)
-{
-    size_t end[2][2];
-    side_ends(p, end[0], end[1]);
-    const size_t *left = end[p.side >= 2];
-    return height(t, left[0], left[1]) >= t->level;
-}
-
 /* Trace the line that enters a cell through p.side, to its end or back to its start. */
 static void
 trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
 {
-    size_t n = 0;
-    int high_left = is_high_left(t, p);
+    static const int dx[] = { 0, 1, 0, -1 }, dy[] = { -1, 0, 1, 0 };
+    size_t n = 0, end[2][2];
+    side_ends(p, end[0], end[1]);
+    const size_t *left = end[p.side >= 2];      /* on the way into the cell through the side */
+    int high_left = height(t, left[0], left[1]) >= t->level;
     cross(t, p, n++);
-    do {
+    for (int inside = 1; inside; ) {
         p.side = exit_side(t, p);
         if (t->passed[side_index(t, p)]) {
             t->point[n][0] = t->point[0][0];
@@ -122,7 +103,11 @@ trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
             break;
         }
         cross(t, p, n++);
-    } while (step_over(t, &p));
+        p.i += (size_t)dx[p.side];              /* into the cell beyond the side; -1 is SIZE_MAX here */
+        p.j += (size_t)dy[p.side];
+        p.side = (p.side + 2) % 4;
+        inside = p.i < t->map->nx - 1 && p.j < t->map->ny - 1;
+    }
     sink((const double (*)[2])t->point, n, high_left, user);
 }
 

@@ -39,16 +39,6 @@ typedef struct drawn {
 /* There are two reasons for no stop in a cycle: the mass never moves, or it never stops. */
 #define AT_REST (-1.0)
 
-static void
-mark_rest(double *stops, const ss_table *t)
-{
-    size_t stick = (size_t)ss_table_column(t, ss_measure_label(SS_STICK_FRACTION)->name);
-    size_t amplitude = (size_t)ss_table_column(t, ss_measure_label(SS_AMPLITUDE)->name);
-    for (size_t i = 0; i < t->n; i++)
-        if (stops[i] == 0 && (ss_table_number(t, i, stick) == 1 || ss_table_number(t, i, amplitude) == 0))
-            stops[i] = AT_REST;
-}
-
 static int
 is_measure(const map_column *column, ss_measure measure)
 {
@@ -264,9 +254,13 @@ ss_plot_map(FILE *out, const ss_table *t, const size_t column[], size_t n, const
     if (n < 3 || n > COLUMNS_MAX)
         return ss_fail(err, SS_EINVAL, "a map shows one column or two");
     st = ss_map_read_columns(d.column, n, t, column, err);
+    size_t stick = (size_t)ss_table_column(t, ss_measure_label(SS_STICK_FRACTION)->name);
+    size_t amplitude = (size_t)ss_table_column(t, ss_measure_label(SS_AMPLITUDE)->name);
     for (size_t c = 2; st == SS_OK && c < n; c++)
-        if (is_measure(&d.column[c], SS_STOPS))
-            mark_rest(d.column[c].value, t);
+        for (size_t i = 0; is_measure(&d.column[c], SS_STOPS) && i < t->n; i++)
+            if (d.column[c].value[i] == 0
+                && (ss_table_number(t, i, stick) == 1 || ss_table_number(t, i, amplitude) == 0))
+                d.column[c].value[i] = AT_REST;
     if (st == SS_OK)
         st = ss_map_make_grid(&d.g, d.column, n, t->n, err);
     if (st == SS_OK)

@@ -163,13 +163,6 @@ ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const do
     }
 }
 
-/* The duration of the coefficients in lengths of the wavelet: so many of them are independent. */
-static double
-lengths_of(double total, const ss_scale *scale)
-{
-    return total * scale->b_num / scale->b_den / (2 * sqrt(M_PI) * scale->a);
-}
-
 /* s^2 of a scale's noise; 0 if it shows none. */
 static double
 power_of(const uint64_t *count, double total)
@@ -209,7 +202,9 @@ ss_noise_level(noise_level *noise, const ss_scale *scale)
     double step = log2(scale[n - 1].f / scale[0].f) / (double)(n - 1);         /* octaves */
     for (size_t i = 0; i < n; i++) {
         const uint64_t *count = noise->count + i * BINS;
-        double total = total_of(count), lengths = lengths_of(total, &scale[i]);
+        double total = total_of(count);
+        /* their duration in lengths of the wavelet: so many coefficients are independent */
+        double lengths = total * scale[i].b_num / scale[i].b_den / (2 * sqrt(M_PI) * scale[i].a);
         independent += APART * step * lengths;
         if (lengths >= LENGTHS && (power[found] = power_of(count, total)) > 0 && !has_structure(noise, i))
             found++;

@@ -45,15 +45,6 @@ static const struct format {
     { "eps", "epscairo", 1, " cm", 6, "0.6 fontscale 1", "0.8" },
 };
 
-static const struct format *
-find_format(const char *name)
-{
-    for (size_t i = 0; name != NULL && i < sizeof formats / sizeof *formats; i++)
-        if (strcmp(name, formats[i].name) == 0)
-            return &formats[i];
-    return NULL;
-}
-
 static void
 write_terminal(FILE *out, const struct format *f, const char *output, double width, double height)
 {
@@ -92,7 +83,10 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, doub
     const char *name = opts->format, *dot;
     if (name == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
         name = dot + 1;
-    const struct format *format = find_format(name);
+    const struct format *format = NULL;
+    for (size_t i = 0; name != NULL && i < sizeof formats / sizeof *formats; i++)
+        if (strcmp(name, formats[i].name) == 0)
+            format = &formats[i];
     if ((name != NULL || opts->output != NULL) && format == NULL)
         return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'",
                        name != NULL ? name : opts->output);

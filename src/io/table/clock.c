@@ -83,14 +83,6 @@ struct line {
     double period, at_0;
 };
 
-/* 1 if b is no corner of the convex hull between a and c, on the side with this sign. */
-static int
-is_within(struct point a, struct point b, struct point c, double sign)
-{
-    return sign * ((b.sample - a.sample) * (c.stamp - a.stamp)
-                   - (b.stamp - a.stamp) * (c.sample - a.sample)) <= 0;
-}
-
 /* Add a stamp; 0: no memory.  The point farthest from a line is a corner of the hull, which has few. */
 static int
 add(struct fit *f, double sample, double stamp)
@@ -105,8 +97,12 @@ add(struct fit *f, double sample, double stamp)
     f->square += off * (sample - f->mean.sample);
     for (int i = 0; i < 2; i++) {
         struct side *s = &f->side[i];
-        while (s->n > 1 && is_within(s->corner[s->n - 2], s->corner[s->n - 1], f->last, i == 0 ? 1 : -1))
-            s->n--;
+        for (double sign = i == 0 ? 1 : -1; s->n > 1; s->n--) {         /* is the last one still a corner? */
+            struct point a = s->corner[s->n - 2], b = s->corner[s->n - 1], c = f->last;
+            if (!(sign * ((b.sample - a.sample) * (c.stamp - a.stamp)
+                          - (b.stamp - a.stamp) * (c.sample - a.sample)) <= 0))
+                break;
+        }
         struct point *more = ss_list_room(s->corner, &s->room, s->n, sizeof *more);
         if (more == NULL)
             return 0;

@@ -73,12 +73,6 @@ is_one_of(const char *cell, const char *const *word)
     return 0;
 }
 
-static int
-is_key(const char *cell)
-{
-    return is_one_of(cell, step_keys) || is_one_of(cell, unit_keys) || is_one_of(cell, name_keys);
-}
-
 /* --- lines above the data ------------------------------------------------------------------ */
 
 /* The kind of a row above the data, if it has as many cells as the data. */
@@ -233,7 +227,8 @@ check_mixed(struct text *x, enum row_kind before, ss_error *err)
             has_words |= x->cell[i][0] != '\0';
             bad = i;
         }
-    if (bad == n || !(begins || !has_words || (before == ROW_NAMES && !is_key(x->cell[0]))))
+    if (bad == n || !(begins || !has_words || (before == ROW_NAMES && !is_one_of(x->cell[0], step_keys)
+                         && !is_one_of(x->cell[0], unit_keys) && !is_one_of(x->cell[0], name_keys))))
         return SS_OK;
     return ss_fail(err, x->cell[bad][0] != '\0' ? SS_EDATA : SS_EGAPS, "%s:%lu: column %zu: '%.40s' is not a number%s",
                    x->t.name, line->number, bad + 1, x->cell[bad],

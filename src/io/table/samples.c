@@ -32,19 +32,6 @@ give_row(const struct samples *s, const double *row, double *const column[], siz
             column[c][at] = row != NULL ? row[s->of[c]] : NAN;
 }
 
-/* A row that came after its clock was found must be on it, but for what a stamp may be off. */
-static ss_status
-check_time(const struct samples *s, ss_error *err)
-{
-    const struct time_column *time = &s->timing.time;
-    const ss_header *head = s->base.head;
-    double late = time->column == NONE ? 0
-        : (ss_sheet_stamp(time, s->row) - head->start) * head->rate - (double)s->given;
-    if (fabs(late) <= CLOCK_TOLERANCE)
-        return SS_OK;
-    return ss_clock_refuse(s->base.name, (unsigned long)s->row[s->rows->width - 1], late, err);
-}
-
 static ss_status
 give_samples(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
 {
@@ -59,10 +46,15 @@ give_samples(ss_source *base, double *const column[], size_t max, size_t *n, ss_
                 st = s->live->later->next(s->live, err);
             if (st == SS_OK)
                 st = ss_sheet_next(s->rows, time->column, &s->row, err);
-            if (st == SS_OK && s->row != NULL && s->live != NULL)
-                st = check_time(s, err);
             if (st != SS_OK || s->row == NULL)
                 break;
+            /* a row that came after its clock was found must be on it, but for what a stamp may be off */
+            double late = s->live == NULL || time->column == NONE ? 0
+                : (ss_sheet_stamp(time, s->row) - base->head->start) * base->head->rate - (double)s->given;
+            if (!(fabs(late) <= CLOCK_TOLERANCE)) {
+                st = ss_clock_refuse(base->name, (unsigned long)s->row[s->rows->width - 1], late, err);
+                break;
+            }
             s->sample = s->timing.usual > 0 ? ss_clock_sample(&s->count, ss_sheet_stamp(time, s->row)) : s->given;
         }
         int there = s->sample == s->given;

@@ -595,29 +595,23 @@ is_letter(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/* Does a line have this word with a digit somewhere behind it?  A longer word that begins so counts if the word
- * has more than four letters. */
-static int
-has_number_of(const char *line, const char *word)
-{
-    size_t n = strlen(word);
-    for (const char *p = line; *p != '\0'; p++)
-        if ((p == line || !is_letter(p[-1])) && strncasecmp(p, word, n) == 0 && (n > 4 || !is_letter(p[n])))
-            return strpbrk(p, "0123456789") != NULL;
-    return 0;
-}
-
 /* The line above the data that most probably gives the clock; NULL: there is none.  It is shown, not read: whether
- * a number is the rate of this table, its period or a rate of flow, and in what unit, only its writer knows. */
+ * a number is the rate of this table, its period or a rate of flow, and in what unit, only its writer knows.  A longer
+ * word that begins with one of more than four letters counts, too. */
 static const struct text_line *
 find_rate_line(const struct text *x)
 {
     static const char *const word[] = { "sampling", "samplerate", "samples per", "samples/s", "abtast", "chantillonnage",
                                         "muestreo", "campionamento", "rate", "interval", "fs", "dt" };
     for (size_t w = 0; w < sizeof word / sizeof *word; w++)
-        for (size_t i = 0; i < x->n_head; i++)
-            if (has_number_of(x->head[i].text, word[w]))
-                return &x->head[i];
+        for (size_t i = 0; i < x->n_head; i++) {
+            const char *line = x->head[i].text;
+            size_t n = strlen(word[w]);
+            for (const char *p = line; *p != '\0'; p++)
+                if ((p == line || !is_letter(p[-1])) && strncasecmp(p, word[w], n) == 0 && (n > 4 || !is_letter(p[n]))
+                    && strpbrk(p, "0123456789") != NULL)
+                    return &x->head[i];
+        }
     return NULL;
 }
 
@@ -683,22 +677,16 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
  * =, +,
  * - or @ for a formula, so a word that does has an apostrophe before it, which makes it text. */
 
-static int
-is_formula(const char *word)
-{
-    char *end;
-    if (strchr("=+-@", word[0]) == NULL || word[0] == '\0' || strcmp(word, "-inf") == 0)
-        return 0;
-    ss_number_parse(word, &end);
-    return end == word || *end != '\0';
-}
-
 static void
 write_word(FILE *out, const char *word)
 {
-    const char *before = is_formula(word) ? "'" : "";
+    char *end;
     if (strcmp(word, "-") == 0)
         return;
+    ss_number_parse(word, &end);
+    int is_formula = word[0] != '\0' && strchr("=+-@", word[0]) != NULL && strcmp(word, "-inf") != 0
+        && (end == word || *end != '\0');
+    const char *before = is_formula ? "'" : "";
     if (strpbrk(word, ",\"\r\n") == NULL) {
         fprintf(out, "%s%s", before, word);
         return;

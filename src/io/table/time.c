@@ -185,18 +185,6 @@ check_rate(const struct sheet *t, const char *name, const struct time_unit *give
     return SS_OK;
 }
 
-/* The first time in a column of numbers; NaN: there is none. */
-static ss_status
-first_time(struct sheet *t, size_t column, double *first, ss_error *err)
-{
-    const double *row = NULL;
-    ss_status st = ss_kept_rewind(&t->rows, err);
-    if (st == SS_OK)
-        st = ss_sheet_next(&t->rows, column, &row, err);
-    *first = st == SS_OK && row != NULL ? row[column] : NAN;
-    return st;
-}
-
 /* Find what 1 in the last digit of the times in a column of days is [s], as far as doubles have it. */
 static ss_status
 find_digit(struct sheet *t, size_t column, double zero, double *digit, ss_error *err)
@@ -234,7 +222,11 @@ read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
     int is_date = 0;
     double rate = 0, first, digit = 0;
     char text[32];
-    ss_status st = first_time(t, column, &first, err);
+    const double *row = NULL;
+    ss_status st = ss_kept_rewind(&t->rows, err);
+    if (st == SS_OK)
+        st = ss_sheet_next(&t->rows, column, &row, err);
+    first = st == SS_OK && row != NULL ? row[column] : NAN;
     if (st == SS_OK)
         st = unit_of_times(t, column, first, &known, &is_date, err);
     if (st != SS_OK)
@@ -291,22 +283,16 @@ read_stamp_clock(struct sheet *t, size_t column, struct timing *timing, ss_error
     return st;
 }
 
-/* The first column of stamps with these parts, or NONE. */
-static size_t
-find_stamps(const struct sheet *t, unsigned parts)
-{
-    for (size_t i = 0; i < t->n_columns; i++)
-        if (t->column[i].kind == COLUMN_STAMPS && t->column[i].stamps.parts == parts)
-            return i;
-    return NONE;
-}
-
 /* The first column of dates with times, or else of times, or else of dates; NONE if there is none. */
 static size_t
-find_any_stamps(const struct sheet *t)
+find_stamps(const struct sheet *t)
 {
-    size_t both = find_stamps(t, STAMP_DATE | STAMP_TIME), time = find_stamps(t, STAMP_TIME);
-    return both != NONE ? both : time != NONE ? time : find_stamps(t, STAMP_DATE);
+    static const unsigned parts[] = { STAMP_DATE | STAMP_TIME, STAMP_TIME, STAMP_DATE };
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+        for (size_t i = 0; i < t->n_columns; i++)
+            if (t->column[i].kind == COLUMN_STAMPS && t->column[i].stamps.parts == parts[k])
+                return i;
+    return NONE;
 }
 
 /* --- the choice ---------------------------------------------------------------------------- */
@@ -348,7 +334,7 @@ find_time(const struct sheet *t, int *guessed)
     for (size_t i = 0; i < t->n_columns; i++)
         if (t->column[i].kind == COLUMN_NUMBERS && ss_is_called_time(column[i].name))
             return i;
-    size_t stamps = find_any_stamps(t);
+    size_t stamps = find_stamps(t);
     if (stamps != NONE)
         return stamps;
     if (t->n_columns < 2 || t->column[0].kind != COLUMN_NUMBERS)
@@ -359,28 +345,19 @@ find_time(const struct sheet *t, int *guessed)
     return *guessed ? 0 : NONE;
 }
 
-/* The columns that may become channels, and their header, in which they have the numbers of the signal.  A column
- * of time that is only guessed leaves these open: then there are none. */
-static ss_status
-list_channels(const struct sheet *t, size_t *channel, size_t *n, ss_header **head)
-{
-    int guessed;
-    size_t time = find_time(t, &guessed);
-    *n = 0;
-    for (size_t c = 0; c < t->n_columns && !guessed; c++)
-        if (c != time && t->column[c].kind == COLUMN_NUMBERS)
-            channel[(*n)++] = c;
-    return ss_header_select(head, t->names, channel, *n, 0, NULL);
-}
-
 ss_status
 ss_sheet_mark_spare(struct sheet *t, ss_error *err)
 {
     if (t->opts->n_needed == 0)
         return SS_OK;
     ss_header *head = NULL;
-    size_t n, *channel = malloc(t->n_columns * sizeof *channel);
-    if (channel == NULL || list_channels(t, channel, &n, &head) != SS_OK) {
+    int guessed;
+    size_t n = 0, time = find_time(t, &guessed), *channel = malloc(t->n_columns * sizeof *channel);
+    /* in this header, columns have the numbers of the signal, which a column of time that is only guessed leaves open */
+    for (size_t c = 0; channel != NULL && c < t->n_columns && !guessed; c++)
+        if (c != time && t->column[c].kind == COLUMN_NUMBERS)
+            channel[n++] = c;
+    if (channel == NULL || ss_header_select(&head, t->names, channel, n, 0, NULL) != SS_OK) {
         free(channel);
         return ss_fail_memory(err, t->name);
     }
