@@ -29,23 +29,25 @@ struct pass {
 static struct pass
 start(const struct stamps *s, ss_error *err)
 {
-    return (struct pass){ .of = s, .status = s->rewind(s->source, err), .err = err };
+    return (struct pass){ .of = s, .status = ss_kept_rewind(&s->t->rows, err), .err = err };
 }
 
 /* Go to the next stamp.  Returns 0 if there is none, it cannot be read, or it is no later than the one before. */
 static int
 step(struct pass *p)
 {
-    int there = 0;
+    const double *row = NULL;
     p->before = p->stamp;
     if (p->status == SS_OK)
-        p->status = p->of->next(p->of->source, &there, &p->stamp, &p->line, p->err);
-    if (p->status != SS_OK || !there)
+        p->status = ss_sheet_next(&p->of->t->rows, p->of->of.column, &row, p->err);
+    if (p->status != SS_OK || row == NULL)
         return 0;
+    p->stamp = ss_sheet_stamp(&p->of->of, row);
+    p->line = (unsigned long)row[p->of->t->n_columns];
     if (p->n++ == 0)
         p->first = p->stamp;
     else if (!(p->stamp > p->before))
-        p->status = ss_fail(p->err, SS_ECLOCK, "%s:%lu: time stamps do not ascend: %s", p->of->file, p->line,
+        p->status = ss_fail(p->err, SS_ECLOCK, "%s:%lu: time stamps do not ascend: %s", p->of->t->name, p->line,
                             p->stamp < p->before ? "this one is before that of the row above"
                             : "this one is that of the row above");
     return p->status == SS_OK;
@@ -56,9 +58,9 @@ static ss_status
 end(const struct pass *p)
 {
     if (p->status == SS_OK && p->n < 2)
-        return ss_fail(p->err, SS_ECLOCK, "%s: one row has no sample rate", p->of->file);
+        return ss_fail(p->err, SS_ECLOCK, "%s: one row has no sample rate", p->of->t->name);
     if (p->status == SS_OK && !isfinite(p->stamp - p->first))
-        return ss_fail(p->err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", p->of->file,
+        return ss_fail(p->err, SS_EDATA, "%s: time stamps from %.3g to %.3g s are too far apart", p->of->t->name,
                        p->first, p->stamp);
     return p->status;
 }
@@ -180,7 +182,7 @@ ss_usual_step(const struct stamps *s, double *usual, ss_error *err)
     if (st != SS_OK)
         return st;
     if ((count = malloc(((size_t)1 << DIGIT) * sizeof *count)) == NULL)
-        return ss_fail_memory(err, s->file);
+        return ss_fail_memory(err, s->t->name);
     size_t rank = (p.n - 2) / 2;                  /* the lower median, since gaps lengthen steps */
     for (int below = 64 - DIGIT; st == SS_OK && below >= 0; below -= DIGIT)
         st = next_digit(s, count, below, &known, &rank, err);
@@ -260,7 +262,7 @@ refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
     ss_status st = farthest_from(l, s, usual, &from_line, err);
     if (st == SS_OK && usual > 0 && l.period > 0)
         return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform, with gaps counted too: "
-                       "this one is off by %.3g sample periods, %.1f is allowed", s->file, from_line.line,
+                       "this one is off by %.3g sample periods, %.1f is allowed", s->t->name, from_line.line,
                        from_line.by / l.period, CLOCK_TOLERANCE);
     if (st == SS_OK)
         st = ss_usual_step(s, &usual, err);
@@ -271,7 +273,7 @@ refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
     if (worst.by <= CLOCK_TOLERANCE * usual)
         worst = from_line;
     double off = worst.by / usual;
-    return ss_clock_refuse(s->file, worst.line, worst.stamp - worst.before > usual ? off : -off, err);
+    return ss_clock_refuse(s->t->name, worst.line, worst.stamp - worst.before > usual ? off : -off, err);
 }
 
 /* --- the clock ----------------------------------------------------------------------------- */
@@ -331,11 +333,11 @@ ss_find_clock(const struct stamps *s, struct clock *c, ss_error *err)
     struct pass p = start(s, err);
     while (step(&p))
         if (!add(&f, (double)ss_clock_sample(&count, p.stamp), p.stamp))
-            p.status = ss_fail_memory(err, s->file);
+            p.status = ss_fail_memory(err, s->t->name);
     ss_status st = end(&p);
     struct line l = line_of(&f);
     if (st == SS_OK)
-        st = find_rate(&f, s->file, c, err);
+        st = find_rate(&f, s->t->name, c, err);
     c->start = f.first.stamp;
     c->n = f.n;
     c->last = f.last.sample;
@@ -345,6 +347,6 @@ ss_find_clock(const struct stamps *s, struct clock *c, ss_error *err)
         return st;
     if (l.period > 0 && c->digit > 2 * BY_DIGITS * l.period)
         return ss_fail(err, st, "%s: time stamps have too few digits: 1 in the last of them is %.2g sample periods, "
-                       "%.1f is allowed", s->file, c->digit / l.period, 2 * BY_DIGITS);
+                       "%.1f is allowed", s->t->name, c->digit / l.period, 2 * BY_DIGITS);
     return refuse(s, c->usual, l, err);
 }

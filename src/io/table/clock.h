@@ -3,17 +3,14 @@
 #define CLOCK_H
 
 #include <stddef.h>
-#include <stickslip/status.h>
+#include "io/table/sheet.h"
 
 #define CLOCK_TOLERANCE 0.1     /* a stamp may be off by so many sample periods */
 
-/* Stamps of a file that are read several times: from the first on, the next with the number of its line;
- * *there = 0: there is none. */
+/* The stamps of a table, in its column of times; NONE: there is none. */
 struct stamps {
-    const char *file;
-    ss_status (*rewind)(void *source, ss_error *err);
-    ss_status (*next)(void *source, int *there, double *stamp, unsigned long *line, ss_error *err);
-    void *source;
+    struct sheet *t;
+    struct time_column of;
 };
 
 /* The samples of rows: one after the other, or, where some may be missing, as the steps of their stamps show.

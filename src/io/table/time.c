@@ -23,39 +23,6 @@ enum { ROUND = 4 };             /* digits of a rate in days; those of scattered 
 
 /* --- the stamps of the rows ---------------------------------------------------------------- */
 
-/* What the stamps of a table are read from. */
-struct times {
-    struct sheet *t;
-    struct time_column of;
-};
-
-static ss_status
-rewind_times(void *user, ss_error *err)
-{
-    struct times *times = user;
-    return ss_kept_rewind(&times->t->rows, err);
-}
-
-static ss_status
-next_stamp(void *user, int *there, double *stamp, unsigned long *line, ss_error *err)
-{
-    struct times *times = user;
-    const double *row;
-    ss_status st = ss_sheet_next(&times->t->rows, times->of.column, &row, err);
-    *there = row != NULL;
-    if (*there) {
-        *stamp = ss_sheet_stamp(&times->of, row);
-        *line = (unsigned long)row[times->t->n_columns];
-    }
-    return st;
-}
-
-static struct stamps
-stamps_of(struct times *times)
-{
-    return (struct stamps){ times->t->name, rewind_times, next_stamp, times };
-}
-
 /* Find the clock on which the rows are samples. */
 static ss_status
 find_uniform(struct sheet *t, const struct stamps *s, double taken, double digit, double *usual, ss_error *err)
@@ -77,15 +44,15 @@ find_uniform(struct sheet *t, const struct stamps *s, double taken, double digit
 static ss_status
 find_resampled(struct sheet *t, const struct stamps *s, double *longest, double *own, ss_error *err)
 {
-    double usual, stamp = 0, last = 0, start = 0, gap = -1, rate = t->names->rate = t->opts->resample;
+    double usual, last = 0, start = 0, gap = -1, rate = t->names->rate = t->opts->resample;
     size_t n = 0;
-    unsigned long line;
-    int there = 1;
+    const double *row = NULL;
     ss_status st = ss_usual_step(s, &usual, err);
     if (st == SS_OK)
-        st = s->rewind(s->source, err);
+        st = ss_kept_rewind(&t->rows, err);
     *longest = LONGEST * usual;
-    for (; st == SS_OK && (st = s->next(s->source, &there, &stamp, &line, err)) == SS_OK && there; n++) {
+    for (; st == SS_OK && (st = ss_sheet_next(&t->rows, s->of.column, &row, err)) == SS_OK && row != NULL; n++) {
+        double stamp = ss_sheet_stamp(&s->of, row);
         if (n == 0)
             start = stamp;
         else if (gap < 0 && stamp - last > *longest)
@@ -111,8 +78,7 @@ static ss_status
 read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, ss_error *err)
 {
     const struct time_column *time = &timing->time;
-    struct times times = { t, *time };
-    const struct stamps s = stamps_of(&times);
+    const struct stamps s = { t, *time };
     if (t->opts->resample > 0)
         return find_resampled(t, &s, &timing->longest, own, err);
     if (t->opts->stamps) {
@@ -205,8 +171,7 @@ static ss_status
 doubt_stamps(struct sheet *t, const struct time_column *time, double first, ss_status refused, ss_error *err)
 {
     double step;
-    struct times times = { t, *time };
-    const struct stamps s = stamps_of(&times);
+    const struct stamps s = { t, *time };
     ss_status st = ss_is_day_now(first) ? ss_usual_step(&s, &step, NULL) : refused;
     if (st == SS_ENOMEM)
         return ss_fail_memory(err, t->name);
