@@ -409,15 +409,27 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
     return st == SS_OK ? ss_contour_check_overlay(contour->overlay, err) : st;
 }
 
-/* Take the options and make the map, in a span of time that is the caller's. */
+/* The caller's options, and the map. */
+typedef struct picture {
+    script_span span;
+    ss_plot_opts opts;
+    ss_contour_opts contour;
+    contour_map map;
+} picture;
+
+/* To be freed even after a failure. */
 static ss_status
-prepare(contour_map *map, script_span *span, ss_plot_opts *own, ss_contour_opts *own_contour,
-        const ss_coefficients *c, ss_error *err)
+prepare(picture *p, const ss_coefficients *c, const ss_contour_opts *contour, const ss_plot_opts *opts, ss_error *err)
 {
-    ss_status st = check(c, own_contour, err);
+    p->map.f = p->map.level = NULL;
+    ss_status st = ss_script_take(&p->opts, opts, err);
     if (st == SS_OK)
-        st = ss_script_find_span(span, c->head->start, c->head->rate, c->n, own, err);
-    return st == SS_OK ? ss_contour_map(map, c, own_contour, span, err) : st;
+        st = ss_options_take(&p->contour, sizeof p->contour, &defaults, contour, err);
+    if (st == SS_OK)
+        st = check(c, &p->contour, err);
+    if (st == SS_OK)
+        st = ss_script_find_span(&p->span, c->head->start, c->head->rate, c->n, &p->opts, err);
+    return st == SS_OK ? ss_contour_map(&p->map, c, &p->contour, &p->span, err) : st;
 }
 
 ss_status
@@ -425,27 +437,20 @@ ss_ridge_write(FILE *out, const ss_coefficients *c, const ss_contour_opts *conto
                ss_format format, ss_error *err)
 {
     static const char *const own_notes[] = { "columns", NULL };
-    script_span span;
-    ss_plot_opts own;
-    ss_contour_opts own_contour;
-    contour_map map = { .rows = 0 };
+    picture p;
     if (out == NULL || c == NULL)
         return SS_FAIL_NULL(err);
-    ridge_of to = { out, &map, c, { .out = NULL } };
-    ss_status st = ss_script_take(&own, opts, err);
-    if (st == SS_OK)
-        st = ss_options_take(&own_contour, sizeof own_contour, &defaults, contour, err);
-    if (st == SS_OK)
-        st = prepare(&map, &span, &own, &own_contour, c, err);
+    ridge_of to = { out, &p.map, c, { .out = NULL } };
+    ss_status st = prepare(&p, c, contour, opts, err);
     if (st == SS_OK)
         st = ss_rows_begin(&to.rows, out, format, SS_KIND_RIDGE, err);
     if (st == SS_OK) {
         ss_rows_notes(&to.rows, c->head, own_notes);
         write_row(NAN, NAN, NAN, &to);
-        ss_contour_ridge(&map, c, write_row, &to);
+        ss_contour_ridge(&p.map, c, write_row, &to);
         st = ss_rows_finish(&to.rows, err);
     }
-    ss_contour_map_free(&map);
+    ss_contour_map_free(&p.map);
     return st;
 }
 
@@ -455,37 +460,31 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
 {
     if (out == NULL || c == NULL)
         return SS_FAIL_NULL(err);
-    script_span span, of_signal;
+    picture p;
+    script_span of_signal;
     trace t = { .column = NULL };
     ss_reader *reader = NULL;
-    ss_plot_opts own;
-    ss_contour_opts own_contour;
-    contour_map map = { .rows = 0 };
-    ss_status st = ss_script_take(&own, opts, err);
-    if (st == SS_OK)
-        st = ss_options_take(&own_contour, sizeof own_contour, &defaults, contour, err);
-    if (st == SS_OK)
-        st = prepare(&map, &span, &own, &own_contour, c, err);
-    const ss_signal *signal = st == SS_OK ? own_contour.signal : NULL;
+    ss_status st = prepare(&p, c, contour, opts, err);
+    const ss_signal *signal = st == SS_OK ? p.contour.signal : NULL;
     if (signal != NULL) {                       /* panel (a) shows the time of (b) */
-        own.from = span.from;
-        own.to = span.to;
+        p.opts.from = p.span.from;
+        p.opts.to = p.span.to;
         st = ss_reader_of_signal(&reader, signal, err);
         if (st == SS_OK)
-            st = ss_traces_read(&t, &of_signal, reader, &own_contour.column, 1, NAN, &own, err);
+            st = ss_traces_read(&t, &of_signal, reader, &p.contour.column, 1, NAN, &p.opts, err);
     }
     if (st == SS_OK)
-        st = ss_script_begin(out, &own, c->head, signal != NULL ? 8.5 : 6.5, NULL, err);
+        st = ss_script_begin(out, &p.opts, c->head, signal != NULL ? 8.5 : 6.5, NULL, err);
     if (st == SS_OK) {
-        write_variables(out, &map, &own_contour);
+        write_variables(out, &p.map, &p.contour);
         fputs(around, out);
         if (signal != NULL)
             write_signal(out, &t);
-        st = write_map(out, &map, c, &own_contour);
+        st = write_map(out, &p.map, c, &p.contour);
     }
     if (st == SS_OK)
         st = ss_script_end(out);
-    ss_contour_map_free(&map);
+    ss_contour_map_free(&p.map);
     ss_traces_free(&t, 1);
     ss_reader_free(reader);
     return st;

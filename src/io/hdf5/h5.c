@@ -136,14 +136,6 @@ values_in(hid_t space)
         : product(H5Sget_simple_extent_dims(space, dims, NULL), dims);
 }
 
-/* The values of a chunk, or 0 if the dataset has none. */
-static double
-values_in_chunk(hid_t how)
-{
-    hsize_t chunk[H5S_MAX_RANK];
-    return H5Pget_layout(how) == H5D_CHUNKED ? product(H5Pget_chunk(how, H5S_MAX_RANK, chunk), chunk) : 0;
-}
-
 /* So many bytes of values can come from one of the file at most: 1 if they are stored as they are, what deflate
  * can do if they are deflated; 0 if that is not known.  Deflated twice, a file would hold 1032^2 times its size;
  * other filters take the size from the file. */
@@ -163,26 +155,26 @@ most_from_byte(hid_t how)
     return n < 0 || deflated > 1 ? 0 : deflated == 1 ? 1032 : 1;
 }
 
-/* The reason to refuse how values are stored, or NULL.  Call it before reading the extent: for that of a
- * virtual dataset, HDF5 opens the files that it refers to. */
+/* The reason why the values of a dataset must not be read, or NULL; *bytes: so many of the file they need at least.
+ * How they are stored is asked before their extent: for that of a virtual dataset, HDF5 opens the files that it
+ * refers to. */
 static const char *
-refuse_storage(hid_t how)
+refuse_values(hid_t dataset, double *bytes)
 {
-    if (H5Pget_layout(how) == H5D_VIRTUAL || H5Pget_external_count(how) > 0)
+    hsize_t chunk[H5S_MAX_RANK];
+    hid_t how = H5Dget_create_plist(dataset);
+    int outside = H5Pget_layout(how) == H5D_VIRTUAL || H5Pget_external_count(how) > 0;
+    double most = most_from_byte(how), in_chunk = H5Pget_layout(how) != H5D_CHUNKED ? 0
+        : product(H5Pget_chunk(how, H5S_MAX_RANK, chunk), chunk);
+    H5Pclose(how);
+    if (outside)
         return "its values lie outside this file";
-    if (most_from_byte(how) <= 0)
+    if (most <= 0)
         return "is packed otherwise than by deflate, once; h5repack -f GZIP=1 makes it so";
-    return NULL;
-}
-
-/* *bytes: so many of the file the values need at least. */
-static const char *
-refuse_extent(hid_t dataset, hid_t how, double *bytes)
-{
     hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
     H5T_class_t class = H5Tget_class(type);
-    double width = (double)H5Tget_size(type) / most_from_byte(how), values = values_in(space);
     size_t size = H5Tget_size(type);
+    double width = (double)size / most, values = values_in(space);
     H5Sclose(space);
     H5Tclose(type);
     *bytes = values * width;
@@ -190,21 +182,8 @@ refuse_extent(hid_t dataset, hid_t how, double *bytes)
         return "does not hold real numbers";
     if (!(values >= 0 && values <= H5_MAX_VALUES))
         return "has more values than can be read at once";
-    if (fmax(values, values_in_chunk(how)) * width > file_size(dataset))
-        return "claims more values than a file of this size can hold";
-    return NULL;
-}
-
-/* The reason why the values of a dataset must not be read, or NULL; *bytes as for refuse_extent. */
-static const char *
-refuse_values(hid_t dataset, double *bytes)
-{
-    hid_t how = H5Dget_create_plist(dataset);
-    const char *wrong = refuse_storage(how);
-    if (wrong == NULL)
-        wrong = refuse_extent(dataset, how, bytes);
-    H5Pclose(how);
-    return wrong;
+    return fmax(values, in_chunk) * width > file_size(dataset)
+        ? "claims more values than a file of this size can hold" : NULL;
 }
 
 const char *
