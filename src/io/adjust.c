@@ -23,17 +23,6 @@ find_column(const ss_header *head, const ss_calibration *c, const char *name, ss
     return -1;
 }
 
-static ss_status
-set_unit(ss_header *head, int column, const char *unit)
-{
-    char *copy = ss_clean_unit(unit);
-    if (copy == NULL)
-        return SS_ENOMEM;
-    free(head->column[column].unit);
-    head->column[column].unit = copy;
-    return SS_OK;
-}
-
 /* Note what was done to the columns: "force x 4.45 N, accel g". */
 static ss_status
 note_calibration(ss_header *head, const double *factor, const char *is_new)
@@ -71,9 +60,13 @@ apply(ss_header *head, const ss_read_opts *opts, const char *name, double *facto
             is_new[column] = 1;
             if (!units && c->scale != 0)
                 factor[column] *= c->scale;
-            if ((units ? c->unit != NULL : c->scale != 0)
-                && set_unit(head, column, units ? c->unit : "") != SS_OK)
+            if (units ? c->unit == NULL : c->scale == 0)
+                continue;
+            char *unit = ss_clean_unit(units ? c->unit : "");
+            if (unit == NULL)
                 return ss_fail_memory(err, name);
+            free(head->column[column].unit);
+            head->column[column].unit = unit;
         }
     return SS_OK;
 }

@@ -73,7 +73,7 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
     char *file = file_of(path);
     if (file == NULL)
         return ss_fail_memory(err, path);
-    int regular = stat(file, &is) != 0 || S_ISREG(is.st_mode) || S_ISDIR(is.st_mode);   /* these fail when opened */
+    int regular = stat(file, &is) != 0 || S_ISREG(is.st_mode) || S_ISDIR(is.st_mode); /* these fail when opened */
     free(file);
     ss_status st = regular ? ss_signal_read(&signal, NULL, path, NULL, err)     /* a pipe can be read only once */
         : ss_fail(err, SS_EDATA, "%s: not a regular file, which the motion of a base must be", path);

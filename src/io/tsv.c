@@ -45,19 +45,6 @@ refuse_row(const struct text *s, const char *line, ss_error *err)
                    bad_length < 40 ? (int)bad_length : 40, bad);
 }
 
-static ss_status
-check_time(const struct text *s, double t, ss_error *err)
-{
-    const ss_header *head = s->base.head;
-    if (ss_is_on_clock(t, head->rate, head->start, s->row))
-        return SS_OK;
-    char is[SS_NUMBER_MAX], should[SS_NUMBER_MAX];
-    ss_number_format(is, t);
-    ss_number_format(should, head->start + (double)s->row / head->rate);
-    return ss_fail(err, SS_EDATA, "%s:%lu: time is %s, expected start + %llu / rate = %s", s->in->name,
-                   s->in->line, is, (unsigned long long)s->row, should);
-}
-
 /* Read a line as row number `at` of the columns. */
 static ss_status
 read_row(const struct text *s, char *line, size_t length, double *const column[], size_t at, ss_error *err)
@@ -76,7 +63,14 @@ read_row(const struct text *s, char *line, size_t length, double *const column[]
     }
     if (p + strspn(p, " \t") != line + length)
         return refuse_row(s, line, err);
-    return time ? check_time(s, t, err) : SS_OK;
+    const ss_header *head = s->base.head;
+    if (!time || ss_is_on_clock(t, head->rate, head->start, s->row))
+        return SS_OK;
+    char is[SS_NUMBER_MAX], should[SS_NUMBER_MAX];
+    ss_number_format(is, t);
+    ss_number_format(should, head->start + (double)s->row / head->rate);
+    return ss_fail(err, SS_EDATA, "%s:%lu: time is %s, expected start + %llu / rate = %s", s->in->name,
+                   s->in->line, is, (unsigned long long)s->row, should);
 }
 
 static ss_status

@@ -419,7 +419,8 @@ typedef struct picture {
 
 /* To be freed even after a failure. */
 static ss_status
-prepare(picture *p, const ss_coefficients *c, const ss_contour_opts *contour, const ss_plot_opts *opts, ss_error *err)
+prepare(picture *p, const ss_coefficients *c, const ss_contour_opts *contour, const ss_plot_opts *opts,
+        ss_error *err)
 {
     p->map.f = p->map.level = NULL;
     ss_status st = ss_script_take(&p->opts, opts, err);

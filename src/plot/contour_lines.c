@@ -3,8 +3,8 @@
  *
  * For the areas, the map is extended by a border of very low values, so that every line is closed.  Lines do not
  * cross: of two areas that they enclose, one contains the other, or they have nothing in common.  So the areas are
- * painted in the order of their size, the largest first, each in the colour of the level just inside its line.  Every
- * level, with its holes, is then visible where it belongs. */
+ * painted in the order of their size, the largest first, each in the colour of the level just inside its line.
+ * Every level, with its holes, is then visible where it belongs. */
 #include "plot/contour.h"
 
 #include <math.h>

@@ -18,25 +18,6 @@
 #define ROOM 8.0                /* for the label of a panel [ems] */
 enum { COLUMNS_MAX = 8, CELLS = 1500 };     /* CELLS: in which points of one value of the key are told apart */
 
-/* Rows of one value of the key stand together. */
-static int
-is_line(const double *x, const double *y, size_t n)
-{
-    for (size_t i = 1; i < n; i++)
-        if (x[i] == x[i - 1] && y[i] != y[i - 1] && !(isnan(y[i]) && isnan(y[i - 1])))
-            return 0;
-    return 1;
-}
-
-static int
-are_whole(const double *y, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (!isnan(y[i]) && y[i] != floor(y[i]))
-            return 0;
-    return 1;
-}
-
 /* Points that would cover each other are written once. */
 static void
 write_points(FILE *out, const double *x, script_scale of_x, const double *y, script_scale of_y, size_t n,
@@ -69,13 +50,17 @@ write_panel(script_stack *stack, const map_column *column, script_scale of_x, si
     script_extent e = ss_script_extent(y, n);
     script_scale of_y = ss_script_scale(e);
     script_label label = ss_map_label(column[i].label, of_y, ROOM);
-    int line = is_line(x, y, n), steps = line && are_whole(y, n);
+    int line = 1, whole = 1;
+    for (size_t k = 0; k < n; k++) {            /* rows of one value of the key stand together */
+        line &= k == 0 || x[k] != x[k - 1] || y[k] == y[k - 1] || (isnan(y[k]) && isnan(y[k - 1]));
+        whole &= isnan(y[k]) || y[k] == floor(y[k]);
+    }
     ss_print(out, "$panel%zu << EOD\n", i);
     write_points(out, x, of_x, y, of_y, n, e);
     fputs("EOD\n", out);
     ss_script_write_panel(stack, i == 1 ? FIRST : NEXT, GAP, &label);
     ss_script_write_tics(out, "ytics", ss_script_scaled_extent(e, of_y), i == 1 ? 6 : 4);
-    if (steps)
+    if (line && whole)
         ss_print(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, "
                 "$panel%zu using 1:2 with points pt 7 ps 4*size lc rgb colour\n", i, i);
     else

@@ -53,43 +53,28 @@ is_edge(const reduction *o, const ss_scale *scale, size_t k, size_t samples)
     return wavelet_edge(scale, k, samples, o->head->rate, o->head->start, o->gap, o->n_gaps);
 }
 
-/* Are all translations first ... last outside the cone of influence, of the ends and of gaps? */
-static int
-are_inside(const reduction *o, const ss_scale *scale, size_t first, size_t last, size_t samples)
-{
-    double from = ss_scale_b(scale, first), to = ss_scale_b(scale, last);
-    return !is_edge(o, scale, first, samples) && !is_edge(o, scale, last, samples)
-        && !ss_gaps_near(o->gap, o->n_gaps, o->head->start + (from + to) / 2,
-                         (to - from) / 2 + wavelet_cone(scale->a));
-}
-
-/* Add the levels of n translations from first on, which lie all in the cone of influence or all
- * outside. */
-static void
-add_stretch(reduction *o, const ss_scale *scale, size_t first, size_t n, const double *level, int edge)
-{
-    size_t i = (size_t)(scale - ss_stream_grid(o->stream)->scale);
-    double most = add_levels(&o->scale[i], level, n);
-    if (edge)
-        return;
-    o->top = most > o->top ? most : o->top;
-    ss_noise_level_add(o->noise, scale, i, level, first, n);
-}
-
-/* The sink of the stream: add coefficients of a scale to the picture. */
+/* The sink of the stream: add coefficients of a scale to the picture, in stretches that lie all in the cone of
+ * influence, of the ends and of gaps, or all outside. */
 static int
 add_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
 {
     reduction *o = user;
-    double level[PIECE];
-    for (size_t at = 0, m; at < n; at += m) {
-        m = n - at < PIECE ? n - at : PIECE;
-        ss_map_give(&(ss_map_part){ .level = level }, 0, m, w + 2 * at);
-        int inside = are_inside(o, scale, first + at, first + at + m - 1, samples);
+    double level[PIECE], cone = wavelet_cone(scale->a);
+    size_t i = (size_t)(scale - ss_stream_grid(o->stream)->scale);
+    for (size_t end = first + n, m; first < end; first += m, w += 2 * m) {
+        m = end - first < PIECE ? end - first : PIECE;
+        double from = ss_scale_b(scale, first), to = ss_scale_b(scale, first + m - 1);
+        int inside = !is_edge(o, scale, first, samples) && !is_edge(o, scale, first + m - 1, samples)
+            && !ss_gaps_near(o->gap, o->n_gaps, o->head->start + (from + to) / 2, (to - from) / 2 + cone);
         size_t stretch = inside ? m : 1;
-        for (size_t k = 0; k < m; k += stretch)
-            add_stretch(o, scale, first + at + k, stretch, level + k,
-                        !inside && is_edge(o, scale, first + at + k, samples));
+        ss_map_give(&(ss_map_part){ .level = level }, 0, m, w);
+        for (size_t k = 0; k < m; k += stretch) {
+            double most = add_levels(&o->scale[i], level + k, stretch);
+            if (!inside && is_edge(o, scale, first + k, samples))
+                continue;
+            o->top = most > o->top ? most : o->top;
+            ss_noise_level_add(o->noise, scale, i, level + k, first + k, stretch);
+        }
     }
     return 0;
 }

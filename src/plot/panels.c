@@ -24,8 +24,8 @@ typedef struct drawing {
     size_t bands;                       /* of features */
 } drawing;
 
-/* Write the data of all panels, those over a panel in its scale, and widen its extent.  All labels have the letters
- * of the smallest, as the first. */
+/* Write the data of all panels, those over a panel in its scale, and widen its extent.  All labels have the
+ * letters of the smallest, as the first. */
 static void
 write_data(drawing *d)
 {
@@ -126,8 +126,8 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
         if (is_left)
             plot_differences(d);
         else                            /* a line of one sample would be invisible */
-            ss_layers_plot(out, d->layer, opts, column, 1, d->bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes x1y2 "
-                           "with boxxyerror fill solid noborder lc rgb feature_colour, " : "",
+            ss_layers_plot(out, d->layer, opts, column, 1, d->bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes "
+                           "x1y2 with boxxyerror fill solid noborder lc rgb feature_colour, " : "",
                            d->span->n > 1 ? "lines" : "points pt 7 ps 1");
     }
     return ss_script_end(out);

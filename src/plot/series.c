@@ -105,8 +105,8 @@ ss_series_free(series *s)
 /* --- layers --------------------------------------------------------------------------------- */
 
 ss_status
-ss_layers_find(layer l[SS_PLOT_OVER], const ss_header *head, const size_t drawn[], size_t n, const ss_plot_opts *opts,
-               ss_error *err)
+ss_layers_find(layer l[SS_PLOT_OVER], const ss_header *head, const size_t drawn[], size_t n,
+               const ss_plot_opts *opts, ss_error *err)
 {
     for (size_t k = 0; k < opts->n_over; k++, l++) {
         const ss_header *over = ss_reader_header(opts->over[k]);

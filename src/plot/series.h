@@ -46,10 +46,10 @@ ss_status ss_layers_find(layer l[SS_PLOT_OVER], const ss_header *head, const siz
 void ss_layers_free(layer l[SS_PLOT_OVER]);
 /* The name of the block with the data of signal k over a panel, with the panel's number from this one on. */
 void ss_layer_name(char name[40], size_t k, size_t panel, int first);
-/* Plot the data of a panel, as lines or points, and all over it; the first panel has the legend.  before: what lies
- * below them in the plot command, with a comma. */
-void ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t panel, int first, const char *before,
-                    const char *by);
+/* Plot the data of a panel, as lines or points, and all over it; the first panel has the legend.  before: what
+ * lies below them in the plot command, with a comma. */
+void ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t panel, int first,
+                    const char *before, const char *by);
 
 enum { BLOCKS = 2048 };         /* of a column; more than a picture has columns of pixels, even when half full */
 

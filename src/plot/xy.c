@@ -183,18 +183,6 @@ write_paths(FILE *out, const ss_header *head, const path p[], const ss_plot_opts
     return ss_script_end(out);
 }
 
-/* The columns with the names of x and y, or else the first two. */
-static ss_status
-find_over(size_t column[2], const ss_header *over, const path *p, ss_error *err)
-{
-    const char *x_name = p->column[0]->name, *y_name = p->column[1]->name;
-    int x = ss_header_column(over, x_name), y = ss_header_column(over, y_name), named = x >= 0 && y >= 0;
-    column[0] = named ? (size_t)x : 0;
-    column[1] = named ? (size_t)y : 1;
-    return named || over->n_columns >= 2 ? SS_OK
-        : ss_fail(err, SS_EINVAL, "one column cannot be drawn over %s and %s", x_name, y_name);
-}
-
 ss_status
 ss_plot_xy(FILE *out, ss_reader *reader, size_t x, size_t y, const ss_plot_opts *opts, ss_error *err)
 {
@@ -210,9 +198,15 @@ ss_plot_xy(FILE *out, ss_reader *reader, size_t x, size_t y, const ss_plot_opts 
     if (st == SS_OK)
         st = read_path(p, reader, column, NAN, &own, err);
     for (size_t k = 0; st == SS_OK && k < own.n_over; k++) {
-        st = find_over(column, ss_reader_header(own.over[k]), p, err);
-        if (st == SS_OK)
-            st = read_path(&p[k + 1], own.over[k], column, head->start, &own, err);
+        /* the columns with the names of x and y, or else the first two */
+        const ss_header *over = ss_reader_header(own.over[k]);
+        const char *x_name = p->column[0]->name, *y_name = p->column[1]->name;
+        int of_x = ss_header_column(over, x_name), of_y = ss_header_column(over, y_name);
+        int named = of_x >= 0 && of_y >= 0;
+        column[0] = named ? (size_t)of_x : 0;
+        column[1] = named ? (size_t)of_y : 1;
+        st = named || over->n_columns >= 2 ? read_path(&p[k + 1], own.over[k], column, head->start, &own, err)
+            : ss_fail(err, SS_EINVAL, "one column cannot be drawn over %s and %s", x_name, y_name);
     }
     if (st == SS_OK)
         st = write_paths(out, head, p, &own, err);

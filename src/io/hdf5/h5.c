@@ -155,7 +155,7 @@ most_from_byte(hid_t how)
     return n < 0 || deflated > 1 ? 0 : deflated == 1 ? 1032 : 1;
 }
 
-/* The reason why the values of a dataset must not be read, or NULL; *bytes: so many of the file they need at least.
+/* The reason why the values of a dataset must not be read, or NULL; *bytes: so many of the file they need.
  * How they are stored is asked before their extent: for that of a virtual dataset, HDF5 opens the files that it
  * refers to. */
 static const char *

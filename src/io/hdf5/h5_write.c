@@ -156,28 +156,19 @@ ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n, si
     return SS_OK;
 }
 
-/* Extend a dataset's rows to this length, if they are shorter. */
-static int
-grow(hid_t id, int rank, hsize_t length)
-{
-    hsize_t dims[2] = { 0, 0 };
-    hid_t space = H5Dget_space(id);
-    H5Sget_simple_extent_dims(space, dims, NULL);
-    H5Sclose(space);
-    if (dims[rank - 1] >= length)
-        return 1;
-    dims[rank - 1] = length;
-    return H5Dset_extent(id, dims) >= 0;
-}
-
 int
 ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type, const void *values)
 {
     hsize_t count[2] = { 1, 1 };
-    count[rank - 1] = n;
-    if (!grow(id, rank, at[rank - 1] + n))
-        return 0;
+    hsize_t dims[2] = { 0, 0 }, end = at[rank - 1] + n;
     hid_t space = H5Dget_space(id), memory = H5Screate_simple(1, &n, NULL);
+    count[rank - 1] = n;
+    H5Sget_simple_extent_dims(space, dims, NULL);
+    if (dims[rank - 1] < end) {
+        dims[rank - 1] = end;
+        H5Sclose(space);
+        space = H5Dset_extent(id, dims) >= 0 ? H5Dget_space(id) : -1;
+    }
     int good = H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, count, NULL) >= 0
         && H5Dwrite(id, type, memory, space, H5P_DEFAULT, values) >= 0;
     H5Sclose(memory);
@@ -249,20 +240,14 @@ copy_out(const h5_output *out)
     return fclose(copy) != 0 && why == 0 ? errno : why;
 }
 
-/* Let HDF5 write its buffers and close the file. */
-static ss_status
-close_hdf5(h5_output *out, ss_status st)
-{
-    int good = out->file.id < 0 || H5Fclose(out->file.id) >= 0; /* and all objects in it */
-    out->file.id = -1;
-    return st == SS_OK && !good ? ss_h5_fail_write(&out->file, 0, "") : st;
-}
-
 ss_status
 ss_h5_output_close(h5_output *out, ss_status st)
 {
     struct stat is;
-    st = close_hdf5(out, st);
+    int good = out->file.id < 0 || H5Fclose(out->file.id) >= 0; /* and all objects in it */
+    out->file.id = -1;
+    if (st == SS_OK && !good)
+        st = ss_h5_fail_write(&out->file, 0, "");
     if (out->file.driver > 0)
         H5FDunregister(out->file.driver);
     out->file.driver = 0;

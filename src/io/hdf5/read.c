@@ -212,8 +212,8 @@ find_array(rows *s, const char *dataset, const ss_read_opts *opts)
     if (opts->table > 0)
         return ss_h5_fail(file, SS_EDATA, 0, dataset, "not delimited text: no table can be chosen");
     if (opts->time_unit != NULL && opts->time == NULL)
-        return ss_h5_fail(file, SS_EDATA, 0, dataset, "a unit of time is that of a dataset of times, which must be "
-                          "chosen");
+        return ss_h5_fail(file, SS_EDATA, 0, dataset, "a unit of time is that of a dataset of times, which must "
+                          "be chosen");
     s->n = shape.rows;
     s->by_columns = shape.transposed;
     s->gaps = opts->gaps != SS_GAPS_REFUSE;
@@ -279,10 +279,10 @@ add_link(hid_t group, const char *name, const H5L_info_t *info, void *user)
     return links->status != SS_OK;
 }
 
-/* Open all columns of a group, in the order of writing if the file has it, else in that of their names.  Asked for
- * one name after the other, HDF5 would sort them all again for each, if the group has no index of that order.  Open
- * one of them before: HDF5 1.10 frees pointers that it has not set if it cannot read the heap of the names while it
- * lists them. */
+/* Open all columns of a group, in the order of writing if the file has it, else in that of their names.  Asked
+ * for one name after the other, HDF5 would sort them all again for each, if the group has no index of that order.
+ * Open one of them before: HDF5 1.10 frees pointers that it has not set if it cannot read the heap of the names
+ * while it lists them. */
 static ss_status
 find_columns(rows *s, hid_t group)
 {

@@ -1,10 +1,10 @@
 /* writer.c -- a file in HDF5: samples, events and coefficients as they come.
  *
  * /signal has a dataset for each column; /events has datasets of one length; /wavelet has a group a scale, or one
- * rectangle if all scales have one coefficient a sample.  Where the number of samples and coefficients is known, the
- * datasets of a scale are closed when they are full.  If it is not, all datasets stay open, with chunks so short that
- * one of each fits into memory.  Rows of a signal alone are put together first: then the length of most signals is
- * known when the file is made. */
+ * rectangle if all scales have one coefficient a sample.  Where the number of samples and coefficients is known,
+ * the datasets of a scale are closed when they are full.  If it is not, all datasets stay open, with chunks so short
+ * that one of each fits into memory.  Rows of a signal alone are put together first: then the length of most signals
+ * is known when the file is made. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -227,12 +227,13 @@ write_all_events(h5_writer *w)
 
 /* --- /wavelet ------------------------------------------------------------------------------ */
 
-/* Take the grid.  It is dense if every scale has one coefficient a sample, so that all share one dataset of times. */
+/* Take the grid.  It is dense if every scale has one coefficient a sample: all share one dataset of times. */
 static ss_status
 copy_grid(h5_writer *w, const ss_coefficients *grid)
 {
     const char *of = grid->head->n_columns > 0 ? grid->head->column[0].unit : "";
-    const char *norm = ss_header_find_note(grid->head, "norm"), *accuracy = ss_header_find_note(grid->head, "accuracy");
+    const char *norm = ss_header_find_note(grid->head, "norm");
+    const char *accuracy = ss_header_find_note(grid->head, "accuracy");
     int l1 = norm != NULL && strcmp(norm, "l1") == 0;
     size_t size = strlen(of) + sizeof " s^0.5";
     w->n_scales = grid->n_scales;

@@ -596,8 +596,8 @@ is_letter(char c)
 }
 
 /* The line above the data that most probably gives the clock; NULL: there is none.  It is shown, not read: whether
- * a number is the rate of this table, its period or a rate of flow, and in what unit, only its writer knows.  A longer
- * word that begins with one of more than four letters counts, too. */
+ * a number is the rate of this table, its period or a rate of flow, and in what unit, only its writer knows.  A
+ * longer word that begins with one of more than four letters counts, too. */
 static const struct text_line *
 find_rate_line(const struct text *x)
 {
@@ -608,8 +608,8 @@ find_rate_line(const struct text *x)
             const char *line = x->head[i].text;
             size_t n = strlen(word[w]);
             for (const char *p = line; *p != '\0'; p++)
-                if ((p == line || !is_letter(p[-1])) && strncasecmp(p, word[w], n) == 0 && (n > 4 || !is_letter(p[n]))
-                    && strpbrk(p, "0123456789") != NULL)
+                if ((p == line || !is_letter(p[-1])) && strncasecmp(p, word[w], n) == 0
+                    && (n > 4 || !is_letter(p[n])) && strpbrk(p, "0123456789") != NULL)
                     return &x->head[i];
         }
     return NULL;

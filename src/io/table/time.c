@@ -318,7 +318,7 @@ ss_sheet_mark_spare(struct sheet *t, ss_error *err)
     ss_header *head = NULL;
     int guessed;
     size_t n = 0, time = find_time(t, &guessed), *channel = malloc(t->n_columns * sizeof *channel);
-    /* in this header, columns have the numbers of the signal, which a column of time that is only guessed leaves open */
+    /* this header has the numbers of the signal, which a column of time that is only guessed leaves open */
     for (size_t c = 0; channel != NULL && c < t->n_columns && !guessed; c++)
         if (c != time && t->column[c].kind == COLUMN_NUMBERS)
             channel[n++] = c;

@@ -236,8 +236,8 @@ ss_meter_leg(meter *r, walk *w)
     if (!force_varies(&w->m.now))
         r->energy += w->m.now.f0 * (lo.slid - first.slid);
     course *c = r->course;
-    for (double s; c != NULL && c->done < c->n && (s = (double)c->done * c->interval - r->time) < w->h; c->done++) {
-        point p = point_at(w, fmax(0, s));
+    for (; c != NULL && c->done < c->n && (double)c->done * c->interval - r->time < w->h; c->done++) {
+        point p = point_at(w, fmax(0, (double)c->done * c->interval - r->time));
         const double row[COURSE_COLUMNS] = { p.x, p.v, p.a, p.f };
         for (int i = 0; i < COURSE_COLUMNS; i++)
             c->value[i][c->done] = row[i];

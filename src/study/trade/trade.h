@@ -1,4 +1,4 @@
-/* trade.h -- runs of a scene and their reference, and what the measurements of a scene and of a transform share. */
+/* trade.h -- runs of a scene and their reference, and what measurements of a scene and of a transform share. */
 #ifndef TRADE_H
 #define TRADE_H
 
