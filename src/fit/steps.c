@@ -258,14 +258,13 @@ slide_on(path *p)
 static ss_status
 find_lines(path *p)
 {
-    double *off = malloc(3 * p->n * sizeof *off);
+    p->moved[0] = malloc(2 * p->n * sizeof *p->moved[0]);
     p->sum = malloc((p->n + 1) * sizeof *p->sum);
-    p->moved[0] = off;
-    p->moved[1] = off + p->n;
-    if (off == NULL || p->sum == NULL)
+    if (p->moved[0] == NULL || p->sum == NULL)
         return SS_ENOMEM;
+    p->moved[1] = p->moved[0] + p->n;
     const double from = p->start = p->x[0], way = p->x[p->n - 1] - from;
-    p->noise = noise_of(p, off);
+    p->noise = noise_of(p, p->moved[0]);
     memset(p->sum[0], 0, sizeof p->sum[0]);
     for (size_t i = 0; i < p->n; i++) {
         long double t = p->t[i] - p->t[0], x = p->x[i] - from, of[5] = { t, x, t * t, t * x, x * x };
