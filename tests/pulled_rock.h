@@ -21,6 +21,7 @@ typedef struct rock {
     int by_time;                /* 1: memory [s], as exp(-t / memory) */
     size_t n;
     int uneven;                 /* 1: rows at random times; 2: a row in ten before the first change */
+    double mean;                /* of the friction; 0: .6 */
 } rock;
 
 static inline double
@@ -111,7 +112,7 @@ rock_signal(const rock *r, uint64_t *seed)
         double keep = r->by_time ? exp((before - t) / r->memory) : r->memory, x = rock_load(r, t, &speed);
         noise = keep * noise + sqrt(1 - keep * keep) * rock_gauss(seed);
         s->values[i] = 1e6 * (x + (t > 0.9 * end ? r->jump : 0) + (r->path_noise > 0 ? r->path_noise * rock_gauss(seed) : 0));
-        s->values[r->n + i] = 0.6 + r->drift * x + r->a * u[0] + r->b * u[1] + r->noise * noise;
+        s->values[r->n + i] = (r->mean > 0 ? r->mean : 0.6) + r->drift * x + r->a * u[0] + r->b * u[1] + r->noise * noise;
         s->values[2 * r->n + i] = t;
     }
     return s;

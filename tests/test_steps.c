@@ -151,6 +151,10 @@ finds_the_truth_of_simulated_rocks(void **state)
     r.until[3] = 450;
     r.n = 4500;
     answers("three steps", &r, 9, 3, 0);
+    r = usual;                                  /* a shear stress in MPa, of 150 MPa of normal stress */
+    r.mean = 90;
+    r.a *= 250, r.b *= 250, r.k *= 250, r.drift *= 250, r.noise *= 250;
+    answers("a stress", &r, 11, 1, 0);
 }
 
 /* Noise without an effect of speed, and a path without a step. */

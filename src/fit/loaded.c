@@ -321,8 +321,12 @@ ss_loaded_fit(ss_step_law *out, double *model, const track *record, int is_slip,
 {
     const size_t n = record->n;
     const double way = way_of(record), held = log(stiffness);
-    const ss_range of_stiffness = stiffness > 0 ? (ss_range){ held, held } : (ss_range){ log(1e-5 / way), log(1e4 / way) };
-    const ss_range range[UNKNOWNS] = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), 0 }, { -1000, 1.5 },
+    double most = 1;                /* friction may be in percent, or a stress */
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(record->mu[i]));
+    const ss_range of_stiffness = stiffness > 0 ? (ss_range){ held, held }
+        : (ss_range){ log(1e-5 / way), log(1e4 * most / way) };
+    const ss_range range[UNKNOWNS] = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), log(most) }, { -1000, 1.5 },
         { log(0.01 / (way * way)), log(1e9 / (way * way)) }, of_stiffness };
     double covariance[UNKNOWNS * UNKNOWNS], *room = malloc(n * (1 + UNKNOWNS) * sizeof *room);
     law l = { 0 };
