@@ -21,7 +21,7 @@
 #include "scene/model.h"
 #include "signal/gaps.h"
 
-enum { POINTS = 96, KEEP = 4, STEPS = 60 };     /* of the search */
+enum { POINTS = 192, KEEP = 4, STEPS = 60 };    /* of the search */
 enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at most */
 #define BUDGET 1e8                      /* integration steps of a fit: less than a minute */
 #define NEAR 1.5                        /* factor within which the features' estimates are right */

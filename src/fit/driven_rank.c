@@ -119,10 +119,11 @@ power_of(const driven *d)
 
 /* --- the numbers of the law ----------------------------------------------------------------- */
 
-/* What stands beside each law. */
-static const struct { const char *name, *unit; } beside[COLUMNS] = {
-    [VISCOUS] = { "viscous_friction", "N s/m" }, [OFFSET] = { "offset", "N" }, [TILT] = { "tilt", "N/m" },
-    [INERTIA] = { "inertia", "N s^2/m" }, [SINE] = { "sine", "N" }, [COSINE] = { "cosine", "N" } };
+enum { AT = UNKNOWNS + COLUMNS, BESIDE = COLUMNS - VISCOUS, LATE = LAW_NUMBERS + BESIDE, NUMBERS };
+/* What stands beside each law, and the delay. */
+static const struct { const char *name, *unit; } beside[] = {
+    { "viscous_friction", "N s/m" }, { "offset", "N" }, { "tilt", "N/m" }, { "inertia", "N s^2/m" }, { "sine", "N" },
+    { "cosine", "N" }, { "delay", "s" } };
 
 /* The unit in which laws are fitted over that of the recording, of a number in this unit of scenes. */
 static double
@@ -151,75 +152,54 @@ name_unit(char *text, size_t room, const char *unit, const char *force, const ch
     }
 }
 
-/* Add a number with its error, whose slopes by the unknowns and amplitudes these are. */
+/* All numbers that unknowns and amplitudes make. */
 static void
-add_number(ss_motion_ranking *out, const char *name, double value, const double slope[], const driven_result *r,
-           const char *unit, const char *force, const char *length)
+list_numbers(double number[NUMBERS], const driven_law *law, const driven *d, const double at[AT])
 {
-    double variance = 0;
-    ss_motion_number *number = &out->number[out->n_numbers++];
-    for (size_t k = 0; k < UNKNOWNS + COLUMNS; k++)
-        for (size_t l = 0; l < UNKNOWNS + COLUMNS; l++)
-            variance += slope[k] * slope[l] * r->covariance[k][l];
-    *number = (ss_motion_number){ .name = name, .value = { value, sqrt(fmax(variance, 0)) } };
-    name_unit(number->unit, sizeof number->unit, unit, force, length);
+    law->numbers(number, at, at + UNKNOWNS);
+    memcpy(number + LAW_NUMBERS, at + UNKNOWNS + VISCOUS, BESIDE * sizeof *number);
+    number[LATE] = at[DELAY] * d->step;
 }
 
-/* The scene of the law, in SI units; none if these cannot be found. */
+/* Find the numbers with their errors, and, if there are SI units, the scene of the law. */
 static void
-make_scene(ss_motion_ranking *out, const driven_law *law, double number[], const char *force, const char *length)
+find_numbers(ss_motion_ranking *out, const driven_result *r, const driven *d, const char *force, const char *length)
 {
-    const double metres = ss_unit_in_si(length, 'm');
+    const double h = 1e-4, metres = ss_unit_in_si(length, 'm'), late = r->covariance[DELAY][DELAY];
     const driven si = { .force = ss_unit_in_si(force, 'N'), .length = metres, .speed = metres };
+    const driven_law *law = r->law;
+    double number[NUMBERS] = { 0 }, moved[AT][NUMBERS] = { { 0 } }, at[AT];
+    memcpy(at, r->fit[ALL].u, sizeof r->fit[ALL].u);
+    memcpy(at + UNKNOWNS, r->fit[ALL].c, sizeof r->fit[ALL].c);
+    list_numbers(number, law, d, at);
+    for (size_t k = 0; k < AT; k++) {
+        const double was = at[k];
+        at[k] += h;
+        list_numbers(moved[k], law, d, at);
+        at[k] = was;
+    }
+    for (size_t i = 0; i < NUMBERS; i++) {
+        const int is_own = i < LAW_NUMBERS;
+        const char *name = is_own ? law->number[i].name : beside[i - LAW_NUMBERS].name;
+        const char *unit = is_own ? law->number[i].unit : beside[i - LAW_NUMBERS].unit;
+        double variance = 0;
+        if (is_own ? name == NULL : i < LATE ? number[i] == 0 : !(late > 0 && late < d->most_delay * d->most_delay))
+            continue;
+        for (size_t k = 0; k < AT; k++)
+            for (size_t l = 0; l < AT; l++)
+                variance += (moved[k][i] - number[i]) / h * (moved[l][i] - number[i]) / h * r->covariance[k][l];
+        const double size = size_of_unit(d, unit);
+        ss_motion_number *to = &out->number[out->n_numbers++];
+        *to = (ss_motion_number){ .name = name, .value = { size * number[i], size * sqrt(fmax(variance, 0)) } };
+        name_unit(to->unit, sizeof to->unit, unit, force, length);
+        number[i] *= size * size_of_unit(&si, unit);
+    }
     if (!(si.force > 0 && si.length > 0))
         return;
-    for (size_t i = 0; i < LAW_NUMBERS && law->number[i].name != NULL; i++)
-        number[i] *= size_of_unit(&si, law->number[i].unit);
     out->scene = ss_scene_defaults;
     ss_driven_scene(&out->scene, law, number);
-    for (size_t i = 0; i < out->n_numbers; i++)
-        if (strcmp(out->number[i].name, "viscous_friction") == 0) {
-            double viscous = out->number[i].value.value * size_of_unit(&si, "N s/m");
-            if (ss_scene_set(&out->scene, "viscous_friction", viscous, NULL) != SS_OK)
-                out->scene.damping = viscous;
-        }
-}
-
-static void
-find_numbers(ss_motion_ranking *out, const driven_result *r, const driven *d, const char *force,
-             const char *length)
-{
-    enum { N = UNKNOWNS + COLUMNS };
-    const driven_fit *fit = &r->fit[ALL];
-    double slope[LAW_NUMBERS][N] = { { 0 } }, number[LAW_NUMBERS], moved[LAW_NUMBERS], at[N];
-    memcpy(at, fit->u, sizeof fit->u);
-    memcpy(at + UNKNOWNS, fit->c, sizeof fit->c);
-    r->law->numbers(number, at, at + UNKNOWNS);
-    for (size_t k = 0; k < N; k++) {
-        const double h = 1e-4, was = at[k];
-        at[k] += h;
-        r->law->numbers(moved, at, at + UNKNOWNS);
-        at[k] = was;
-        for (size_t i = 0; i < LAW_NUMBERS && r->law->number[i].name != NULL; i++)
-            slope[i][k] = size_of_unit(d, r->law->number[i].unit) * (moved[i] - number[i]) / h;
-    }
-    for (size_t i = 0; i < LAW_NUMBERS && r->law->number[i].name != NULL; i++) {
-        number[i] *= size_of_unit(d, r->law->number[i].unit);
-        add_number(out, r->law->number[i].name, number[i], slope[i], r, r->law->number[i].unit, force, length);
-    }
-    for (size_t k = VISCOUS; k < COLUMNS; k++)
-        if (r->fit[ALL].c[k] != 0) {
-            const double size = size_of_unit(d, beside[k].unit);
-            double by[N] = { 0 };
-            by[UNKNOWNS + k] = size;
-            add_number(out, beside[k].name, size * fit->c[k], by, r, beside[k].unit, force, length);
-        }
-    if (r->covariance[DELAY][DELAY] > 0 && r->covariance[DELAY][DELAY] < d->most_delay * d->most_delay) {
-        double by[N] = { 0 };
-        by[DELAY] = d->step * d->length / d->speed;
-        add_number(out, "delay", by[DELAY] * fit->u[DELAY], by, r, "s", force, length);
-    }
-    make_scene(out, r->law, number, force, length);
+    if (number[LAW_NUMBERS] > 0 && ss_scene_set(&out->scene, "viscous_friction", number[LAW_NUMBERS], NULL) != SS_OK)
+        out->scene.damping = number[LAW_NUMBERS];
 }
 
 /* Say what the recording cannot separate. */
