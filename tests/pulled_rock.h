@@ -111,7 +111,8 @@ rock_signal(const rock *r, uint64_t *seed)
         }
         double keep = r->by_time ? exp((before - t) / r->memory) : r->memory, x = rock_load(r, t, &speed);
         noise = keep * noise + sqrt(1 - keep * keep) * rock_gauss(seed);
-        s->values[i] = 1e6 * (x + (t > 0.9 * end ? r->jump : 0) + (r->path_noise > 0 ? r->path_noise * rock_gauss(seed) : 0));
+        double off = t > 0.9 * end ? r->jump : 0;
+        s->values[i] = 1e6 * (x + off + (r->path_noise > 0 ? r->path_noise * rock_gauss(seed) : 0));
         s->values[r->n + i] = (r->mean > 0 ? r->mean : 0.6) + r->drift * x + r->a * u[0] + r->b * u[1] + r->noise * noise;
         s->values[2 * r->n + i] = t;
     }

@@ -4,8 +4,8 @@
  * to its own model's noise is fitted by too small a, b and k.  So the path is first cut into lines, again and
  * again where two of them fit best, as long as they are significantly better than one; and the load point moves on
  * a chain of links that meet where the lines do.  A link that noise does not explain stays as recorded.  But where
- * a sensor jumps and friction does not, the load point has not moved: so one that moves at the speeds of the slides
- * alone is tried too, and the likelier path is kept.
+ * a sensor jumps and friction does not, the load point has not moved: so one that moves at the speeds of the
+ * slides alone is tried too, and the likelier path is kept.
  *
  * Lines whose speeds differ by less than a fifth are one slide.  A line that is short beside its neighbours, in
  * time and way, is the ramp of a servo; it belongs to the change between these.  A step begins in the second half
@@ -197,13 +197,13 @@ end_of(const path *p, size_t k)
     return k + 1 < p->lines ? p->line[k + 1].of.meets : p->t[p->n - 1];
 }
 
-/* Move the path onto the chain of straight links between such joints that is nearest to it, but where noise does not
- * explain what a link leaves.  SS_ENOMEM. */
+/* Move the path onto the chain of straight links between such joints that is nearest to it, but where noise does
+ * not explain what a link leaves.  SS_ENOMEM. */
 static ss_status
 chain(path *p)
 {
     const size_t joints = p->lines + 1;
-    double *on = calloc(4 * joints, sizeof *on), *beside = on + joints, *sum = on + 2 * joints, *at = on + 3 * joints;
+    double *on = calloc(4 * joints, sizeof *on), *beside = on + joints, *sum = beside + joints, *at = sum + joints;
     if (on == NULL)
         return SS_ENOMEM;
     memcpy(p->moved[0], p->x, p->n * sizeof *p->x);
@@ -303,8 +303,8 @@ take(ss_step *s, track r[2], const path *p, const double *mu, size_t at, size_t 
     line whole = { 0 };
     fit_line(p, first, l->end, &whole);
     for (int k = 0; k < 2; k++)
-        r[k] = (track){ .n = n, .t = s->t, .mu = s->friction, .load = room + (2 + (size_t)k) * n, .changes = lines - 1,
-                        .speed = sign * (k == 0 ? whole.speed : l->of.speed) };
+        r[k] = (track){ .n = n, .t = s->t, .mu = s->friction, .load = room + (2 + (size_t)k) * n,
+                        .changes = lines - 1, .speed = sign * (k == 0 ? whole.speed : l->of.speed) };
     s->path = r[0].load;
     for (size_t i = 0; i < n; i++) {
         double sum[4] = { 0 };
@@ -322,9 +322,10 @@ take(ss_step *s, track r[2], const path *p, const double *mu, size_t at, size_t 
         for (size_t k = 1; k < lines; k++) {        /* means of rows are too coarse for corners */
             const corner c = l[k].of.begins[which];
             to->change[k - 1] = (l[k].first - first) / apart;
-            to->corner[k - 1] = (corner){ apart == 1 ? c.t : NAN, sign * (c.load - p->x[first]) };
+            const int is_between = apart == 1 && c.t > s->t[0] && c.t < s->t[n - 1];
+            to->corner[k - 1] = (corner){ is_between ? c.t : NAN, sign * (c.load - p->x[first]) };
         }
-        double middle = 0, mean = 0;                /* the slide begins on its line, not on its first row's noise */
+        double middle = 0, mean = 0;            /* the slide begins on its line, not on its first row's noise */
         for (size_t i = 0; i < to->change[0]; i++) {
             middle += (s->t[i] - s->t[0]) / (double)to->change[0];
             mean += to->load[i] / (double)to->change[0];
@@ -345,7 +346,7 @@ forget(ss_value *v)
         *v = (ss_value){ NAN, NAN };
 }
 
-/* Fit both laws to a track; model: room for their friction.  *likely becomes the larger logarithm of likelihood. */
+/* Fit both laws to a track; model: room for their friction; *likely becomes the larger log likelihood. */
 static ss_status
 fit_laws(ss_step_law law[SS_STEP_LAWS], double *model, const track *r, double stiffness, double *likely)
 {
@@ -355,8 +356,8 @@ fit_laws(ss_step_law law[SS_STEP_LAWS], double *model, const track *r, double st
         ss_status st = ss_loaded_fit(l, model, r, i == SS_STEP_SLIP, stiffness);
         l->model = model;
         if (st == SS_EDATA)
-            *l = (ss_step_law){ NAN, NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN,
-                                l->model };
+            *l = (ss_step_law){ NAN, NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN },
+                                NAN, model };
         else if (st != SS_OK)
             return st;
         forget(&l->direct_effect);
@@ -414,7 +415,8 @@ unit_of(const ss_column *c)
 
 /* Read path [m] and friction from their columns. */
 static ss_status
-read_columns(double *x, double *mu, const ss_signal *signal, size_t load, size_t friction, int normal, ss_error *err)
+read_columns(double *x, double *mu, const ss_signal *signal, size_t load, size_t friction, int normal,
+             ss_error *err)
 {
     const ss_column *column = signal->head->column;
     const size_t n = signal->n;
@@ -461,13 +463,16 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
     *out = NULL;
     const size_t n = signal->n, columns = signal->head->n_columns;
     if (load >= columns || friction >= columns || normal >= (int)columns)
-        return ss_fail_column(err, load >= columns ? load : friction >= columns ? friction : (size_t)normal, columns);
+        return ss_fail_column(err, load >= columns ? load : friction >= columns ? friction : (size_t)normal,
+                              columns);
     if (!(stiffness >= 0) || isinf(stiffness))
         return ss_fail(err, SS_EINVAL, "a stiffness of %g 1/m is out of range", stiffness);
     double *x = malloc((2 * n + 1) * sizeof *x), *mu = x + n;
     path p = { .t = signal->values + (columns - 1) * n, .x = x, .n = n };
     ss_steps *made = calloc(1, sizeof *made);
-    ss_status st = x != NULL && made != NULL ? read_columns(x, mu, signal, load, friction, normal, err) : SS_ENOMEM;
+    ss_status st = SS_ENOMEM;
+    if (x != NULL && made != NULL)
+        st = read_columns(x, mu, signal, load, friction, normal, err);
     if (st == SS_OK && n >= 2 * FEWEST)
         st = find_lines(&p);
     if (st == SS_OK)
