@@ -47,13 +47,16 @@ turn_of(const piece *m)
 static long double
 reach(const piece *m, long double place, long double end, int sign)
 {
-    long double lo = 0, hi = end;
-    for (int i = 0; i < 80; i++) {
-        long double mid = (lo + hi) / 2;
-        if (sign * (at(m, mid, 0) - place) >= 0)
-            hi = mid;
+    long double lo = 0, hi = end, t = end / 2;
+    for (int i = 0; i < 80 && hi - lo > 1e-18L * end; i++) {        /* Newton's steps, or halves */
+        long double off = at(m, t, 0) - place, next = t - off / at(m, t, 1);
+        if (sign * off >= 0)
+            hi = t;
         else
-            lo = mid;
+            lo = t;
+        if (fabsl(next - t) < 1e-18L * end)
+            return next;
+        t = next > lo && next < hi ? next : (lo + hi) / 2;
     }
     return hi;
 }

@@ -28,6 +28,7 @@ enum {
     SLOW = 4                    /* periods to twice the amplitude, as no blow takes */
 };
 #define LONG 12.0               /* periods of a block, where noise wants it long */
+#define FLAT .02                /* of the range: what is clipped may have noise */
 #define GROWS 2.0               /* times the last amplitude: what grows again */
 #define HIT 3.0                 /* times what the blocks behind it leave: a blow is in the first
                                    block */
@@ -35,7 +36,7 @@ enum {
 #define NEPER 0.11512925464970229       /* a decibel */
 #define FALL .35                /* of ln A in a block, at most */
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
-#define FAINT .01                /* of the last amplitude: a line below is let be */
+#define FAINT .01                /* of an amplitude: a line or a blow below is let be */
 #define OUTSTANDING 60.0        /* times the median power: a line, as noise never is */
 
 typedef struct decay {
@@ -49,7 +50,7 @@ typedef struct decay {
     lines beside;
     block *block;
     size_t n_blocks, room;
-    const char *why, *start, *stop;
+    const char *start, *stop;
 } decay;
 
 /* --- where it is ----------------------------------------------------------------------------- */
@@ -101,7 +102,22 @@ find_line(double *w, const double *x, size_t n, double near, const double *tried
     return SS_OK;
 }
 
-/* Average groups of the record's samples.  Those at a limit that the record reaches three times are clipped. */
+/* 1: of three periods about its extreme in that direction, a fifth lies within FLAT of the limit, as a sine's
+ * tenth does at most. */
+static int
+is_flat(const double *x, size_t n, double limit, int direction, double period)
+{
+    size_t at = 0, count = 0;
+    for (size_t i = 0; i < n; i++)
+        at = direction * x[i] > direction * x[at] ? i : at;
+    size_t half = (size_t)(1.5 * period), end = at + half < n ? at + half : n;
+    for (size_t i = at > half ? at - half : 0; i < end; i++)
+        count += direction * x[i] > direction * limit;
+    return (double)count > .2 * 3 * period + 2;
+}
+
+/* Average groups of the record's samples.  Those at a limit that it reaches three times, or stays near, are
+ * clipped. */
 static ss_status
 take_record(decay *d, const double *x, size_t n)
 {
@@ -117,8 +133,9 @@ take_record(decay *d, const double *x, size_t n)
         lo = fmin(lo, x[i]);
         hi = fmax(hi, x[i]);
     }
-    lo = at_lo < 3 ? -INFINITY : lo;
-    hi = at_hi < 3 ? INFINITY : hi;
+    double margin = FLAT * (hi - lo), period = 2 * M_PI * (double)d->group / d->w;
+    lo = is_flat(x, n, lo + margin, -1, period) ? lo + margin : at_lo < 3 ? -INFINITY : lo;
+    hi = is_flat(x, n, hi - margin, 1, period) ? hi - margin : at_hi < 3 ? INFINITY : hi;
     for (size_t i = 0; i < d->n; i++) {
         double sum = 0;
         for (size_t k = i * d->group; k < (i + 1) * d->group; k++)
@@ -277,12 +294,20 @@ follow(decay *d)
     }
 }
 
+/* The mean square that a block leaves, if it is not faint beside it. */
+static double
+left_of(const block *b)
+{
+    double left = b->left / b->free;
+    return left > pow(FAINT * exp(b->y[LEVEL]), 2) ? left : 0;
+}
+
 /* 1: the first block leaves far more than the next, as the blow is in it. */
 static int
 is_hit(const decay *d)
 {
     const block *b = d->block;
-    return d->n_blocks >= FEW && b[0].left / b[0].free > HIT * fmax(b[1].left / b[1].free, b[2].left / b[2].free);
+    return d->n_blocks >= FEW && left_of(b) > HIT * fmax(b[1].left / b[1].free, b[2].left / b[2].free);
 }
 
 /* 1: the motion's end is in the last block: it leaves more than those before, by 5 standard deviations, or it
@@ -293,7 +318,7 @@ is_stop(const decay *d)
     const block *b = d->block + d->n_blocks - 1;
     double usual = fmin(b[-1].left / b[-1].free, b[-2].left / b[-2].free);
     return d->n_blocks > FEW && (b->at.s * (double)(b->end - b->first) > 1
-                                 || b->left / b->free > usual * (1 + 5 * sqrt(2 / b->free)));
+                                 || left_of(b) > usual * (1 + 5 * sqrt(2 / b->free)));
 }
 
 /* The noise of each block, from those about it, re the amplitude that is smooth: else those that noise makes large
@@ -543,6 +568,14 @@ make_rows(ss_backbone *out, const decay *d, const decay_source *source)
     }
 }
 
+static void
+forget(decay *d)
+{
+    free(d->x);
+    free(d->size);
+    free(d->block);
+}
+
 /* Why blocks are no decay; NULL: they are one. */
 static const char *
 no_decay(const decay *d)
@@ -601,7 +634,7 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
     return st;
 }
 
-/* Find the decay of the line that is asked for, or else of the strongest; of another if this has no three blocks. */
+/* Find the decay of the line that is asked for, or else of the strongest; of another if this is none. */
 static ss_status
 find(decay *d, const double *x, size_t n, decay_source *source)
 {
@@ -613,19 +646,18 @@ find(decay *d, const double *x, size_t n, decay_source *source)
         st = find_line(line + 1, x, n, near, NULL, 0);
     if (st == SS_OK)
         st = find_at(d, x, n, line[near > 0], near > 0 ? line[0] : 0);
-    for (size_t k = 1; st == SS_OK && near == 0 && d->n_blocks < FEW && k <= TRIED; k++) {
+    for (size_t k = 1; st == SS_OK && near == 0 && no_decay(d) != NULL && k <= TRIED; k++) {
         decay other = none;
         st = find_line(line + k, x, n, 0, line, k);
         if (st != SS_OK || line[k] == 0)
             break;
         st = find_at(&other, x, n, line[k], line[0]);
-        if (other.n_blocks >= FEW) {
+        if (st == SS_OK && no_decay(&other) == NULL) {
             decay was = *d;
             *d = other;
             other = was;
         }
-        free(other.x);
-        free(other.block);
+        forget(&other);
     }
     source->rate /= (double)d->group;
     if (st == SS_OK && d->n_blocks >= FEW && grows_again(d))
@@ -694,9 +726,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
         st = ss_mechanism_find(b, d.block, d.n_blocks, &source);
     if (st == SS_OK && b->why == NULL)
         make_rows(b, &d, &source);
-    free(d.x);
-    free(d.size);
-    free(d.block);
+    forget(&d);
     if (st == SS_OK)
         *out = b;
     else

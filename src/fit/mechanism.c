@@ -508,7 +508,13 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     if (!is_other && source->has_phase) {
         trial of = { TWO_MODES, p, n, TRACKS, w / unit, what };
         fitted two;
-        is_other = fit(&two, &of, b, unit, ln_a) == SS_OK && two.bic + NEARLY < best->bic;
+        st = fit(&two, &of, b, unit, ln_a);
+        is_other = st == SS_OK && two.bic + NEARLY < best->bic;
+    }
+    if (st == SS_ENOMEM) {
+        free(p);
+        free(what);
+        return st;
     }
     out->chi2_dof = best->squares / best->free;
     mixed *sum = calloc(n, sizeof *sum);
