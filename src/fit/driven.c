@@ -179,10 +179,11 @@ ss_driven_new(driven *d, const double t[], const double motion[], const double f
     d->sign = work < 0 ? -1 : 1;            /* friction takes work from what moves */
     if (!(d->length > 0 && d->speed > 0 && d->force > 0))
         return SS_OK;
-    for (size_t i = 0, still = 0; i < n; i++) {     /* where its direction is not known, and static friction not by it; */
+    /* where its direction is not known, and static friction not by it; */
+    for (size_t i = 0, still = 0; i < n; i++) {
         still = fabs(d->v[i]) <= d->slow ? still + 1 : 0;
         size_t first = i + 1 - (still > 0), end = i + 1;
-        if (still > 2 * window) {                      /* beside a rest, too, over whose end the cubic is not the motion */
+        if (still > 2 * window) {       /* beside a rest, too, over whose end the cubic is not the motion */
             first = i > 3 * window ? i - 3 * window : 0;
             end = i + 1 + window < n ? i + 1 + window : n;
         }

@@ -71,7 +71,8 @@ is_fitted(const problem *p, size_t i)
 
 /* --- the columns --------------------------------------------------------------------------- */
 
-/* The motion so much earlier: p->x, p->v and p->a, by cubics between rows.  A law that jumps then jumps between rows, too. */
+/* The motion so much earlier: p->x, p->v and p->a, by cubics between rows.  A law that jumps then jumps between
+ * rows, too. */
 static void
 move_earlier(problem *p, double late)
 {

@@ -96,7 +96,8 @@ rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene 
             k->row[i].scene = index[k->row[i].scene];
     }
     if (st == SS_OK) {
-        const int pulled = is_pull(&kind[0], &kind[1]), both = kind[0].verdict == SS_NAMED && kind[1].verdict == SS_NAMED;
+        const int pulled = is_pull(&kind[0], &kind[1]);
+        const int both = kind[0].verdict == SS_NAMED && kind[1].verdict == SS_NAMED;
         const ss_ranking *own = &kind[pulled];
         next = r->row;
         memcpy(next, own->row, own->n * sizeof *next);

@@ -60,7 +60,8 @@ ss_unit_size(const char *unit, char *dimension, int *per_time)
     const size_t n = unit != NULL ? strcspn(unit, "/") : 0;
     for (size_t i = 0; n > 0 && i < sizeof known / sizeof *known; i++)
         for (size_t k = 0; k < sizeof over / sizeof *over; k++)
-            if (strlen(known[i].name) == n && strncmp(known[i].name, unit, n) == 0 && strcmp(unit + n, over[k].text) == 0) {
+            if (strlen(known[i].name) == n && strncmp(known[i].name, unit, n) == 0
+                && strcmp(unit + n, over[k].text) == 0) {
                 *dimension = known[i].dimension;
                 *per_time = over[k].per_time;
                 return known[i].size;
