@@ -370,16 +370,17 @@ fit_laws(ss_step_law law[SS_STEP_LAWS], double *model, const track *r, double st
     return SS_OK;
 }
 
-/* Fit a step along the first track, or the other one if that is likelier, and say which law it is. */
+/* Fit a step along the first track, or the other one if that is likelier, and say which law it is.  Tracks whose
+ * squares of differences are less than `same` are one. */
 static ss_status
-judge(ss_step *s, const track r[2], double noise, double stiffness)
+judge(ss_step *s, const track r[2], double same, double stiffness)
 {
     ss_step_law other[SS_STEP_LAWS];
     double apart = 0, likely[2], *models = s->t + 4 * r->n;
     ss_status st = fit_laws(s->law, models, r, stiffness, &likely[0]);
     for (size_t i = 0; i < r->n; i++)
         apart = fmax(apart, fabs(r[1].load[i] - r[0].load[i]));
-    if (st == SS_OK && apart * apart > NOISY * noise) {
+    if (st == SS_OK && apart * apart > same) {
         st = fit_laws(other, models + 2 * r->n, &r[1], stiffness, &likely[1]);
         if (st == SS_OK && likely[1] > likely[0]) {
             memcpy(s->law, other, sizeof other);
@@ -449,7 +450,7 @@ fit_steps(ss_steps *out, const path *p, const double *mu, double sign, double st
         ss_step *s = &out->step[out->n++];
         st = take(s, record, p, mu, i, lines, sign);
         if (st == SS_OK)
-            st = judge(s, record, p->noise, stiffness);
+            st = judge(s, record, NOISY * p->noise + p->rounding, stiffness);
     }
     return st;
 }
