@@ -15,6 +15,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/columns.h"
 #include "base/error.h"
 #include "base/fft.h"
 #include "base/progress.h"
@@ -37,7 +38,7 @@ typedef struct solver {
     ss_morlet *plan;
     block_sums *sums;               /* NULL: no scale is computed in blocks */
     wavelet **wave;                 /* of each scale that is not */
-    double *x, *gradient, *levelled, *step, *image;
+    double **room, *x, *gradient, *levelled, *step, *image;      /* room: of all but x */
     real_fft forth, back;           /* of twice the samples */
     double *gain;                   /* of the terms of the gradient, which level what the scales see of them */
     double *part, *given, *scratch; /* given: the coefficients of a part */
@@ -362,16 +363,13 @@ make_room(solver *s, ss_error *err)
     s->wave = calloc(plan->n_scales, sizeof(wavelet *));
     s->part = malloc(2 * most * sizeof *s->part);
     s->given = malloc(2 * most * sizeof *s->given);
-    s->gradient = malloc(n * sizeof *s->gradient);
-    s->levelled = malloc(n * sizeof *s->levelled);
-    s->gain = malloc((n + 1) * sizeof *s->gain);
-    s->step = malloc(n * sizeof *s->step);
-    s->image = malloc(n * sizeof *s->image);
-    if (s->wave == NULL || s->part == NULL || s->given == NULL || s->gradient == NULL || s->step == NULL
-        || s->image == NULL || s->levelled == NULL || s->gain == NULL
+    s->room = ss_columns_new(5, n + 1);
+    if (s->wave == NULL || s->part == NULL || s->given == NULL || s->room == NULL
         || ss_real_fft_new(&s->forth, 2 * n, 0) != SS_OK || ss_real_fft_new(&s->back, 2 * n, 1) != SS_OK
         || ss_morlet_scratch(plan, &s->scratch) != SS_OK)
         return SS_ENOMEM;
+    s->gradient = s->room[0], s->levelled = s->room[1], s->step = s->room[2];
+    s->image = s->room[3], s->gain = s->room[4];
     if (plan->blocks != NULL && (s->sums = ss_block_sums_new(plan->blocks)) == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < plan->n_scales; i++)
@@ -389,13 +387,9 @@ release(solver *s)
     free(s->wave);
     free(s->part);
     free(s->given);
-    free(s->gradient);
-    free(s->levelled);
-    free(s->gain);
     ss_real_fft_free(&s->forth);
     ss_real_fft_free(&s->back);
-    free(s->step);
-    free(s->image);
+    free(s->room);
     ss_fft_scratch_free(s->scratch);
     ss_block_sums_free(s->sums);
     ss_morlet_free(s->plan);
