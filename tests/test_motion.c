@@ -401,6 +401,12 @@ names_none_of_these(void **unused)
     }
     add_noise(r.f, 0.005, 7);
     assert_answer(&r, SS_NONE_FITS, "times the noise");
+    for (int i = 0; i < ROWS; i++) {        /* a spring whose offset drifts: a hysteresis without end makes the drift */
+        r.x[i] = sin(2 * M_PI * 7.3 * i / ROWS);
+        r.f[i] = 80 * r.x[i] + 50 * cos(2 * M_PI * 7.3 * i / ROWS) + 6.7 * i / ROWS;
+    }
+    add_noise(r.f, 0.2, 8);
+    assert_answer(&r, SS_NONE_FITS, "its friction is not reached");
     ss_signal_free(r.signal);
 }
 

@@ -246,6 +246,21 @@ order_rows(ss_motion_ranking *out, const driven_result *best)
         }
 }
 
+/* Does the law's force swing by less than half of what its friction, its first number, allows?  Then it is a spring or
+ * a drift, and this no friction. */
+static int
+never_slips(const driven_result *r, size_t n)
+{
+    double number[LAW_NUMBERS] = { 0 }, least = INFINITY, most = -INFINITY;
+    if (r->law->parts > 0)
+        r->law->numbers(number, r->fit[ALL].u, r->fit[ALL].c);
+    for (size_t i = 0; i < n; i++) {
+        least = fmin(least, r->own[i]);
+        most = fmax(most, r->own[i]);
+    }
+    return most - least < number[0];
+}
+
 /* Rank by a record that can show a law. */
 static ss_status
 judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven *coarse, const char *fold,
@@ -274,6 +289,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
             break;
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
             .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power, .better = noise.better,
+            .never_slips = never_slips(&r[n], rows->n),
             .noise = fmin(noise.rough, fmin(noise.unshared, noise.unexplained)) / power };
         out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - c[n].left, .repeat = noise.repeat,
             .gain = 1 - r[n].loss / r[0].loss,

@@ -87,11 +87,11 @@ errors_behind(const candidate *c, const candidate *best, double power)
     return (c->left - best->left) / fmax(fmin(error, best->left / 2), RESIDUE_QUIET / 2);
 }
 
-/* Does it leave more than noise and what a real contact does beside its law, or is a law missing? */
+/* Does it leave more than noise and what a real contact does beside its law, is a law missing, or does nothing slip? */
 static int
 is_refuted(const candidate *c)
 {
-    return c->fitted > BEYOND_NOISE * ss_verdict_noise(c) || (c->better > SIGNIFICANT && c->fitted > QUIET);
+    return c->never_slips || c->fitted > BEYOND_NOISE * ss_verdict_noise(c) || (c->better > SIGNIFICANT && c->fitted > QUIET);
 }
 
 ss_verdict
@@ -121,7 +121,9 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         int length = snprintf(answer, room, "none of these: %s%s explains %s of the force that was held out",
                               c[0].tied ? "no law explains more than the null; " : "", most->name, number);
         ss_number_rounded(times, is_noisy ? beyond : most->better, 3);
-        if (count == 0)
+        if (count == 0 && most->never_slips)
+            snprintf(answer + length, room - (size_t)length, ", but its friction is not reached");
+        else if (count == 0)
             snprintf(answer + length, room - (size_t)length, ", but %s %s %s", is_noisy ? "leaves"
                      : "a free law predicts more, by", times, is_noisy ? "times the noise" : "errors");
         return SS_NONE_FITS;

@@ -37,6 +37,7 @@ typedef struct candidate {
     const double *block;            /* the parts of this of each block, in units of the power */
     double fitted, noise;           /* left where it was fitted, and a bound of the noise by that */
     double better;                  /* errors by which a free law predicts more */
+    int never_slips;                /* 1: its force swings by less than its friction */
     int tied;                       /* set: it is as good as the best */
 } candidate;
 
