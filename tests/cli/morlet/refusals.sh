@@ -19,7 +19,7 @@ ss-morlet --wisdom nowhere/w s.tsv -o c.tsv 2>&1 || echo "exit $?"
 # what lies beyond the scales comes slowly in the inverse; the accuracy offered is taken
 ss-sim --set duration=1 --set rate=500 compliant-light | ss-morlet --fmin 20 -o q.tsv
 ss-morlet --inverse --accuracy 1e-9 q.tsv 2> said || echo "exit $?"
-sed 's/[0-9.]*e*[-0-9]* \(of the coeff\)/N \1/; s/\(accuracy of\) [^ ]*/\1 N/' said
+sed 's/[0-9.]*e*[-0-9]* \(of the coeff\)/N \1/; s/\(accuracy of\) [^ ]*/\1 N/; s/some [^ ]* passes/some N passes/' said
 takes=$(sed 's/.*accuracy of \([^ ]*\) can.*/\1/' said)
 ss-morlet --inverse --accuracy "$takes" q.tsv | grep -vc '^#'
 # nothing is left, and no header written
