@@ -16,6 +16,7 @@
 
 enum { WALKS = 12, PASSES = 4, MOST_PASSES = 20, PARTS = 4 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
+#define KNOWN 1e-14             /* variance of ln A and phase of a block, at least: rounding hides less */
 #define FAR 1.0                 /* the most by which ln s and p change in a pass */
 #define EXACT 3.0               /* times as likely as not a law is exact */
 #define SMALL .005              /* damping over its mean below which its logarithm is none */
@@ -282,12 +283,12 @@ smooth_phase(place *p, block *b, size_t n, double unit, double (*lost)[2])
 void
 ss_place_see(place *at, const block *b, int track, double y, double rate)
 {
-    const double *cov = b->cov[track];
+    const double *cov = b->cov[track], noise = fmax(b->noise, KNOWN / cov[0]);
     at->tie = cov[1] / cov[0];
     at->seen[0] = y;
     at->seen[1] = rate - at->tie * y;
-    at->variance[0] = cov[0] * b->noise;
-    at->variance[1] = fmax(cov[2] - at->tie * cov[1], 0) * b->noise;
+    at->variance[0] = cov[0] * noise;
+    at->variance[1] = fmax(cov[2] - at->tie * cov[1], 0) * noise;
 }
 
 ss_status
