@@ -304,6 +304,37 @@ each_column_has_its_own(void **state)
     ss_signal_free(signal);
 }
 
+/* Of dry friction every row has the frequency of the free rig, as displacement, velocity and acceleration show it. */
+static void
+velocity_and_acceleration_have_the_frequency(void **state)
+{
+    enum { N = 8000 };
+    static const char *const units[] = { "m", "mm/s", "m/s^2" };
+    (void)state;
+    seed = 13;
+    for (size_t rig = 1; rig < 3; rig++)
+        for (int c = 0; c < 3; c++) {
+            ss_signal *signal = new_signal(N, 400, 100, "y", units[c]);
+            double *y = signal->values, most = 0;
+            size_t turns;
+            free(decay_run(&rigs[rig], 1 / 400.L, N, c == 0 ? y : NULL, c == 1 ? y : NULL, c == 2 ? y : NULL, &turns));
+            for (int i = 0; i < N; i++)
+                most = fmax(most, fabs(y[i]));
+            for (int i = 0; i < N; i++)
+                y[i] += .001 * most * gauss();
+            ss_backbone *b = find(signal, NULL);
+            double worst = 0;
+            assert_true(b->n > 5);
+            for (size_t r = 0; r < b->n; r++)
+                worst = fmax(worst, fabs(b->row[r].frequency.value - 10) / b->row[r].frequency.error);
+            print_message("%s, %zu rows: the farthest is %.1f errors off, the last %g +- %g Hz\n", units[c], b->n, worst,
+                          b->row[b->n - 1].frequency.value, b->row[b->n - 1].frequency.error);
+            assert_true(worst < 4);
+            ss_backbone_free(b);
+            ss_signal_free(signal);
+        }
+}
+
 /* A resonator of 50,000 periods: blocks of a thousand of samples, a line beside it at 1.3 of its frequency, and each of
  * the two by --mode.  Amplitudes 1 and .3, damping ratios 1.6e-5 and 4e-5. */
 static void
@@ -380,6 +411,7 @@ main(void)
         cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
         cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),
         cmocka_unit_test(levels_give_the_damping), cmocka_unit_test(long_blocks_and_two_modes),
+        cmocka_unit_test(velocity_and_acceleration_have_the_frequency),
         cmocka_unit_test(extreme_amplitudes), cmocka_unit_test(each_column_has_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <stickslip/rank.h>
 #include "base/error.h"
 #include "base/fft.h"
 #include "base/list.h"
@@ -51,6 +52,7 @@ typedef struct decay {
     block *block;
     size_t n_blocks, room;
     const char *start, *stop;
+    int derivative;             /* of x that the column is; -1: unknown */
 } decay;
 
 /* --- where it is ----------------------------------------------------------------------------- */
@@ -367,7 +369,7 @@ settle(decay *d)
     for (int pass = 0; st == SS_OK && pass < REFITS; pass++) {
         if (pass > 0)
             refit(d);
-        st = ss_blocks_smooth(d->block, d->n_blocks, 1);
+        st = ss_blocks_smooth(d->block, d->n_blocks, 1, d->derivative);
     }
     return st;
 }
@@ -535,7 +537,7 @@ find_levels(decay *d, const double *x, size_t n, double rate)
         d->block[d->n_blocks++] = fit_level(d->x, most + (tail - most) * i / LEVELS,
                                             most + (tail - most) * (i + 1) / LEVELS, w);
     share_noise(d);
-    return ss_blocks_smooth(d->block, d->n_blocks, 0);
+    return ss_blocks_smooth(d->block, d->n_blocks, 0, 0);
 }
 
 /* --- the whole ------------------------------------------------------------------------------- */
@@ -680,6 +682,20 @@ find_scaled(decay *d, const double *x, size_t n, decay_source *source)
     return st;
 }
 
+/* Which derivative of a displacement or an angle a column is, by its unit, or by its name; -1: it is not known. */
+static int
+derivative_of(const ss_column *c)
+{
+    char dimension;
+    int per_time;
+    if (ss_unit_size(c->unit, &dimension, &per_time) > 0 && dimension != 'N')
+        return per_time;
+    for (int i = 0; i < 3; i++)
+        if (strcmp(c->name, ss_quantity_names[i]) == 0)
+            return i;
+    return -1;
+}
+
 ss_status
 ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, const ss_backbone_opts *opts,
                  ss_error *err)
@@ -698,7 +714,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
         return ss_fail(err, SS_EINVAL, "an option is out of its range");
     const ss_column *of = &signal->head->column[column];
     decay_source source = { signal->head->rate, !(own.level_frequency > 0), of->unit, ss_motion_order(of->unit),
-                            own.mass, 1, NULL };
+                            derivative_of(of), own.mass, 1, NULL };
     if (own.mass > 0 && source.order < 0)
         return ss_fail(err, SS_EINVAL, "a mass needs a column in m, m/s or m/s^2, and %s is in '%s'", of->name,
                        of->unit);
@@ -706,7 +722,8 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EDATA, "column %s has a value that is not finite", of->name);
-    decay d = { .opts = &own, .unit = 1, .start = "the largest amplitude", .stop = "end of the record" };
+    decay d = { .opts = &own, .unit = 1, .start = "the largest amplitude", .stop = "end of the record",
+                .derivative = source.derivative };
     ss_backbone *b = calloc(1, sizeof *b);
     if (b == NULL)
         st = SS_ENOMEM;

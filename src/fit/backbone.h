@@ -68,7 +68,7 @@ double ss_blocks_track(place *at, size_t n, size_t states, const double x[], dou
 
 /* Draw smooth s and w, with errors, through n blocks whose noise is known: at, error and level; at.s and at.w
  * must be near.  has_phase 0: there is no w. */
-ss_status ss_blocks_smooth(block *b, size_t n, int has_phase);
+ss_status ss_blocks_smooth(block *b, size_t n, int has_phase, int derivative);
 
 /* Where the blocks come from. */
 typedef struct decay_source {
@@ -76,6 +76,7 @@ typedef struct decay_source {
     int has_phase;
     const char *column;         /* its unit */
     int order;                  /* of the derivative of x in SI units that it is; -1: it is none */
+    int derivative;             /* the same in any unit, or by its name */
     double mass;                /* [kg]; 0: unknown */
     double unit;                /* of amplitudes in the column's unit */
     const char *beats;          /* not NULL: no mechanism, as the amplitude grows again */

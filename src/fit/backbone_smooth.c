@@ -205,9 +205,9 @@ ss_place_walk(place *at, double v)
     memcpy(at->walk, w, sizeof w);
 }
 
-/* One pass through ln A: the curve is moved to what is smooth about it.  Returns 1 if some of it should move farther. */
+/* One pass through ln A: the curve is moved to what is smooth about it.  Returns 1 if some should move farther. */
 static int
-smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], double (*lost)[2])
+smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], double (*lost)[2], int derivative)
 {
     double start[STATES][STATES] = { { 100 }, { 0, 100 }, { 0, 0, 4 } };
     place end;
@@ -250,7 +250,8 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
         b[i].at.ds = gain * gain * to[2];
         b[i].at.dds = 2 * b[i].at.s * pow(gain * to[2], 2);
         double half = fmax(b[i].at.ds, 0) + 2 * b[i].at.s * b[i].error[LEVEL];  /* friction acts by half periods */
-        b[i].lag = b[i].at.s * b[i].at.s + b[i].at.ds;
+        half += derivative < 0 ? 2 * fabs(b[i].at.ds) : 0;
+        b[i].lag = b[i].at.s * b[i].at.s + (1 - 2 * fmax(derivative, 0)) * b[i].at.ds;
         b[i].lag_error = hypot(gain * gain * sqrt(p[i].square[2]), half);
     }
     return is_far;
@@ -292,7 +293,7 @@ ss_place_see(place *at, const block *b, int track, double y, double rate)
 }
 
 ss_status
-ss_blocks_smooth(block *b, size_t n, int has_phase)
+ss_blocks_smooth(block *b, size_t n, int has_phase, int derivative)
 {
     place *p = calloc(n, sizeof *p);
     double (*level)[3] = calloc(n, sizeof *level), (*lost)[2] = calloc(n, sizeof *lost);
@@ -306,7 +307,7 @@ ss_blocks_smooth(block *b, size_t n, int has_phase)
         level[i][1] = asinh(b[i].at.s / (SMALL * unit));
     }
     for (int pass = 0, is_far = 0; has_room && (pass < PASSES || (is_far && pass < MOST_PASSES)); pass++)
-        is_far = smooth_level(p, b, n, SMALL * unit, level, lost);
+        is_far = smooth_level(p, b, n, SMALL * unit, level, lost, derivative);
     if (has_room && has_phase)
         smooth_phase(p, b, n, unit, lost);
     free(p);

@@ -64,6 +64,7 @@ typedef struct trial {
     size_t n, tracks;
     double w;                   /* about which w is counted, in units of the mean damping */
     struct told *told;          /* n to work with */
+    int derivative;             /* of x that is seen, as in decay_source */
 } trial;
 
 /* s = u[S] + u[C] g(A), with a factor near 1 for Jenkins, whose spring of stiffness u[C] of->w re the mass makes
@@ -99,10 +100,11 @@ losses(const trial *of, const double u[UNKNOWNS], double a)
     return u[S] + u[C] * of_jenkins * shape_of(of->kind, u[SHAPE], a);
 }
 
-/* The rates of ln A and of the phase, less of->w, at ln A; and what damping takes from the square of w: s^2 + s',
- * less what harmonics give, which of Coulomb's friction take s' again, and of drag s' + .183 s^2 (all of them). */
+/* The rates of ln A and of the phase, less of->w, at ln A; and what damping takes from the square of w, and how
+ * far that is unknown: s^2 + s', less what harmonics give, which of Coulomb's friction take s' again, and of drag
+ * s' + .183 s^2 (all of them).  Each derivative turns the phase by atan(s/w), which gives 2 s' back. */
 static void
-rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS], double *lag)
+rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS], double lag[2])
 {
     const double h = .01;
     double a = exp(fmax(fmin(ln_a, 20), -40)), s[3], w[3];
@@ -112,15 +114,17 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
         s[i] = losses(of, u, at);
     }
     double fall = s[1] / (1 + (w[2] - w[0]) / (4 * h) / w[1]), s_dot = -fall * (s[2] - s[0]) / (2 * h);
-    *lag = of->kind == SS_JENKINS || of->kind == SS_MICROSLIP ? s[1] * s[1] + s_dot
+    lag[0] = of->kind == SS_JENKINS || of->kind == SS_MICROSLIP ? s[1] * s[1] + s_dot
         : of->kind == SS_QUADRATIC ? .183 * s[1] * s[1] : u[S] * u[S] + 3 * (s[1] - u[S]) * s[1];
+    lag[0] -= of->derivative > 0 ? 2 * of->derivative * s_dot : 0;
+    lag[1] = of->derivative < 0 ? 2 * s_dot : 0;
     rate[LEVEL] = -fmin(fall, 1e4);
-    rate[PHASE] = sqrt(fmax(w[1] * w[1] - *lag, 0)) - of->w;
+    rate[PHASE] = sqrt(fmax(w[1] * w[1] - lag[0], 0)) - of->w;
 }
 
 /* What a mechanism says of a block: ln A and phase, and their rates. */
 typedef struct told {
-    double y[TRACKS], rate[TRACKS], lag;
+    double y[TRACKS], rate[TRACKS], lag[2];
     double slip[TRACKS];        /* error of the rates */
 } told;
 
@@ -135,7 +139,7 @@ tell_two(told *out, const trial *of, const double u[UNKNOWNS])
         double complex sum = a + b, rate = (first * a + second * b) / sum;
         double turn = u[TURN] + carg(sum);
         out[i] = (told){ { u[LN_A] + log(cabs(sum)), turn + 2 * M_PI * round((p->y[PHASE] - turn) / (2 * M_PI)) },
-                         { creal(rate), cimag(rate) }, 0, { 0 } };
+                         { creal(rate), cimag(rate) }, { 0 }, { 0 } };
     }
 }
 
@@ -154,12 +158,12 @@ tell(told *out, const trial *of, const double u[UNKNOWNS])
         for (int part = 0; part < parts; part++) {
             double h = dt / parts;
             for (int j = 0; j < 4; j++)
-                rates(of, u, y[LEVEL] + (j == 0 ? 0 : (j < 3 ? h / 2 : h) * k[j - 1][LEVEL]), k[j], &out[i].lag);
+                rates(of, u, y[LEVEL] + (j == 0 ? 0 : (j < 3 ? h / 2 : h) * k[j - 1][LEVEL]), k[j], out[i].lag);
             for (size_t c = 0; c < TRACKS; c++)
                 y[c] += h / 6 * (k[0][c] + 2 * k[1][c] + 2 * k[2][c] + k[3][c]);
         }
         memcpy(out[i].y, y, sizeof y);
-        rates(of, u, y[LEVEL], out[i].rate, &out[i].lag);
+        rates(of, u, y[LEVEL], out[i].rate, out[i].lag);
     }
 }
 
@@ -418,7 +422,8 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
             double t = i + 1 < n ? of->p[i + 1].t - of->p[i].t : 0;
             double lost = i + 1 < n ? fmax(at[i].y[LEVEL] - at[i + 1].y[LEVEL], 1e-9) : 0;
             double past = c == LEVEL ? -lost : t;
-            *to = (place){ .see = { { 1 }, { 0, rate }, { 0, 0, s * s } },
+            *to = (place){ .see = { { 1 }, { 0, rate },
+                                    { 0, 0, (1 - 2 * fmax(of->derivative, 0)) * s * s } },
                            .turn = { { 1, past, past * lost / 2 }, { 0, 1, lost }, { 0, 0, 1 } } };
             to->tie = of->p[i].tie[c];
             to->seen[0] = of->p[i].y[c] - at[i].y[c];
@@ -466,9 +471,10 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
     for (size_t i = 0; i < n; i++) {
         const place *level = &p[i], *phase = of->tracks > 1 ? &p[n + i] : level;
         double mean[3] = { at[i].rate[LEVEL] + level->mean[1], at[i].rate[PHASE] + phase->mean[1],
-                           at[i].lag + level->mean[2] };
+                           at[i].lag[0] + level->mean[2] };
         double variance[3] = { level->square[1] + pow(at[i].slip[LEVEL], 2),
-                               phase->square[1] + pow(at[i].slip[PHASE], 2), level->square[2] };
+                               phase->square[1] + pow(at[i].slip[PHASE], 2),
+                               level->square[2] + pow(at[i].lag[1], 2) };
         sum[i].level += weight * (at[i].y[LEVEL] + level->mean[0]);
         for (int k = 0; k < 3; k++) {
             sum[i].mean[k] += weight * mean[k];
@@ -491,7 +497,8 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     if (st == SS_OK)
         make_points(p, b, n, unit, ln_a, w);
     for (int k = 0; st == SS_OK && k < SS_MECHANISMS; k++) {
-        trial of = { (ss_mechanism)k, p, n, source->has_phase ? 2 : 1, w / unit, what };
+        trial of = { (ss_mechanism)k, p, n, source->has_phase ? 2 : 1, w / unit, what,
+                     source->derivative };
         st = fit(&f[k], &of, b, unit, ln_a);
     }
     if (st != SS_OK) {
@@ -506,7 +513,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     best = best->p < REJECT ? f : best;
     int is_other = best->p < REJECT || source->beats != NULL;
     if (!is_other && source->has_phase) {
-        trial of = { TWO_MODES, p, n, TRACKS, w / unit, what };
+        trial of = { TWO_MODES, p, n, TRACKS, w / unit, what, source->derivative };
         fitted two;
         st = fit(&two, &of, b, unit, ln_a);
         is_other = st == SS_OK && two.bic + NEARLY < best->bic;
@@ -526,7 +533,8 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         if (is_more)
             is_near &= gsl_cdf_chisq_Q(best->squares - x->squares, best->free - x->free) < CHANCE;
         if (x == best || is_near) {
-            trial of = { x->kind, p, n, source->has_phase ? 2 : 1, w / unit, what };
+            trial of = { x->kind, p, n, source->has_phase ? 2 : 1, w / unit, what,
+                     source->derivative };
             double weight = exp((best->bic - x->bic) / 2);
             out->mechanism[out->n_mechanisms++] = x->kind;
             whole += weight;
@@ -554,10 +562,10 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     if (st != SS_OK)
         return st;
     for (size_t i = 0; i < n; i++) {
-        trial of = { best->kind, NULL, 0, 0, w / unit, NULL };
-        double rate[TRACKS], ignore, at = frequency(&of, best->u, exp(b[i].level - ln_a));
+        trial of = { best->kind, NULL, 0, 0, w / unit, NULL, source->derivative };
+        double rate[TRACKS], ignore[2], at = frequency(&of, best->u, exp(b[i].level - ln_a));
         int is_named = out->n_mechanisms == 1 && source->has_phase;
-        rates(&of, best->u, b[i].level - ln_a, rate, &ignore);
+        rates(&of, best->u, b[i].level - ln_a, rate, ignore);
         out->row[i].named[0] = is_named ? at * unit * source->rate / (2 * M_PI) : NAN;
         out->row[i].named[1] = out->n_mechanisms == 1 ? -rate[LEVEL] / hypot(rate[LEVEL], at) : NAN;
     }
