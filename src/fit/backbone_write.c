@@ -58,6 +58,8 @@ ss_backbone_write(const ss_backbone *b, const ss_signal *signal, size_t column, 
     if (st != SS_OK)
         return st;
     const char *unit = signal->head->column[column].unit;
+    if (strcmp(unit, "dB") == 0)
+        unit = "";              /* amplitudes are those of the levels */
     const ss_backbone_row none = { NAN, NAN, { NAN, NAN }, { NAN, NAN }, NAN, { NAN, NAN } };
     ss_rows_notes(&rows, signal->head, own);
     if (b->why != NULL)

@@ -115,6 +115,10 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
             ss_verdict_append(names, sizeof names, c[i].name);
         }
     ss_number_fixed(number, 1 - most->left, 4);
+    if (!(most->left < 1)) {
+        snprintf(answer, room, "none of these: no law explains any of the force that was held out");
+        return SS_NONE_FITS;
+    }
     if (c[0].tied || 1 - most->left < EXPLAINED || count == 0) {
         const double beyond = most->fitted / ss_verdict_noise(most);
         const int is_noisy = beyond > BEYOND_NOISE;

@@ -25,6 +25,7 @@ ss-signal noise --duration 2 | ss-backbone | tail -n 2
 ss-backbone --from 3 ring.tsv | grep -v '^#' | awk '$6 < 3 { print "before:", $0 }'
 # levels
 awk 'BEGIN { print "t,level"; for (i = 0; i < 2000; i++) print i / 1000 "," 90 - 17.3717793 * i / 1000 + 0.2 * sin(i * i) }' > level.csv
+sed '1s/level/level (dB)/' level.csv | ss-backbone --envelope db --frequency 100 --column level | sed -n 's/^# columns: \([^ ]*\).*/\1/p'
 ss-backbone --envelope db --frequency 100 level.csv | grep -v '^#' |
     awk '$3 != "-" || ($4 - 2 / 628.32) ^ 2 > 16 * $5 ^ 2 { print "off:", $0 }'
 for wrong in '--periods=1' '--mode=0' '--fit' '--envelope=db' '--frequency=3' '--envelope=x'; do
