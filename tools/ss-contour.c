@@ -262,8 +262,8 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         TOOL_NUMBER(0, "fmax", &d->opts.fmax, ss_morlet_ranges.frequency),
         TOOL_TEXT(0, "signal", &d->signal_path), TOOL_TEXT('c', "column", &d->column),
         TOOL_TEXT(0, "events", &d->events), TOOL_TEXT(0, "features", &d->features),
-        TOOL_TEXT(0, "follow", &d->follow), TOOL_TEXT(0, "title", &plot->title), TOOL_STYLE(&plot->style), TOOL_OUTPUT(&d->output),
-        TOOL_FORMAT_OF_WORDS(&d->kind) };
+        TOOL_TEXT(0, "follow", &d->follow), TOOL_TEXT(0, "title", &plot->title), TOOL_STYLE(&plot->style),
+        TOOL_OUTPUT(&d->output), TOOL_FORMAT_OF_WORDS(&d->kind) };
     int first = TOOL_PARSE(argc, argv, options, &d->reading);
     if (d->follow != NULL && first == argc)
         tool_usage("--follow=FILE needs SECONDS, the length of what it shows");

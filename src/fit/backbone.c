@@ -44,7 +44,6 @@ typedef struct decay {
     const ss_backbone_opts *opts;
     double *x;                  /* what is looked at; NaN: missing */
     size_t n, group;            /* samples, each of so many of the record's */
-    double unit;                /* of x: a power of 2, near the largest sample */
     double w;                   /* per sample: where to look */
     double *size;               /* of it, in the period from each sample on */
     size_t first, end;          /* samples of the decay, nearly */
@@ -52,7 +51,7 @@ typedef struct decay {
     block *block;
     size_t n_blocks, room;
     const char *start, *stop;
-    int derivative;             /* of x that the column is; -1: unknown */
+    decay_source *source;
 } decay;
 
 /* --- where it is ----------------------------------------------------------------------------- */
@@ -369,7 +368,7 @@ settle(decay *d)
     for (int pass = 0; st == SS_OK && pass < REFITS; pass++) {
         if (pass > 0)
             refit(d);
-        st = ss_blocks_smooth(d->block, d->n_blocks, 1, d->derivative);
+        st = ss_blocks_smooth(d->block, d->n_blocks, 1, d->source->derivative);
     }
     return st;
 }
@@ -505,10 +504,10 @@ fit_level(const double *x, size_t first, size_t end, double w)
 
 /* Cut levels, from the highest down to what they end in, into blocks. */
 static ss_status
-find_levels(decay *d, const double *x, size_t n, double rate)
+find_levels(decay *d, const double *x, size_t n)
 {
     size_t most = 0, tail = n - n / 10;
-    double w = 2 * M_PI * d->opts->level_frequency / rate;
+    double w = 2 * M_PI * d->opts->level_frequency / d->source->rate;
     d->group = 1;
     d->w = w;
     d->block = calloc(LEVELS, sizeof *d->block);
@@ -550,15 +549,16 @@ ss_backbone_opts_init(ss_backbone_opts *opts, size_t size)
 }
 
 static void
-make_rows(ss_backbone *out, const decay *d, const decay_source *source)
+make_rows(ss_backbone *out, const decay *d)
 {
+    const decay_source *source = d->source;
     double unit = source->rate;
     for (; out->n < d->n_blocks; out->n++) {
         const block *b = &d->block[out->n];
         double whole = hypot(b->at.s, b->at.w), w0 = sqrt(b->at.w * b->at.w + b->lag);
         double es = b->error[LEVEL], ew = b->error[PHASE], ew0 = hypot(b->at.w * ew, b->lag_error / 2) / w0;
         out->row[out->n] = (ss_backbone_row){
-            .t = (b->t + .5 - .5 / (double)d->group) / unit, .amplitude = exp(b->level) * d->unit,
+            .t = (b->t + .5 - .5 / (double)d->group) / unit, .amplitude = exp(b->level) * source->unit,
             .frequency = { w0 * unit / (2 * M_PI), ew0 * unit / (2 * M_PI) },
             .damping_ratio = { b->at.s / whole, b->at.w * hypot(b->at.w * es, b->at.s * ew) / pow(whole, 3) },
             .periods = (double)(b->end - b->first) * b->at.w / (2 * M_PI),
@@ -638,10 +638,10 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
 
 /* Find the decay of the line that is asked for, or else of the strongest; of another if this is none. */
 static ss_status
-find(decay *d, const double *x, size_t n, decay_source *source)
+find(decay *d, const double *x, size_t n)
 {
     const decay none = *d;
-    const double near = 2 * M_PI * d->opts->mode / source->rate;
+    const double near = 2 * M_PI * d->opts->mode / d->source->rate;
     double line[TRIED + 1] = { 0 };
     ss_status st = find_line(line, x, n, 0, NULL, 0);
     if (st == SS_OK && near > 0)
@@ -661,23 +661,23 @@ find(decay *d, const double *x, size_t n, decay_source *source)
         }
         forget(&other);
     }
-    source->rate /= (double)d->group;
+    d->source->rate /= (double)d->group;
     if (st == SS_OK && d->n_blocks >= FEW && grows_again(d))
-        d->stop = source->beats = "the amplitude grows";
+        d->stop = d->source->beats = "the amplitude grows";
     return st;
 }
 
 /* The same of samples in a unit whose squares neither overflow nor vanish. */
 static ss_status
-find_scaled(decay *d, const double *x, size_t n, decay_source *source)
+find_scaled(decay *d, const double *x, size_t n)
 {
-    double most = 0, *scaled = malloc((n + 1) * sizeof *scaled);
+    double most = 0, *unit = &d->source->unit, *scaled = malloc((n + 1) * sizeof *scaled);
     for (size_t i = 0; i < n; i++)
         most = fmax(most, fabs(x[i]));
-    d->unit = source->unit = most > 0 ? ldexp(1, ilogb(most)) : 1;
+    *unit = most > 0 ? ldexp(1, ilogb(most)) : 1;
     for (size_t i = 0; scaled != NULL && i < n; i++)
-        scaled[i] = x[i] / d->unit;
-    ss_status st = scaled != NULL ? find(d, scaled, n, source) : SS_ENOMEM;
+        scaled[i] = x[i] / *unit;
+    ss_status st = scaled != NULL ? find(d, scaled, n) : SS_ENOMEM;
     free(scaled);
     return st;
 }
@@ -722,27 +722,25 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EDATA, "column %s has a value that is not finite", of->name);
-    decay d = { .opts = &own, .unit = 1, .start = "the largest amplitude", .stop = "end of the record",
-                .derivative = source.derivative };
+    decay d = { .opts = &own, .start = "the largest amplitude", .stop = "end of the record", .source = &source };
     ss_backbone *b = calloc(1, sizeof *b);
     if (b == NULL)
         st = SS_ENOMEM;
     else
-        st = source.has_phase ? find_scaled(&d, x, signal->n, &source)
-            : find_levels(&d, x, signal->n, source.rate);
+        st = source.has_phase ? find_scaled(&d, x, signal->n) : find_levels(&d, x, signal->n);
     if (st == SS_OK) {
         b->why = no_decay(&d);
         b->start = d.start;
         b->stop = d.stop;
         b->chi2_dof = NAN;
-        b->noise = d.n_blocks > 0 ? sqrt(d.block[d.n_blocks - 1].noise * (double)d.group) * d.unit : NAN;
+        b->noise = d.n_blocks > 0 ? sqrt(d.block[d.n_blocks - 1].noise * (double)d.group) * source.unit : NAN;
     }
     if (st == SS_OK && b->why == NULL)
         st = (b->row = calloc(d.n_blocks, sizeof *b->row)) != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK && b->why == NULL)
         st = ss_mechanism_find(b, d.block, d.n_blocks, &source);
     if (st == SS_OK && b->why == NULL)
-        make_rows(b, &d, &source);
+        make_rows(b, &d);
     forget(&d);
     if (st == SS_OK)
         *out = b;

@@ -2,6 +2,7 @@
 #ifndef BACKBONE_H
 #define BACKBONE_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stickslip/backbone.h>
 
@@ -57,8 +58,8 @@ typedef struct place {          /* of a block */
     double mean[3], square[3];  /* of y, its rate and its bend: mean and variance */
 } place;
 
-/* What a block tells of y and of its rate, each less what the states do not hold. */
-void ss_place_see(place *at, const block *b, int track, double y, double rate);
+/* What a block tells of y and of its rate [unit/sample], each less what the states do not hold. */
+void ss_place_see(place *at, const block *b, int track, double y, double rate, double unit);
 /* The walk over v e-folds, by turn. */
 void ss_place_walk(place *at, double v);
 /* Set mean and square of all places, from a mean and a variance at the first one; end takes x and p of the last.
@@ -70,15 +71,29 @@ double ss_blocks_track(place *at, size_t n, size_t states, const double x[], dou
  * must be near.  has_phase 0: there is no w. */
 ss_status ss_blocks_smooth(block *b, size_t n, int has_phase, int derivative);
 
+/* What a derivative of x gives back of what damping takes from w^2, as it turns the phase by atan(s/w). */
+static inline double
+given_back(int derivative, double ds)
+{
+    return derivative > 0 ? 2 * derivative * ds : 0;
+}
+
+/* How far what damping takes is unknown where the derivative is. */
+static inline double
+not_known(int derivative, double ds)
+{
+    return derivative < 0 ? 2 * fabs(ds) : 0;
+}
+
 /* Where the blocks come from. */
 typedef struct decay_source {
     double rate;                /* samples a second */
     int has_phase;
     const char *column;         /* its unit */
     int order;                  /* of the derivative of x in SI units that it is; -1: it is none */
-    int derivative;             /* the same in any unit, or by its name */
+    int derivative;             /* the same in any unit, or by its name; -1: it is not known */
     double mass;                /* [kg]; 0: unknown */
-    double unit;                /* of amplitudes in the column's unit */
+    double unit;                /* of amplitudes in the column's unit: a power of 2, near the largest */
     const char *beats;          /* not NULL: no mechanism, as the amplitude grows again */
 } decay_source;
 

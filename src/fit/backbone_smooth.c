@@ -216,7 +216,7 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
         double gain = hypot(b[i].at.s, small), x[3], moved[2][3], ignore[2];
         p[i] = (place){ .see = { { 1 }, { 0, -gain }, { 0, 0, 1 } } };
         ss_place_see(&p[i], &b[i], LEVEL, b[i].y[LEVEL],
-                     b[i].rate[LEVEL] + b[i].at.s - gain * asinh(b[i].at.s / small));
+                     b[i].rate[LEVEL] + b[i].at.s - gain * asinh(b[i].at.s / small), 1);
         if (i + 1 == n)
             break;
         double t = b[i + 1].t - b[i].t;
@@ -250,9 +250,8 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
         b[i].at.ds = gain * gain * to[2];
         b[i].at.dds = 2 * b[i].at.s * pow(gain * to[2], 2);
         double half = fmax(b[i].at.ds, 0) + 2 * b[i].at.s * b[i].error[LEVEL];  /* friction acts by half periods */
-        half += derivative < 0 ? 2 * fabs(b[i].at.ds) : 0;
-        b[i].lag = b[i].at.s * b[i].at.s + (1 - 2 * fmax(derivative, 0)) * b[i].at.ds;
-        b[i].lag_error = hypot(gain * gain * sqrt(p[i].square[2]), half);
+        b[i].lag = b[i].at.s * b[i].at.s + b[i].at.ds - given_back(derivative, b[i].at.ds);
+        b[i].lag_error = hypot(gain * gain * sqrt(p[i].square[2]), half + not_known(derivative, b[i].at.ds));
     }
     return is_far;
 }
@@ -268,7 +267,7 @@ smooth_phase(place *p, block *b, size_t n, double unit, double (*lost)[2])
         last = turns - 2 * M_PI * round((turns - ahead) / (2 * M_PI));
         p[i] = (place){ .see = { { 1 }, { 0, unit }, { 0, 0, 1 } },
                         .turn = { { 1, unit * t, unit * lost[i][1] }, { 0, 1, lost[i][0] }, { 0, 0, 1 } } };
-        ss_place_see(&p[i], &b[i], PHASE, last, b[i].rate[PHASE] - w);
+        ss_place_see(&p[i], &b[i], PHASE, last, b[i].rate[PHASE] - w, 1);
         ss_place_walk(&p[i], lost[i][0]);
     }
     ss_blocks_track(p, n, 3, (double[STATES]){ p->seen[0] }, start, &end);
@@ -282,14 +281,15 @@ smooth_phase(place *p, block *b, size_t n, double unit, double (*lost)[2])
 }
 
 void
-ss_place_see(place *at, const block *b, int track, double y, double rate)
+ss_place_see(place *at, const block *b, int track, double y, double rate, double unit)
 {
     const double *cov = b->cov[track], noise = fmax(b->noise, KNOWN / cov[0]);
-    at->tie = cov[1] / cov[0];
+    const double tie = cov[1] / cov[0];
+    at->tie = tie / unit;
     at->seen[0] = y;
     at->seen[1] = rate - at->tie * y;
     at->variance[0] = cov[0] * noise;
-    at->variance[1] = fmax(cov[2] - at->tie * cov[1], 0) * noise;
+    at->variance[1] = fmax(cov[2] - tie * cov[1], 0) * noise / unit / unit;
 }
 
 ss_status

@@ -64,11 +64,12 @@ ss_column_check_unit(const ss_signal *signal, size_t column, ss_quantity quantit
     char dimension;
     int per_time;
     const int is_force = quantity >= SS_FORCE;
-    if (c->unit[0] == '\0' || (ss_unit_size(c->unit, &dimension, &per_time) == 1 && dimension == (is_force ? 'N' : 'm')
+    if (c->unit[0] == '\0' || (ss_unit_size(c->unit, &dimension, &per_time) == 1
+                               && dimension == (is_force ? 'N' : 'm')
                                && per_time == (is_force ? 0 : (int)quantity)))
         return SS_OK;
-    return ss_fail(err, SS_EDATA, "column %s is in %s, but a scene is in %s: scale it, and name its unit so", c->name,
-                   c->unit, si_unit[quantity]);
+    return ss_fail(err, SS_EDATA, "column %s is in %s, but a scene is in %s: scale it, and name its unit so",
+                   c->name, c->unit, si_unit[quantity]);
 }
 
 double

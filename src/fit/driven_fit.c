@@ -71,8 +71,8 @@ is_fitted(const problem *p, size_t i)
 
 /* --- the columns --------------------------------------------------------------------------- */
 
-/* The motion so much earlier: p->x, p->v and p->a, by cubics between rows.  A law that jumps then jumps between
- * rows, too. */
+/* The motion so much earlier, by cubics between rows, which is what stands beside the law.  A law that jumps then
+ * jumps between rows, too. */
 static void
 move_earlier(problem *p, double late)
 {
@@ -86,6 +86,11 @@ move_earlier(problem *p, double late)
         p->x[i] = of[0] * d->x[k] + of[1] * d->x[k + 1] + of[2] * d->v[k] + of[3] * d->v[k + 1];
         p->v[i] = of[0] * d->v[k] + of[1] * d->v[k + 1] + of[2] * d->a[k] + of[3] * d->a[k + 1];
         p->a[i] = r * d->a[k] + s * d->a[k + 1];
+        if (p->column[SINE] != NULL) {
+            double angle = (d->middle + p->x[i] * d->length) * d->angle;
+            p->column[SINE][i] = sin(angle);
+            p->column[COSINE][i] = cos(angle);
+        }
     }
     p->late = late;
 }
@@ -110,11 +115,6 @@ fill_columns(problem *p, const double u[UNKNOWNS])
         p->column[PART][i] = p->law->parts > 1 ? part[0] : part[0] + part[1];
         for (size_t k = 1; k < p->law->parts; k++)
             p->column[PART + k][i] = part[k];
-    }
-    for (size_t i = 0; i < d->n && p->column[SINE] != NULL; i++) {
-        double angle = (d->middle + p->x[i] * d->length) * d->angle;
-        p->column[SINE][i] = sin(angle);
-        p->column[COSINE][i] = cos(angle);
     }
 }
 

@@ -246,8 +246,8 @@ order_rows(ss_motion_ranking *out, const driven_result *best)
         }
 }
 
-/* Does the law's force swing by less than half of what its friction, its first number, allows?  Then it is a spring or
- * a drift, and this no friction. */
+/* Does the law's force swing by less than half of what its friction, its first number, allows?  Then it is a spring
+ * or a drift, and this no friction. */
 static int
 never_slips(const driven_result *r, size_t n)
 {

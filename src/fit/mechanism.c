@@ -102,7 +102,7 @@ losses(const trial *of, const double u[UNKNOWNS], double a)
 
 /* The rates of ln A and of the phase, less of->w, at ln A; and what damping takes from the square of w, and how
  * far that is unknown: s^2 + s', less what harmonics give, which of Coulomb's friction take s' again, and of drag
- * s' + .183 s^2 (all of them).  Each derivative turns the phase by atan(s/w), which gives 2 s' back. */
+ * s' + .183 s^2 (all of them). */
 static void
 rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS], double lag[2])
 {
@@ -116,8 +116,8 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
     double fall = s[1] / (1 + (w[2] - w[0]) / (4 * h) / w[1]), s_dot = -fall * (s[2] - s[0]) / (2 * h);
     lag[0] = of->kind == SS_JENKINS || of->kind == SS_MICROSLIP ? s[1] * s[1] + s_dot
         : of->kind == SS_QUADRATIC ? .183 * s[1] * s[1] : u[S] * u[S] + 3 * (s[1] - u[S]) * s[1];
-    lag[0] -= of->derivative > 0 ? 2 * of->derivative * s_dot : 0;
-    lag[1] = of->derivative < 0 ? 2 * s_dot : 0;
+    lag[0] -= given_back(of->derivative, s_dot);
+    lag[1] = not_known(of->derivative, s_dot);
     rate[LEVEL] = -fmin(fall, 1e4);
     rate[PHASE] = sqrt(fmax(w[1] * w[1] - lag[0], 0)) - of->w;
 }
@@ -417,19 +417,13 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
     for (size_t c = 0; c < of->tracks; c++)
         for (size_t i = 0; i < n; i++) {
             place *to = &p[c * n + i];
-            const double *cov = b[i].cov[c];
             double s = fmax(-at[i].rate[LEVEL], 1e-9), rate = c == LEVEL ? -s : 1;
             double t = i + 1 < n ? of->p[i + 1].t - of->p[i].t : 0;
             double lost = i + 1 < n ? fmax(at[i].y[LEVEL] - at[i + 1].y[LEVEL], 1e-9) : 0;
             double past = c == LEVEL ? -lost : t;
-            *to = (place){ .see = { { 1 }, { 0, rate },
-                                    { 0, 0, (1 - 2 * fmax(of->derivative, 0)) * s * s } },
+            *to = (place){ .see = { { 1 }, { 0, rate }, { 0, 0, s * s - given_back(of->derivative, s * s) } },
                            .turn = { { 1, past, past * lost / 2 }, { 0, 1, lost }, { 0, 0, 1 } } };
-            to->tie = of->p[i].tie[c];
-            to->seen[0] = of->p[i].y[c] - at[i].y[c];
-            to->seen[1] = of->p[i].rate[c] - at[i].rate[c] - to->tie * to->seen[0];
-            to->variance[0] = cov[0] * b[i].noise;
-            to->variance[1] = (cov[2] - cov[1] * cov[1] / cov[0]) * b[i].noise / unit / unit;
+            ss_place_see(to, &b[i], (int)c, of->p[i].y[c] - at[i].y[c], of->p[i].rate[c] - at[i].rate[c], unit);
             ss_place_walk(to, lost);
             size_t from = i > 0 ? i - 1 : 0, next = i + 1 < n ? i + 1 : i;
             double change = fabs(at[next].rate[c] - at[from].rate[c]) / (of->p[next].t - of->p[from].t);
@@ -493,12 +487,13 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     point *p = calloc(n, sizeof *p);
     told *what = calloc(n, sizeof *what);
     fitted f[SS_MECHANISMS];
+    trial of = { .p = p, .n = n, .tracks = source->has_phase ? TRACKS : 1, .w = w / unit, .told = what,
+                 .derivative = source->derivative };
     ss_status st = p != NULL && what != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
         make_points(p, b, n, unit, ln_a, w);
     for (int k = 0; st == SS_OK && k < SS_MECHANISMS; k++) {
-        trial of = { (ss_mechanism)k, p, n, source->has_phase ? 2 : 1, w / unit, what,
-                     source->derivative };
+        of.kind = (ss_mechanism)k;
         st = fit(&f[k], &of, b, unit, ln_a);
     }
     if (st != SS_OK) {
@@ -513,8 +508,8 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     best = best->p < REJECT ? f : best;
     int is_other = best->p < REJECT || source->beats != NULL;
     if (!is_other && source->has_phase) {
-        trial of = { TWO_MODES, p, n, TRACKS, w / unit, what, source->derivative };
         fitted two;
+        of.kind = TWO_MODES;
         st = fit(&two, &of, b, unit, ln_a);
         is_other = st == SS_OK && two.bic + NEARLY < best->bic;
     }
@@ -533,8 +528,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         if (is_more)
             is_near &= gsl_cdf_chisq_Q(best->squares - x->squares, best->free - x->free) < CHANCE;
         if (x == best || is_near) {
-            trial of = { x->kind, p, n, source->has_phase ? 2 : 1, w / unit, what,
-                     source->derivative };
+            of.kind = x->kind;
             double weight = exp((best->bic - x->bic) / 2);
             out->mechanism[out->n_mechanisms++] = x->kind;
             whole += weight;
@@ -561,8 +555,8 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     free(what);
     if (st != SS_OK)
         return st;
+    of.kind = best->kind;
     for (size_t i = 0; i < n; i++) {
-        trial of = { best->kind, NULL, 0, 0, w / unit, NULL, source->derivative };
         double rate[TRACKS], ignore[2], at = frequency(&of, best->u, exp(b[i].level - ln_a));
         int is_named = out->n_mechanisms == 1 && source->has_phase;
         rates(&of, best->u, b[i].level - ln_a, rate, ignore);

@@ -87,11 +87,13 @@ errors_behind(const candidate *c, const candidate *best, double power)
     return (c->left - best->left) / fmax(fmin(error, best->left / 2), RESIDUE_QUIET / 2);
 }
 
-/* Does it leave more than noise and what a real contact does beside its law, is a law missing, or does nothing slip? */
+/* Does it leave more than noise and what a real contact does beside its law, is a law missing, or does nothing
+ * slip? */
 static int
 is_refuted(const candidate *c)
 {
-    return c->never_slips || c->fitted > BEYOND_NOISE * ss_verdict_noise(c) || (c->better > SIGNIFICANT && c->fitted > QUIET);
+    return c->never_slips || c->fitted > BEYOND_NOISE * ss_verdict_noise(c)
+        || (c->better > SIGNIFICANT && c->fitted > QUIET);
 }
 
 ss_verdict

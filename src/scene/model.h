@@ -198,7 +198,8 @@ struct ss_model {
     const struct variation *variation;
     /* Follow a piece of a motion that is given.  The contact's memory is 0 at the start.  The parts become forces
      * that add up to f at the end of the piece: of a contact with a gap those on its two sides, else f as it would
-     * be at high speed, or steadily at a reference, and what is added to it.  NULL if such a motion does not determine f. */
+     * be at high speed, or steadily at a reference, and what is added to it.  NULL if such a motion does not
+     * determine f. */
     void (*drive)(const ss_scene *scene, double *memory, const piece *p, double part[DRIVEN_PARTS]);
 };
 
