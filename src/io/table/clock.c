@@ -230,15 +230,20 @@ farthest_from(struct line l, const struct stamps *s, double usual, struct off *w
     return p.status;
 }
 
-/* Find the stamp whose step from the one before differs most from the usual step. */
+/* Find the stamp whose step from the one before differs most from the usual step.  A stamp that is off spoils the step
+ * to the next row as much, the other way: rounding does not decide which of the two is at fault. */
 static ss_status
 farthest_step(const struct stamps *s, double usual, struct off *worst, ss_error *err)
 {
     struct pass p = start(s, err);
-    *worst = (struct off){ .by = 0 };
-    while (step(&p))
-        if (p.n > 1 && fabs(p.stamp - p.before - usual) > worst->by)
-            *worst = (struct off){ fabs(p.stamp - p.before - usual), p.stamp, p.before, p.line };
+    struct off last = { .by = 0 };
+    *worst = last;
+    while (step(&p)) {
+        struct off now = { p.n > 1 ? p.stamp - p.before - usual : 0, p.stamp, p.before, p.line };
+        if (fabs(now.by) > fabs(worst->by))
+            *worst = fabs(now.by + last.by) < fabs(now.by) / 2 ? last : now;
+        last = now;
+    }
     return p.status;
 }
 
@@ -270,10 +275,11 @@ refuse(const struct stamps *s, double usual, struct line l, ss_error *err)
         st = farthest_step(s, usual, &worst, err);
     if (st != SS_OK)
         return st;
-    if (worst.by <= CLOCK_TOLERANCE * usual)
+    if (fabs(worst.by) <= CLOCK_TOLERANCE * usual) {
         worst = from_line;
-    double off = worst.by / usual;
-    return ss_clock_refuse(s->t->name, worst.line, worst.stamp - worst.before > usual ? off : -off, err);
+        worst.by = worst.stamp - worst.before > usual ? worst.by : -worst.by;
+    }
+    return ss_clock_refuse(s->t->name, worst.line, worst.by / usual, err);
 }
 
 /* --- the clock ----------------------------------------------------------------------------- */

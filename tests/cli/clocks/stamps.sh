@@ -29,3 +29,11 @@ column 00:01 00:02 | refused ss-cat -q --time time
 # of several stamps off the others' line, the one that is farthest is named
 awk 'BEGIN { print "t,a"; for (i = 0; i < 40; i++) print i / 10 + (i == 7) * .01 - (i == 25) * .03 + (i == 33) * .02 "," i }' > off.csv
 ! ss-cat off.csv
+# one stamp off spoils two steps as much, and is named itself, not the next, whatever the rounding
+for by in .48 -.48 .3 .7; do
+    for row in 3 4 5 10 17 27 40; do
+        awk -v by=$by -v row=$row 'BEGIN { print "t,a"; for (i = 2; i < 44; i++) printf "%.6f,%d\n", (i + (i == row) * by) / 1024, i }' > off.csv
+        ! ss-cat off.csv 2> why
+        grep -q "^ss-cat: off.csv:$row: .* off by 0" why || sed "s/^/row $row, off by $by: /" why
+    done
+done
