@@ -25,7 +25,8 @@ enum {
     PARTS = 8,                  /* in which a line is looked at */
     SOME = 1024,                /* terms of a spectrum that tell what is usual */
     HARMONICS = 9,              /* of the decay, which are no lines */
-    LEVELS = 20,                /* blocks of a level */
+    LEVELS = 20,                /* blocks of a level, at most */
+    LEVEL_ROWS = 3,             /* in one, at least */
     SLOW = 4                    /* periods to twice the amplitude, as no blow takes */
 };
 #define LONG 12.0               /* periods of a block, where noise wants it long */
@@ -75,28 +76,33 @@ spectrum(real_fft *f, size_t *size, const double *x, size_t n, int is_tapered)
     return SS_OK;
 }
 
-/* The frequency of the strongest line in n samples, per sample, weighed by frequency, as slow changes have more
- * power than they matter; near > 0: of those about it; other than the lines tried.  0: there is none. */
+/* The frequencies of the strongest lines in n samples, per sample, weighed by frequency, as slow changes have more
+ * power than they matter, each other than those before; near > 0: the second is the strongest about it.  0: there is
+ * none. */
 static ss_status
-find_line(double *w, const double *x, size_t n, double near, const double *tried, size_t n_tried)
+find_lines(double line[TRIED + 1], const double *x, size_t n, double near)
 {
     size_t size;
     real_fft f;
-    double best = 0;
-    *w = 0;
     if (spectrum(&f, &size, x, n, 0) != SS_OK)
         return SS_ENOMEM;
     double unit = 2 * M_PI / (double)size, *power = f.x;
     for (size_t k = 1; k <= size / 2; k++)
         power[k] /= (double)k;
-    for (size_t k = (size_t)(2.5 * (double)size / (double)n); k < size / 2; k++) {
-        const double at = (double)k * unit;
-        int is_other = near == 0 || fabs(at - near) < NEAR * near;
-        for (size_t i = 0; i < n_tried; i++)
-            is_other &= fabs(at - tried[i]) > NEAR * tried[i];
-        if (is_other && k > 0 && power[k] >= power[k - 1] && power[k] > power[k + 1] && power[k] > best) {
-            best = power[k];
-            *w = at;
+    for (size_t l = 0; l <= TRIED; l++) {
+        double best = 0;
+        line[l] = 0;
+        for (size_t k = (size_t)fmax(2.5 * (double)size / (double)n, 1); k < size / 2; k++) {
+            const double at = (double)k * unit;
+            if (!(power[k] >= power[k - 1] && power[k] > power[k + 1] && power[k] > best))
+                continue;
+            int is_asked = near == 0 || l == 0 || fabs(at - near) < NEAR * near;
+            for (size_t i = 0; i < l && near == 0; i++)
+                is_asked &= fabs(at - line[i]) > NEAR * line[i];
+            if (is_asked) {
+                best = power[k];
+                line[l] = at;
+            }
         }
     }
     ss_real_fft_free(&f);
@@ -182,19 +188,18 @@ find_extent(decay *d)
     return SS_OK;
 }
 
-/* 1: behind the last block the amplitude grows again by as much as noise never makes it grow, and slower than a
- * blow does. */
+/* 1: from a sample on the amplitude grows from what it is there by as much as noise never makes it grow, and slower
+ * than a blow does. */
 static int
-grows_again(const decay *d)
+grows(const decay *d, size_t from, double amplitude)
 {
     size_t width = (size_t)fmax(round(2 * M_PI / d->w), 1), n = d->n > width ? d->n - width + 1 : 0;
-    size_t from = d->block[d->n_blocks - 1].end, most = from, half = from;
+    size_t most = from, half = from;
     for (size_t i = from; i < n; i++)
         most = d->size[i] > d->size[most] ? i : most;
     for (size_t i = from; i < most; i++)
         half = d->size[i] < d->size[most] / 2 ? i : half;
-    return most < n && d->size[most] > GROWS * exp(d->block[d->n_blocks - 1].y[LEVEL])
-        && most - half > SLOW * width;
+    return most < n && d->size[most] > GROWS * amplitude && most - half > SLOW * width;
 }
 
 /* --- block by block -------------------------------------------------------------------------- */
@@ -506,21 +511,19 @@ fit_level(const double *x, size_t first, size_t end, double w)
 static ss_status
 find_levels(decay *d, const double *x, size_t n)
 {
-    size_t most = 0, tail = n - n / 10;
+    size_t most = 0, tail = n - (n > 30 ? n / 10 : 3);
     double w = 2 * M_PI * d->opts->level_frequency / d->source->rate;
     d->group = 1;
     d->w = w;
     d->block = calloc(LEVELS, sizeof *d->block);
-    if (d->block == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 1; i < n; i++)
-        most = x[i] > x[most] ? i : most;
-    if (n < most + 4 * LEVELS || most >= tail)
-        return SS_OK;
-    d->x = malloc(n * sizeof *d->x);
-    if (d->x == NULL)
+    d->x = malloc((n + 1) * sizeof *d->x);
+    if (d->block == NULL || d->x == NULL)
         return SS_ENOMEM;
     memcpy(d->x, x, n * sizeof *x);
+    for (size_t i = 1; i < n; i++)
+        most = x[i] > x[most] ? i : most;
+    if (n < most + FEW * LEVEL_ROWS || most >= tail)
+        return SS_OK;
     block last = fit_level(x, tail, n, w);
     if (last.rate[LEVEL] > .3 * (last.y[LEVEL] - x[most] * NEPER) / (double)(n - most)) {
         d->stop = "noise";                      /* it ends in a floor, whose power is not the decay's */
@@ -530,11 +533,13 @@ find_levels(decay *d, const double *x, size_t n)
         }
     } else
         tail = n;
-    if (tail < most + 4 * LEVELS)
+    size_t blocks = tail > most ? (tail - most) / LEVEL_ROWS : 0;
+    blocks = blocks < LEVELS ? blocks : LEVELS;
+    for (size_t i = 0; i < blocks; i++)
+        d->block[d->n_blocks++] = fit_level(d->x, most + (tail - most) * i / blocks,
+                                            most + (tail - most) * (i + 1) / blocks, w);
+    if (d->n_blocks < FEW)
         return SS_OK;
-    for (size_t i = 0; i < LEVELS; i++)
-        d->block[d->n_blocks++] = fit_level(d->x, most + (tail - most) * i / LEVELS,
-                                            most + (tail - most) * (i + 1) / LEVELS, w);
     share_noise(d);
     return ss_blocks_smooth(d->block, d->n_blocks, 0, 0);
 }
@@ -584,6 +589,10 @@ no_decay(const decay *d)
 {
     if (!(d->w > 0))
         return "nothing oscillates";
+    if (d->n_blocks < FEW && !d->source->has_phase)
+        return "too few levels lie between the highest and the end, or the noise";
+    if (d->n_blocks < FEW && grows(d, 0, d->size[0]))
+        return "the oscillation grows";
     if (d->n_blocks < FEW)
         return d->n_blocks > 0 && strcmp(d->stop, "end of the record") == 0
             ? "it has under three blocks of periods"
@@ -642,17 +651,12 @@ find(decay *d, const double *x, size_t n)
 {
     const decay none = *d;
     const double near = 2 * M_PI * d->opts->mode / d->source->rate;
-    double line[TRIED + 1] = { 0 };
-    ss_status st = find_line(line, x, n, 0, NULL, 0);
-    if (st == SS_OK && near > 0)
-        st = find_line(line + 1, x, n, near, NULL, 0);
+    double line[TRIED + 1];
+    ss_status st = find_lines(line, x, n, near);
     if (st == SS_OK)
         st = find_at(d, x, n, line[near > 0], near > 0 ? line[0] : 0);
-    for (size_t k = 1; st == SS_OK && near == 0 && no_decay(d) != NULL && k <= TRIED; k++) {
+    for (size_t k = 1; st == SS_OK && near == 0 && no_decay(d) != NULL && k <= TRIED && line[k] > 0; k++) {
         decay other = none;
-        st = find_line(line + k, x, n, 0, line, k);
-        if (st != SS_OK || line[k] == 0)
-            break;
         st = find_at(&other, x, n, line[k], line[0]);
         if (st == SS_OK && no_decay(&other) == NULL) {
             decay was = *d;
@@ -662,7 +666,8 @@ find(decay *d, const double *x, size_t n)
         forget(&other);
     }
     d->source->rate /= (double)d->group;
-    if (st == SS_OK && d->n_blocks >= FEW && grows_again(d))
+    if (st == SS_OK && d->n_blocks >= FEW
+        && grows(d, d->block[d->n_blocks - 1].end, exp(d->block[d->n_blocks - 1].y[LEVEL])))
         d->stop = d->source->beats = "the amplitude grows";
     return st;
 }
