@@ -2,6 +2,8 @@
 # one object a row, on standard output as in a file.
 ss-sim -c t,a,x,f compliant-light --set duration=2 -o run.tsv
 ss-signal ringdown --duration 4 --frequency 20 --damping .01 -o decay.tsv
+awk 'BEGIN { print "# stickslip signal 1\n# rate: 40\n# columns: t x f"; for (i = 0; i < 200; i++)
+    printf "%.4f\t%.9f\t%.9f\n", i / 40, sin(i * .157), (cos(i * .157) > 0 ? 1 : -1) + .01 * sin(i * i) }' > rubbed.tsv
 is() {          # FORM FILE: does it begin as the form does?
     case $1 in
     tsv) grep -q "$(printf '\t')" "$2" ;;
@@ -35,7 +37,7 @@ try "$rows" ss-features run.tsv
 try "$rows" ss-features --stream --fmin 10 run.tsv
 try "$rows" ss-features run.tsv decay.tsv
 try "$rows" ss-rank run.tsv
-try "$rows $pictures" ss-rank --motion x --column f run.tsv
+try "$rows $pictures" ss-rank --motion x --column f rubbed.tsv
 try "$rows" ss-sweep coulomb --vary mass=2:3:2
 try "$rows $pictures" ss-backbone decay.tsv
 try "$pictures" ss-plot run.tsv
@@ -49,4 +51,4 @@ done
 for form in $pictures; do ss-contour -c a --fmin 10 --follow "live.$form" 1 run.tsv && is "$form" "live.$form"; done
 ss-contour -c a --format json run.tsv || echo "exit $?"
 # times are measured, so no two runs are the same
-for form in $rows $pictures; do ss-trade -q -b .01 coulomb -o "trade.$form" && is "$form" "trade.$form"; done
+for form in $rows $pictures; do ss-trade -q -b .001 -c x rubbed.tsv -o "trade.$form" && is "$form" "trade.$form"; done
