@@ -297,8 +297,6 @@ transforms_refuse_null(void **state)
     assert_refused(ss_trade_transform(NULL, x, 4, 1, &ss_morlet_defaults, NULL, &e), &e);
     assert_refused(ss_trade_transform(&trade, NULL, 4, 1, &ss_morlet_defaults, NULL, &e), &e);
     assert_null(trade);
-    assert_refused(ss_wisdom_read(NULL, &e), &e);
-    assert_refused(ss_wisdom_write(NULL, &e), &e);
     assert_refused(ss_morlet_execute(NULL, x, w, &e), &e);
     assert_refused(ss_morlet_execute(plan, NULL, w, &e), &e);
     assert_refused(ss_morlet_execute(plan, x, NULL, &e), &e);

@@ -486,18 +486,6 @@ read_coefficients(int variant)
 }
 
 /* Made before, as it takes memory of FFTW's. */
-static char wisdom[4000];
-
-static ss_status
-read_wisdom(int variant)
-{
-    (void)variant;
-    FILE *in = fmemopen(wisdom, strlen(wisdom), "r");
-    ss_status st = ss_wisdom_read(in, &err);
-    fclose(in);
-    return st;
-}
-
 static ss_status
 features(int variant)
 {
@@ -847,7 +835,7 @@ static const struct row {
     { "transforms", transforms, 6, 30 }, { "streams", streams, 4, 30 },
     { "inverses", inverses, 1, 30 }, { "comparisons", comparisons, 2, 30 },
     { "reading coefficients", read_coefficients, 1, 30 },
-    { "reading wisdom", read_wisdom, 1, 30 }, { "features", features, 2, 30 },
+    { "features", features, 2, 30 },
     { "streams of features", feature_streams, 2, 10 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
     { "rankings", rankings, 1, 4 }, { "motions", motions, 1, 10 }, { "decays", decays, 3, 20 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
@@ -914,10 +902,6 @@ set_up(void **state)
     fclose(in);
     if (st != SS_OK)
         return -1;
-    out = fmemopen(wisdom, sizeof wisdom, "w");
-    if (ss_wisdom_write(out, NULL) != SS_OK)
-        return -1;
-    fclose(out);
     ss_record whole = { .signal = signal, .coefficients = coefficients };
     return ss_record_write(&whole, NULL, path, SS_H5, NULL) == SS_OK ? 0 : -1;
 }

@@ -344,45 +344,6 @@ threads_may_plan_at_the_same_time(void **state)
     }
 }
 
-/* Measured FFTs keep the bound, and what was found is read back. */
-static void
-wisdom_is_kept_and_keeps_the_bound(void **state)
-{
-    enum { N = 401 };
-    double x[N];
-    ss_morlet_opts opts = ss_morlet_defaults;
-    ss_error err = { 0 };
-    FILE *file = tmpfile();
-    static char text[1 << 20];          /* with all that the tests before have planned */
-    (void)state;
-    opts.engine = SS_ENGINE_FFT, opts.planner = SS_PLANNER_MEASURE, opts.dense = 1;
-    opts.voices = 2, opts.accuracy = 1e-3;
-    make(NOISE, x, N);
-    ss_morlet *plan = plan_of(N, 2000, &opts);
-    double *w = transform(plan, x);
-    assert_true(worst_error(plan, x, N, 2000, &opts, w, 7) <= 1);
-    assert_int_equal(ss_wisdom_write(file, NULL), SS_OK);
-    rewind(file);
-    assert_int_equal(ss_wisdom_read(file, &err), SS_OK);
-    rewind(file);
-    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
-    assert_non_null(strstr(text, "(fftw_codelet_"));
-    fseek(file, strstr(text, "fftw_wisdom #") - text, SEEK_SET);
-    fputs("fftw_wisdom?", file);
-    rewind(file);
-    assert_int_equal(ss_wisdom_read(file, &err), SS_EINVAL);
-    rewind(file);
-    fputs("nonsense", file);
-    rewind(file);
-    assert_int_equal(ss_wisdom_read(file, &err), SS_EINVAL);
-    assert_non_null(strstr(err.text, "no wisdom"));
-    opts.planner = (ss_planner)3;
-    assert_int_equal(ss_morlet_new(&plan, N, 2000, &opts, NULL), SS_EINVAL);
-    fclose(file);
-    free(w);
-    ss_morlet_free(plan);
-}
-
 static void
 engines_agree_and_damage_is_seen(void **state)
 {
@@ -456,7 +417,6 @@ main(void)
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(scales_come_one_by_one_to_the_last_bit),
         cmocka_unit_test(threads_may_plan_at_the_same_time),
-        cmocka_unit_test(wisdom_is_kept_and_keeps_the_bound),
         cmocka_unit_test(engines_agree_and_damage_is_seen),
         cmocka_unit_test(error_of_one_point_is_rounding),
     };

@@ -28,7 +28,7 @@ typedef struct output {
     int fd;                             /* of a file without a name, whose path is temporary; or -1 */
 } output;
 
-enum { OUTPUTS = 2 };                   /* those of -o and of --wisdom */
+enum { OUTPUTS = 2 };                   /* those of -o and of --residual */
 static output out[OUTPUTS];
 static volatile sig_atomic_t n_out;
 static int on_stdout;                   /* standard output gets the data */

@@ -1,10 +1,8 @@
 /* ss-morlet.c -- wavelet coefficients of one column of a signal. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <sys/stat.h>
 #include "options.h"
 
 static const char usage[] =
@@ -25,7 +23,6 @@ static const char usage[] =
 "      --threads=N        work on N scales at a time (1)\n"
 "      --stream           write coefficients as they are complete; needs --fmin\n"
 "      --inverse          read coefficients, write the signal that has them\n"
-"      --wisdom=FILE      let FFTW measure the fastest FFTs, keep them in FILE\n"
 "      --check            compare methods; --exact-bits: no rounding in HDF5\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE      .tsv .au .csv .json .h5; --format=tsv|au|csv|json\n"
@@ -39,7 +36,7 @@ static const char *const detrends[] = { "none", "mean", "linear", NULL };
 typedef struct request {
     ss_morlet_opts opts;
     tool_reading reading;
-    const char *column, *output, *wisdom;
+    const char *column, *output;
     int dyadic, stream, inverse, check, exact_bits;
     tool_kind kind;                     /* of the output */
 } request;
@@ -72,7 +69,7 @@ parse(request *req, int argc, char *argv[])
         TOOL_CHOICE(0, "norm", &opts->norm, norms), TOOL_FLAG(0, "admissible", &opts->admissible),
         TOOL_CHOICE(0, "detrend", &opts->detrend, detrends), TOOL_FLAG(0, "force", &opts->force),
         TOOL_THREADS(0, &opts->threads), TOOL_FLAG(0, "stream", &req->stream),
-        TOOL_FLAG(0, "inverse", &req->inverse), TOOL_TEXT(0, "wisdom", &req->wisdom),
+        TOOL_FLAG(0, "inverse", &req->inverse),
         TOOL_FLAG(0, "check", &req->check), TOOL_FLAG(0, "exact-bits", &req->exact_bits),
         TOOL_OUTPUT(&req->output), TOOL_FORMAT(&req->kind) };
     return TOOL_PARSE(argc, argv, options, &req->reading);
@@ -97,10 +94,6 @@ check_request(request *req)
     }
     if (req->inverse && tool_given_others(of_inverse))
         tool_usage("--inverse takes no options but --accuracy, --output and --format");
-    if (req->wisdom != NULL)
-        opts->planner = SS_PLANNER_MEASURE;
-    if (req->wisdom != NULL && (strcmp(req->wisdom, "-") == 0 || *req->wisdom == '\0'))
-        tool_usage("--wisdom needs a file, which is read and written");
     if (req->stream && opts->fmin == 0 && !opts->octaves)
         tool_usage("--stream needs --fmin, as the length of the record is not known");
     if (req->stream && opts->detrend != SS_DETREND_NONE)
@@ -128,25 +121,6 @@ now(void)
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Read FFTW's wisdom, if the file exists and is not empty. */
-static void
-read_wisdom(const char *path)
-{
-    ss_error err = { 0 };
-    struct stat st;
-    if (stat(path, &st) == 0 && !S_ISREG(st.st_mode))
-        tool_die("%s: not a regular file, which --wisdom needs", path);
-    FILE *in = fopen(path, "r");
-    if (in == NULL && errno == ENOENT)
-        return;
-    if (in == NULL)
-        tool_die("%s: %s", path, strerror(errno));
-    int c = getc(in);           /* an empty file will get its wisdom at the end */
-    if (c != EOF && ungetc(c, in) == c && ss_wisdom_read(in, &err) != SS_OK)
-        tool_die("%s: %s", path, err.text);
-    fclose(in);
 }
 
 /* --- output as it comes ----------------------------------------------------------------------- */
@@ -365,19 +339,12 @@ main(int argc, char *argv[])
     tool_reading_needs(&req.reading, &req.column, req.column != NULL);
     check_request(&req);
     const char *path = tool_input(argc, argv, first);
-    FILE *wisdom = NULL;
-    if (req.wisdom != NULL) {
-        read_wisdom(req.wisdom);
-        wisdom = tool_output(req.wisdom);       /* before the work, which may be long */
-    }
     if (req.inverse)
         invert(&req, path);
     else if (req.stream)
         transform_stream(&req, path);
     else
         transform_whole(&req, path);
-    if (wisdom != NULL && ss_wisdom_write(wisdom, NULL) != SS_OK)
-        tool_die("%s: write error: %s", req.wisdom, strerror(errno));
     tool_reading_free(&req.reading);
     tool_end();
     return 0;

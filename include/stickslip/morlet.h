@@ -40,11 +40,6 @@ typedef enum ss_engine {
                                    than two samples or longer than two records */
 } ss_engine;
 
-/* The effort that FFTW makes to find a fast FFT.  A measured FFT is up to twice as fast.  But
- * measuring may take seconds for each length of a plan, and its choice, and so the last bits of
- * results, may differ from run to run; see ss_wisdom_read. */
-typedef enum ss_planner { SS_PLANNER_ESTIMATE, SS_PLANNER_MEASURE, SS_PLANNER_PATIENT } ss_planner;
-
 /* The ranges of the numbers are ss_morlet_ranges. */
 typedef struct ss_morlet_opts {
     size_t size;                /* set by ss_morlet_opts_init */
@@ -69,7 +64,6 @@ typedef struct ss_morlet_opts {
     ss_detrend detrend;         /* the trend that is first subtracted from the record */
     int force;                  /* 1: compute also scales that the record does not resolve */
     int threads;                /* 1 ... SS_THREADS_MAX; the result does not depend on it */
-    ss_planner planner;
     ss_progress progress;       /* called after every scale of a whole record, by one thread at a time */
 } ss_morlet_opts;
 extern const struct ss_morlet_ranges {
@@ -109,12 +103,6 @@ typedef struct ss_morlet ss_morlet;
  * requested scale is not usable (and force is 0), or no scale is. */
 ss_status ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *opts,
                         ss_error *err);
-/* Read or write FFTW's wisdom: what its planner has measured in this process, which FFTW keeps.
- * After reading, plans for the same lengths are made at once, with any planner, and are always the
- * same.  SS_EINVAL: in holds no wisdom of this FFTW and machine (less than 16 MB); SS_ENOMEM;
- * SS_EIO. */
-ss_status ss_wisdom_read(FILE *in, ss_error *err);
-ss_status ss_wisdom_write(FILE *out, ss_error *err);
 /* The grid of a plan, owned by it.  NULL: the plan is NULL. */
 const ss_grid *ss_morlet_grid(const ss_morlet *plan);
 

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stickslip/status.h>
 
-/* FFTW's planner is not safe for threads: making and freeing of plans, and wisdom, take turns.
+/* FFTW's planner is not safe for threads: making and freeing of plans take turns.
  * Other users of FFTW in the program must not plan at the same time. */
 extern pthread_mutex_t ss_fftw_planner;
 

@@ -169,8 +169,8 @@ ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err
         return ss_fail(err, SS_EINVAL, "octaves %g:%g are not ascending in %g ... %g", opts->m0,
                        opts->m1, in->octave.from, in->octave.to);
     if ((unsigned)opts->norm > SS_NORM_L1 || (unsigned)opts->detrend > SS_DETREND_LINEAR
-        || (unsigned)opts->engine > SS_ENGINE_FFT || (unsigned)opts->planner > SS_PLANNER_PATIENT)
-        return ss_fail(err, SS_EINVAL, "unknown norm, detrend, engine or planner");
+        || (unsigned)opts->engine > SS_ENGINE_FFT)
+        return ss_fail(err, SS_EINVAL, "unknown norm, detrend or engine");
     if (opts->threads < 1 || opts->threads > SS_THREADS_MAX)
         return ss_fail(err, SS_EINVAL, "threads %d is out of range 1 ... %d", opts->threads,
                        SS_THREADS_MAX);

@@ -3,7 +3,7 @@
 # Seeds are small, so that a fuzzer gets through them fast: few samples, few scales.
 set -eu
 cd "$(dirname "$0")/corpus"
-mkdir -p scene text delimited au coefficients hdf5 sweep wisdom features events
+mkdir -p scene text delimited au coefficients hdf5 sweep features events
 short='--set settle=0 --set rate=1000'
 
 for name in coulomb state-variable compliant-light; do
@@ -104,10 +104,3 @@ ss-sim -s duration=1 compliant-light | ss-features -c a | cut -c 1-90 > features
     printf '# spike: %s\n' '0.125 kink -3' '7 jump' '0.2 bend -9 40'
 } > features/others
 
-# Wisdom without its first line, which the harness knows for its machine.
-ss-signal sine --duration 0.02 > run
-ss-morlet --voices 1 --center 2 --force --dense --method fft --wisdom all run > coefficients-of-it
-sed '1d; /^)/q' all > wisdom/measured
-printf ')' > wisdom/none
-printf '  (TIMEOUT 0 #x100000 #x100000 #x200 #x1 #x2 #x3 #x4)\n)\n' > wisdom/flags-too-wide
-rm run all coefficients-of-it

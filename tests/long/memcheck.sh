@@ -17,8 +17,7 @@ check ss-contour --events events.tsv c.h5
 check ss-plot run.h5
 check ss-morlet --stream --octaves -7:-6 -o stream.tsv run.tsv
 check ss-morlet --inverse --accuracy 1e-2 -o inverse.tsv c.h5
-check ss-morlet --voices 1 --method fft --wisdom wisdom -o measured.tsv run.tsv
-check ss-morlet --voices 1 --method fft --wisdom wisdom -o measured.tsv run.tsv
+check ss-morlet --voices 1 --method fft -o measured.tsv run.tsv
 check ss-features -o features.tsv run.tsv
 check ss-contour --features features.tsv c.h5
 check ss-sweep --threads 2 -m stops,amplitude --vary mass=2:3:2 --vary friction=1:2:2 -o sweep.tsv coulomb

@@ -397,7 +397,7 @@ ss_blocks_new(ss_morlet *plan)
         st = places_of(b, &b->scale[i]);
     for (size_t l = 0; st == SS_OK && l + 1 < b->levels; l++)
         st = make_filter(&b->stage[l]);
-    return st == SS_OK ? ss_blocks_plans_make(b, plan->opts.planner, ss_blocks_room(b)) : st;
+    return st == SS_OK ? ss_blocks_plans_make(b, ss_blocks_room(b)) : st;
 }
 
 void

@@ -52,7 +52,7 @@ struct blocks {
 };
 
 /* plans.c: make the plans of all levels and scales that are used here, for a scratch of so many doubles. */
-ss_status ss_blocks_plans_make(struct blocks *b, ss_planner planner, size_t room);
+ss_status ss_blocks_plans_make(struct blocks *b, size_t room);
 
 /* The adjoint of the transform: for each window a sum over coefficients in place of its spectrum. */
 struct block_sums {

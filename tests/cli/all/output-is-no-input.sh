@@ -86,10 +86,10 @@ refused scene  .tsv 'ss-sim --set duration=0.1 $in >> $out'
 echo "$tries tries"
 
 echo "--- two outputs of one name, there before and not"
-ss-morlet -q --dyadic --wisdom new.tsv -o new.tsv signal || echo $?
-ss-morlet -q --dyadic --wisdom new.tsv -o ./new.tsv signal || echo $?
+ss-rank --motion x -c f --residual new.tsv -o new.tsv signal || echo $?
+ss-rank --motion x -c f --residual new.tsv -o ./new.tsv signal || echo $?
 : > new.tsv
-ss-morlet -q --dyadic --wisdom new.tsv -o new.tsv signal || echo $?
+ss-rank --motion x -c f --residual new.tsv -o new.tsv signal || echo $?
 echo "--- what is no file may be both"
 ss-cat signal < /dev/null > /dev/null
 ss-cat < /dev/null > /dev/null || echo $?

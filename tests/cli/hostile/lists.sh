@@ -1,5 +1,5 @@
 # Lists, tables and plans that tools make for each other: rows of a sweep, features, events, a line over
-# a map, wisdom of FFTW.  What is no such thing is refused in one line and little memory.
+# a map.  What is no such thing is refused in one line and little memory.
 # shellcheck disable=SC3045  # where there is no such limit, there is none
 limit() { [ -n "$SAN" ] || ulimit -v 200000 2> /dev/null || true; "$@"; }   # sanitizers map more
 refused() { limit "$@" > /dev/null || echo $?; }
@@ -69,20 +69,4 @@ for row in '\t\t\t' '7\t1\t1\t1\tok' '-1' 'x' '99999999999999999999999\t1'; do
     refused ss-sweep --resume part.tsv -m amplitude --vary mass=1:2:2 --vary friction=1:2:2 coulomb
     cmp part.tsv before.tsv
 done
-
-# Wisdom that is cut off, flipped or of something else is said to be none, or does no harm.
-ss-morlet --method fft --wisdom wisdom run.tsv > once.tsv
-ss-morlet --method fft --wisdom wisdom run.tsv | cmp - once.tsv
-size=$(wc -c < wisdom)
-for i in 1 5 9; do
-    head -c $((size * i / 13)) wisdom > begun
-    { head -c $((size * i / 13)) wisdom; printf 7; tail -c +$((size * i / 13 + 2)) wisdom; } > flipped
-    for file in begun flipped; do
-        ss-morlet --method fft --wisdom $file run.tsv > again.tsv 2> words || [ $? = 1 ] || cat words
-        [ "$(wc -l < words)" -le 1 ] || cat words
-    done
-done
-refused ss-morlet --method fft --wisdom folder run.tsv
-refused ss-morlet --method fft --wisdom run.tsv run.tsv 2> words
-sed 's/wisdom of .* on/wisdom of FFTW on/' words
 ls -A

@@ -44,7 +44,7 @@ LINES
             sed -e 's/.*_\([A-Z]*\)(.*"\(.*\)"/\2 \1/' -e 's/_OF_WORDS//' -e 's/TOOL_\(.*\)(/\1 VALUE/' | tr A-Z a-z |
             sort -u | tee "$name.options" | sed -n -e '/ flag$/d' -e '/ call$/d' -e "s/\(.*\) .*/$name --\1=/p" |
             grep -v -e '--output=' -e '--events=' -e '--features=' -e '--line=' -e '--signal=' \
-                -e '--wisdom=' -e '--residual=' -e '--resume=' -e '--over=' -e '--base=' -e '--follow='    # files
+                -e '--residual=' -e '--resume=' -e '--over=' -e '--base=' -e '--follow='    # files
     done
 } > lines
 

@@ -14,8 +14,6 @@ ss-signal sine --duration 0.001 | ss-morlet --force --fmin 100 2>&1 || echo "exi
 ss-morlet --voices 1 --center 20 s.tsv | ss-morlet --inverse 2> said || echo "exit $?"
 sed 's/factor of [^ ]*/factor of N/' said
 ss-features --fmin 900 s.tsv 2>&1 || echo "exit $?"
-ss-morlet --wisdom nowhere/w s.tsv -o c.tsv 2>&1 || echo "exit $?"
-[ ! -e c.tsv ]
 # what lies beyond the scales comes slowly in the inverse; the accuracy offered is taken
 ss-sim --set duration=1 --set rate=500 compliant-light | ss-morlet --fmin 20 -o q.tsv
 ss-morlet --inverse --accuracy 1e-9 q.tsv 2> said || echo "exit $?"
