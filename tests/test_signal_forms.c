@@ -279,7 +279,8 @@ static const struct { const char *bytes; size_t n; const char *error; } malforme
     { BYTES("t,x\n0,1\n0.1,NaN\n"), "in:3: column x: 'NaN' is not a finite number" },
     { BYTES("t,x\n0,nan\n0.1,1\n"), "in:2: column x: 'nan' is not a finite number" },
     { BYTES("t,x\n0,1\n0.1,1e999\n"), "in:3: column x: '1e999' is not a finite number" },
-    { BYTES("t,x\n0,1\n0.1,1\0\n"), "in:3: a NUL byte: this is not text of 8-bit characters" },
+    { BYTES("t,x\n0,1\n0.1,1\0\n"), "in:3: a NUL byte: this is not text of 8-bit "
+      "characters (iconv -f UTF-16 -t UTF-8 makes it of UTF-16)" },
     { BYTES("hello\nworld\n"), "in:2: no row of numbers up to here; a table has them "
       "between commas, semicolons, tabs or blanks" },
     { BYTES("t,x\n0,1\n"), "in: one row has no sample rate" },

@@ -26,6 +26,7 @@ enum { KINDS = sizeof kinds / sizeof *kinds };
 #define PICTURE "a picture", "; give what it was drawn from"
 #define NETCDF "a netCDF 3 file", "; nccopy -k nc4 makes HDF5 of it"
 #define UTF16 "text in UTF-16", "; iconv -f UTF-16 -t UTF-8 converts it"
+#define UNPACKED(by) "; read what " by " -c FILE gives"
 #define SOUND "a sound file", "; sox FILE -t au - makes a signal of it"
 #define PANDAS(form) "; in Python, pandas.read_" form "('FILE').to_csv('run.csv', index=False)"
 #define JSON "a JSON file", PANDAS("json")
@@ -44,7 +45,8 @@ static const struct foreign {
     { "FEA1", "a Feather file", PANDAS("feather") },
     { "{\"", JSON }, { "{\n", JSON }, { "{\r", JSON }, { "{ ", JSON }, { "[{", JSON }, { "[[", JSON },
     { "\200\002", PICKLE }, { "\200\003", PICKLE }, { "\200\004", PICKLE }, { "\200\005", PICKLE },
-    { "\037\213", "a gzip file", "; read what gunzip -c FILE gives" },
+    { "\037\213", "a gzip file", UNPACKED("gunzip") }, { "BZh", "a bzip2 file", UNPACKED("bunzip2") },
+    { "\3757zXZ", "an xz file", UNPACKED("unxz") }, { "\050\265\057\375", "a Zstandard file", UNPACKED("unzstd") },
     { "\377\376", UTF16 }, { "\376\377", UTF16 },
     { "PK\003\004", "a workbook or another zip archive", "; save its sheet as CSV, or an array of it by numpy.save" },
     { "\320\317\021\340", "a workbook", "; save its sheet as CSV" },

@@ -38,8 +38,8 @@ next_line(struct text *x, char **line, int *comment, ss_error *err)
         if (st != SS_OK || *line == NULL)
             return st;
         if (strlen(*line) != length)
-            return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte: this is not text of 8-bit characters",
-                           x->t.name, x->in->line);
+            return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte: this is not text of 8-bit characters (iconv -f UTF-16 "
+                           "-t UTF-8 makes it of UTF-16)", x->t.name, x->in->line);
         if (strchr(*line, '\r') != NULL)
             return ss_fail(err, SS_EDATA, "%s:%lu: a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' "
                            "makes them)", x->t.name, x->in->line);

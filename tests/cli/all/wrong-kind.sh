@@ -18,6 +18,10 @@ printf '<?xml version="1.0"?>\n' > plot.svg
 printf 'RIFF\0\0\0\0WAVEfmt ' > sound.wav
 printf 'ID3\003\0aaaaaaaaaaa' > sound.mp3
 printf '\037\213\010\0aaaaaaaaaaaaaa' > signal.tsv.gz
+printf 'BZh91AY&SY\0aaaaaaaaaaaaaa' > signal.tsv.bz2
+printf '\3757zXZ\0aaaaaaaaaaaaaa' > signal.tsv.xz
+printf '\050\265\057\375aaaaaaaaaaaaaa' > signal.tsv.zst
+printf 't\0,\0x\0\n\0001\0,\0' > no-mark.csv
 printf '\377\376t\0,\0x\0\n\0001\0,\0' > utf16.csv
 printf 'PK\003\004aaaaaaaaaaaaaaaaaaaaaaa\n' > book.xlsx
 printf '\320\317\021\340aaaaaaaaaaaaaaaaaaaaaaa\n' > book.xls
@@ -39,7 +43,9 @@ refused() {     # COMMAND ...: exit 1, one line, nothing on standard output
     [ "$status" = 1 ] && [ ! -s out ] || echo "$*: exit status $status"
 }
 for file in coefficients.tsv coefficients.au features.tsv events.tsv sweep.tsv trade.tsv ranking.tsv \
-        my.scene plot.gp plot.png plot.pdf plot.svg sound.wav sound.mp3 run.parquet run.feather run.json run.pkl run.aiff signal.tsv.gz utf16.csv \
+        my.scene plot.gp plot.png plot.pdf plot.svg sound.wav sound.mp3 run.parquet run.feather run.json \
+        run.pkl run.aiff signal.tsv.gz \
+        signal.tsv.bz2 signal.tsv.xz signal.tsv.zst utf16.csv no-mark.csv \
         book.xlsx book.xls old.mat log.tdms log.nc hello.txt empty; do
     refused ss-cat $file
 done
