@@ -1,7 +1,8 @@
 /* coefficients.c -- coefficients that are read.
  *
  * The stream's notes hold every option that the grid follows from, so that a reader rebuilds the
- * grid and holds each row against it: a row that is missing, doubled or out of place is found.
+ * grid and holds each row against it: a row that is missing, doubled or out of place is found.  The edges follow
+ * from the grid, too, and are not read.
  * Rows of different scales may come in any order, those of one scale with b ascending.  A stream
  * written before its length was known says that at its end. */
 #include <math.h>
@@ -19,7 +20,6 @@
 typedef struct part {
     ss_scale scale;             /* n is the grid's, SIZE_MAX until that is known */
     size_t n, room;             /* rows that have been read; room for rows */
-    size_t tail;                /* n, or the first row whose edge is that of an end not yet known */
     double *w;
 } part;
 
@@ -114,26 +114,6 @@ find_part(coefficient_reader *r, const double number[])
     return SS_OK;
 }
 
-/* The edge of coefficient k in a record of n samples; SIZE_MAX if the end is not known. */
-static int
-known_edge(const coefficient_reader *r, const part *p, size_t k, size_t n)
-{
-    const ss_coefficients *c = r->coef;
-    return wavelet_edge(&p->scale, k, n, c->head->rate, c->head->start, c->gap, c->n_gaps);
-}
-
-/* 1 if the edge of the next row of a part can be right.  While the end is not known, edges near it are
- * accepted; check_tail checks them later. */
-static int
-edge_fits(const coefficient_reader *r, part *p, double edge)
-{
-    int fits = edge == known_edge(r, p, p->n, r->coef->n > 0 ? r->coef->n : SIZE_MAX);
-    int of_end = !fits && edge == 1 && r->coef->n == 0;
-    if (p->tail == p->n && !of_end)
-        p->tail++;
-    return of_end || (fits && (p->tail > p->n || edge == 1));
-}
-
 static ss_status
 append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
 {
@@ -147,8 +127,6 @@ append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
     double b = ss_scale_b(&p->scale, p->n);
     if (!(fabs(number[2] - b) <= 1e-12 * b))
         return refuse(r, "b is %.9g s where the grid has %.9g s", number[2], b);
-    if (!edge_fits(r, p, number[6]))
-        return refuse(r, "edge is %g, not what the cone of influence gives", number[6]);
     double *w = ss_list_room(p->w, &p->room, p->n, 2 * sizeof *w);
     if (w == NULL)
         return SS_ENOMEM;
@@ -158,40 +136,24 @@ append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
     return SS_OK;
 }
 
-/* Check all that depends on the length of the record: the number of translations of a scale, and where
- * the cone of influence of the record's end begins. */
-static ss_status
-check_tail(coefficient_reader *r, part *p)
-{
-    ss_scale *sc = &p->scale;
-    double rate = r->coef->head->rate;
-    size_t n = r->coef->n;
-    ss_error why = { 0 };
-    if (ss_morlet_scale_at(sc, sc->j, sc->a, n, rate, &r->opts, &why) != SS_OK)
-        return refuse(r, "%s", why.text);
-    if (p->n > sc->n)
-        return refuse(r, "scale %g has %zu coefficient%s, not %zu", sc->m, sc->n, PLURAL(sc->n), p->n);
-    if ((p->tail < p->n && !known_edge(r, p, p->tail, n))
-        || (p->tail > 0 && known_edge(r, p, p->tail - 1, n)
-            != known_edge(r, p, p->tail - 1, SIZE_MAX)))
-        return refuse(r, "the edge of scale %g is not what the cone of influence of %zu samples "
-                      "gives", sc->m, n);
-    return SS_OK;
-}
-
-/* Set the length of the record, and check the scales against it. */
+/* Set the length of the record, and the number of translations of each scale, which follows from it. */
 static ss_status
 set_length(coefficient_reader *r, double samples)
 {
-    ss_status st = SS_OK;
+    ss_error why = { 0 };
     if (r->coef->n > 0)
         return refuse(r, "the number of samples is given twice");
     if (!(samples >= 1 && samples <= 0x1p53 && samples == floor(samples)))
         return refuse(r, "%g samples are not the length of a record", samples);
     r->coef->n = (size_t)samples;
-    for (size_t i = 0; st == SS_OK && i < r->n_parts; i++)
-        st = check_tail(r, &r->part[i]);
-    return st;
+    for (part *p = r->part; p < r->part + r->n_parts; p++) {
+        ss_scale *sc = &p->scale;
+        if (ss_morlet_scale_at(sc, sc->j, sc->a, r->coef->n, r->coef->head->rate, &r->opts, &why) != SS_OK)
+            return refuse(r, "%s", why.text);
+        if (p->n > sc->n)
+            return refuse(r, "scale %g has %zu coefficient%s, not %zu", sc->m, sc->n, PLURAL(sc->n), p->n);
+    }
+    return SS_OK;
 }
 
 /* A line "# samples: N" among the rows ends a stream. */

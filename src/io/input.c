@@ -180,18 +180,6 @@ ss_input_row(struct input *in, char **line, ss_error *err)
     return SS_OK;
 }
 
-ss_status
-ss_input_number(const struct input *in, const char **text, const char *expected, double *x,
-                ss_error *err)
-{
-    char *end;
-    *x = ss_number_parse(*text, &end);
-    if (end == *text || !isfinite(*x) || strchr(" \t,", *end) == NULL)  /* strchr also finds the NUL */
-        return ss_fail(err, SS_EDATA, "%s:%lu: expected %s", in->name, in->line, expected);
-    *text = end + strspn(end, " \t,");
-    return SS_OK;
-}
-
 int
 ss_input_is_pipe(const struct input *in)
 {

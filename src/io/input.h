@@ -37,10 +37,6 @@ ss_status ss_input_line(struct input *in, char **line, size_t *length, ss_error 
 ss_status ss_input_begin(struct input *in, ss_kind kind, ss_error *err);
 /* The next line of text that is not blank, as ss_input_line gives it; *line = NULL at the end. */
 ss_status ss_input_row(struct input *in, char **line, ss_error *err);
-/* The finite number at the start of *text; *text moves behind it and the blanks or comma after it.
- * SS_EDATA, with the line: `expected` is not there. */
-ss_status ss_input_number(const struct input *in, const char **text, const char *expected, double *x,
-                          ss_error *err);
 int ss_input_has_line(struct input *in);           /* 1: a whole line is in the buffer */
 int ss_input_is_pipe(const struct input *in);      /* 1: its bytes may come slowly, and no end is known */
 int ss_input_waits(const struct input *in);        /* 1: reading more bytes would block */

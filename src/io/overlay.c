@@ -1,6 +1,7 @@
 /* overlay.c -- read features and events, as far as a plot shows them.
  *
  * The fields have fixed places, so that lists written by hand need no names of columns. */
+#include <stickslip/number.h>
 #include <stickslip/overlay.h>
 
 #include <math.h>
@@ -14,85 +15,77 @@ typedef struct overlay_reader {
     struct input in;
     ss_overlay *overlay;
     size_t spans, maxima, spikes, events;       /* the room of each list */
+    int no_memory;
 } overlay_reader;
 
-/* Append the pair to a list, unless one of its numbers is NaN. */
-static ss_status
-append_pair(overlay_reader *r, double (**list)[2], size_t *n, size_t *room, const double pair[2], ss_error *err)
+/* Append so many numbers to a list, unless the first or the last is NaN.  Returns the list. */
+static void *
+append(overlay_reader *r, void *list, size_t *n, size_t *room, const double number[], size_t width)
 {
-    if (isnan(pair[0]) || isnan(pair[1]))
-        return SS_OK;
-    double (*more)[2] = ss_list_room(*list, room, *n, sizeof *more);
+    if (isnan(number[0]) || isnan(number[width - 1]))
+        return list;
+    double *more = ss_list_room(list, room, *n, width * sizeof *more);
+    r->no_memory |= more == NULL;
     if (more == NULL)
-        return ss_fail_memory(err, r->in.name);
-    *list = more;
-    memcpy(more[(*n)++], pair, sizeof *more);
-    return SS_OK;
+        return list;
+    memcpy(more + width * (*n)++, number, width * sizeof *more);
+    return more;
 }
 
-static ss_status
-append_time(overlay_reader *r, double **list, size_t *n, size_t *room, double t, ss_error *err)
+/* Read n numbers.  A hyphen stands for one that is not known.  Returns the text behind them; NULL, with the reason
+ * in err, if they are not there. */
+static const char *
+read_numbers(overlay_reader *r, const char *p, double number[], size_t n, const char *expected, ss_error *err)
 {
-    double *more = ss_list_room(*list, room, *n, sizeof *more);
-    if (more == NULL)
-        return ss_fail_memory(err, r->in.name);
-    *list = more;
-    more[(*n)++] = t;
-    return SS_OK;
+    for (size_t i = 0; i < n; i++) {
+        char *end = (char *)p + 1;
+        number[i] = NAN;
+        if (n == 1 || *p != '-' || strchr(" \t", p[1]) == NULL) {       /* strchr also finds the NUL */
+            number[i] = ss_number_parse(p, &end);
+            if (end == p || !isfinite(number[i]) || strchr(" \t,", *end) == NULL) {
+                ss_fail(err, SS_EDATA, "%s:%lu: expected %s", r->in.name, r->in.line, expected);
+                return NULL;
+            }
+        }
+        p = end + strspn(end, " \t,");
+    }
+    return p;
 }
 
-/* Read a transition: onset, end, number of spikes, and time and frequency of its maximum.  A hyphen stands for an
- * unknown value. */
+/* Rows are transitions (onset, end, number of spikes, and time and frequency of the maximum) or events, and notes
+ * "spike" are spikes: time and kind, of which jumps and kinks are drawn. */
 static ss_status
-read_transition(overlay_reader *r, const char *p, ss_error *err)
+read_line(overlay_reader *r, ss_kind kind, const char *line, ss_error *err)
 {
+    static const char spike[] = "# spike: ";
     ss_overlay *o = r->overlay;
     double field[5];
-    ss_status st = SS_OK;
-    for (size_t i = 0; st == SS_OK && i < 5; i++)
-        if (*p != '-' || strchr(" \t", p[1]) == NULL) {         /* strchr also finds the NUL */
-            st = ss_input_number(&r->in, &p, "onset, end, spikes, time and frequency", &field[i], err);
-        } else {
-            field[i] = NAN;
-            p += 1 + strspn(p + 1, " \t");
-        }
-    if (st == SS_OK)
-        st = append_pair(r, &o->span, &o->n_spans, &r->spans, field, err);
-    return st == SS_OK ? append_pair(r, &o->maximum, &o->n_maxima, &r->maxima, field + 3, err) : st;
+    int is_spike = kind == SS_KIND_FEATURES && strncmp(line, spike, strlen(spike)) == 0;
+    if (line[0] == '#' && !is_spike)
+        return SS_OK;
+    const char *rest = is_spike ? read_numbers(r, line + strlen(spike), field, 1, "the time of a spike", err)
+        : kind == SS_KIND_EVENTS ? read_numbers(r, line, field, 1, "a time in seconds", err)
+        : read_numbers(r, line, field, 5, "onset, end, spikes, time and frequency", err);
+    if (rest == NULL)
+        return SS_EDATA;
+    if (is_spike && (strncmp(rest, "jump", 4) == 0 || strncmp(rest, "kink", 4) == 0)) {
+        o->spike = append(r, o->spike, &o->n_spikes, &r->spikes, field, 1);
+    } else if (!is_spike && kind == SS_KIND_EVENTS) {
+        o->event = append(r, o->event, &o->n_events, &r->events, field, 1);
+    } else if (!is_spike) {
+        o->span = append(r, o->span, &o->n_spans, &r->spans, field, 2);
+        o->maximum = append(r, o->maximum, &o->n_maxima, &r->maxima, field + 3, 2);
+    }
+    return r->no_memory ? ss_fail_memory(err, r->in.name) : SS_OK;
 }
 
-/* Read time and kind of a spike.  Jumps and kinks are kept, since they are drawn. */
-static ss_status
-read_spike(overlay_reader *r, const char *text, ss_error *err)
-{
-    ss_overlay *o = r->overlay;
-    double t;
-    ss_status st = ss_input_number(&r->in, &text, "the time of a spike", &t, err);
-    if (st != SS_OK || (strncmp(text, "jump", 4) != 0 && strncmp(text, "kink", 4) != 0))
-        return st;
-    return append_time(r, &o->spike, &o->n_spikes, &r->spikes, t, err);
-}
-
-static ss_status
-read_event(overlay_reader *r, const char *text, ss_error *err)
-{
-    double t;
-    ss_status st = ss_input_number(&r->in, &text, "a time in seconds", &t, err);
-    return st == SS_OK ? append_time(r, &r->overlay->event, &r->overlay->n_events, &r->events, t, err) : st;
-}
-
-/* Rows are transitions or events, and notes "spike" are spikes. */
 static ss_status
 read_lines(overlay_reader *r, ss_kind kind, ss_error *err)
 {
-    static const char spike[] = "# spike: ";
     char *line;
     ss_status st = ss_input_begin(&r->in, kind, err);
     while (st == SS_OK && (st = ss_input_row(&r->in, &line, err)) == SS_OK && line != NULL)
-        if (line[0] != '#')
-            st = kind == SS_KIND_EVENTS ? read_event(r, line, err) : read_transition(r, line, err);
-        else if (kind == SS_KIND_FEATURES && strncmp(line, spike, strlen(spike)) == 0)
-            st = read_spike(r, line + strlen(spike), err);
+        st = read_line(r, kind, line, err);
     return st;
 }
 

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "signal/header.h"
 #include "io/record.h"
 
@@ -154,33 +155,19 @@ ss_number_text(char text[SS_NUMBER_MAX], double x)
     return text;
 }
 
-/* Copy a number that printf wrote.  The locale's decimal point, of one byte or more, becomes ".". */
-static const char *
-copy_number(char text[SS_NUMBER_MAX], const char *raw)
-{
-    char *to = text;
-    for (const char *from = raw; *from != '\0'; from++)
-        if (((unsigned char)*from < 0x80 && isalnum((unsigned char)*from)) || *from == '-' || *from == '+')
-            *to++ = *from;
-        else if (to[-1] != '.')
-            *to++ = '.';
-    *to = '\0';
-    return text;
-}
-
 const char *
 ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits)
 {
-    char raw[SS_NUMBER_MAX];
-    snprintf(raw, sizeof raw, "%.*g", digits < 17 ? digits : 17, x);
-    return copy_number(text, isnan(x) ? "-" : raw);
+    if (isnan(x))
+        return strcpy(text, "-");
+    ss_print_to(text, SS_NUMBER_MAX, "%.*g", digits < 17 ? digits : 17, x);
+    return text;
 }
 
 const char *
 ss_number_fixed(char text[SS_NUMBER_MAX], double x, int decimals)
 {
-    char raw[SS_NUMBER_MAX];
-    if (snprintf(raw, sizeof raw, "%.*f", decimals, x) >= (int)sizeof raw)
-        snprintf(raw, sizeof raw, "%.9g", x);
-    return copy_number(text, isnan(x) ? "-" : raw);
+    if (isnan(x) || ss_print_to(text, SS_NUMBER_MAX, "%.*f", decimals, x) >= SS_NUMBER_MAX)
+        ss_number_rounded(text, x, 9);
+    return text;
 }

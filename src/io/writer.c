@@ -16,104 +16,98 @@
 const char *const ss_coefficient_columns[COEFFICIENT_COLUMNS][2] = {
     { "m", "" }, { "a", "s" }, { "b", "s" }, { "f", "Hz" }, { "re", "" }, { "im", "" }, { "edge", "" } };
 
-enum { ROOM = 1 << 16, LONGEST = COEFFICIENT_COLUMNS * SS_NUMBER_MAX };
-
 struct stream {
     ss_writer base;
     enum { SAMPLES, COEFFICIENTS, EVENTS } holds;
     const struct format *format;
-    double rate, start;
-    size_t has_time;            /* of samples: 1: there is a column of time */
-    size_t columns, row;        /* and the rows so far */
-    ss_header *names;           /* and those, if each cell has its own; else NULL */
+    FILE *file;
+    ss_header *head;            /* of the signal; of coefficients only its clock counts */
+    size_t time, row;           /* of samples: 1 if there is a column of time; and the rows so far */
     ss_span *gap;               /* of coefficients */
     size_t n_gaps;
     int open_end;               /* of coefficients: the length of the record comes last */
     struct rows rows;           /* of events */
-    struct {                    /* bytes that will be written; none between calls */
-        FILE *file;
-        size_t used;
-        char buffer[ROOM];
-    } out;
 };
 
-/* Write the buffer, and report what failed. */
-static ss_status
-drain(struct stream *s, ss_error *err)
+/* Cells on their way to the file. */
+enum { ROOM = 1 << 16 };
+struct piece {
+    const struct stream *to;
+    size_t used;
+    char text[ROOM];
+};
+
+static void
+drain(struct piece *p)
 {
-    size_t n = s->out.used;
-    s->out.used = 0;
-    return fwrite(s->out.buffer, 1, n, s->out.file) == n ? SS_OK : ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO));
+    fwrite(p->text, 1, p->used, p->to->file);
+    p->used = 0;
 }
 
-/* Write the name of a cell, if it has one. */
-static ss_status
-name_cell(struct stream *s, const char *name, int first, ss_error *err)
+/* Let there be room for a cell, and write the name before it if it has its own. */
+static void
+begin_cell(struct piece *p, const char *name, int first)
 {
-    ss_status st = s->format->key != NULL || s->out.used > ROOM - SS_NUMBER_MAX ? drain(s, err) : SS_OK;
-    if (s->format->key != NULL)
-        s->format->key(s->out.file, name, first);
-    return st;
+    if (p->to->format->key != NULL || p->used > ROOM - SS_NUMBER_MAX)
+        drain(p);
+    if (p->to->format->key != NULL)
+        p->to->format->key(p->to->file, name, first);
+}
+
+static ss_status
+end_piece(struct piece *p, ss_error *err)
+{
+    drain(p);
+    return ferror(p->to->file) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
 }
 
 static ss_status
 write_samples(ss_writer *w, double *const column[], size_t n, ss_error *err)
 {
     struct stream *s = (struct stream *)w;
-    size_t (*number)(char *, double, int) = s->format->number;
-    const size_t time = s->has_time, cells = s->columns + time;
-    char *to = s->out.buffer + s->out.used, *const last = s->out.buffer + ROOM - SS_NUMBER_MAX;
+    const ss_header *head = s->head;
+    struct piece p;
+    p.to = s;
+    p.used = 0;
     for (size_t i = 0; s->holds == SAMPLES && i < n; i++, s->row++)
-        for (size_t k = 0; k < cells; k++) {
-            if (to > last || s->names != NULL) {
-                s->out.used = (size_t)(to - s->out.buffer);
-                ss_status st = name_cell(s, k < time ? "t" : s->names != NULL ? s->names->column[k - time].name : "",
-                                         k == 0, err);
-                if (st != SS_OK)
-                    return st;
-                to = s->out.buffer;
-            }
-            double x = k < time ? s->start + (double)s->row / s->rate : column[k - time][i];
-            to += number(to, x, k + 1 == cells);
+        for (size_t k = 0, cells = head->n_columns + s->time; k < cells; k++) {
+            double x = k < s->time ? head->start + (double)s->row / head->rate : column[k - s->time][i];
+            begin_cell(&p, k < s->time ? "t" : head->column[k - s->time].name, k == 0);
+            p.used += s->format->number(p.text + p.used, x, k + 1 == cells);
         }
-    s->out.used = (size_t)(to - s->out.buffer);
-    return drain(s, err);
+    return end_piece(&p, err);
 }
 
 static ss_status
 write_coefficients(ss_writer *w, const ss_scale *scale, size_t first, size_t n, const double *c, size_t samples,
                    ss_error *err)
 {
-    struct stream *s = (struct stream *)w;
-    size_t (*number)(char *, double, int) = s->format->number;
-    char m_and_a[2 * SS_NUMBER_MAX] = { 0 }, f[SS_NUMBER_MAX] = { 0 };
-    size_t f_length = number(f, scale->f, 0), length = number(m_and_a, scale->m, 0);
-    ss_status st = SS_OK;
-    length += number(m_and_a + length, scale->a, 0);
-    for (size_t i = 0; s->holds == COEFFICIENTS && st == SS_OK && i < n; i++, c += 2) {
-        double b = ss_scale_b(scale, first + i);
-        int edge = wavelet_edge(scale, first + i, samples, s->rate, s->start, s->gap, s->n_gaps);
-        const double row[COEFFICIENT_COLUMNS] = { scale->m, scale->a, b, scale->f, c[0], c[1], edge };
-        for (int k = 0; s->format->key != NULL && st == SS_OK && k < COEFFICIENT_COLUMNS; k++) {
-            st = name_cell(s, ss_coefficient_columns[k][0], k == 0, err);
-            s->out.used += number(s->out.buffer + s->out.used, row[k], k + 1 == COEFFICIENT_COLUMNS);
+    const struct stream *s = (struct stream *)w;
+    double row[COEFFICIENT_COLUMNS] = { scale->m, scale->a, 0, scale->f };
+    struct {
+        char text[SS_NUMBER_MAX];
+        size_t length;
+    } shared[COEFFICIENT_COLUMNS] = { { .length = 0 } };
+    struct piece p;
+    p.to = s;
+    p.used = 0;
+    for (int k = 0; k < COEFFICIENT_COLUMNS; k++)
+        if (k != 2 && k < 4)
+            shared[k].length = s->format->number(shared[k].text, row[k], 0);
+    for (size_t i = 0; s->holds == COEFFICIENTS && i < n; i++) {
+        row[2] = ss_scale_b(scale, first + i);
+        row[4] = c[2 * i];
+        row[5] = c[2 * i + 1];
+        row[6] = wavelet_edge(scale, first + i, samples, s->head->rate, s->head->start, s->gap, s->n_gaps);
+        for (int k = 0; k < COEFFICIENT_COLUMNS; k++) {
+            begin_cell(&p, ss_coefficient_columns[k][0], k == 0);
+            if (shared[k].length > 0)           /* its constant size lets compilers avoid a call */
+                memcpy(p.text + p.used, shared[k].text, sizeof shared[k].text);
+            p.used += shared[k].length > 0 ? shared[k].length
+                : s->format->number(p.text + p.used, row[k], k + 1 == COEFFICIENT_COLUMNS);
         }
-        if (s->format->key != NULL)
-            continue;
-        char *to = s->out.buffer + s->out.used;
-        memcpy(to, m_and_a, sizeof m_and_a);    /* the constant size lets compilers avoid a call */
-        to += length;
-        to += number(to, b, 0);
-        memcpy(to, f, sizeof f);
-        to += f_length;
-        to += number(to, c[0], 0);
-        to += number(to, c[1], 0);
-        to += number(to, edge, 1);
-        s->out.used = (size_t)(to - s->out.buffer);
-        if (s->out.used > ROOM - LONGEST)
-            st = drain(s, err);
     }
-    return st == SS_OK ? drain(s, err) : st;
+    return end_piece(&p, err);
 }
 
 static void
@@ -133,7 +127,7 @@ write_events(ss_writer *w, const ss_event *event, size_t n, ss_error *err)
     struct stream *s = (struct stream *)w;
     for (size_t i = 0; s->holds == EVENTS && i < n; i++)
         write_event(&s->rows, &event[i]);
-    return ferror(s->out.file) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
+    return ferror(s->file) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
 }
 
 static ss_status
@@ -142,7 +136,7 @@ write_note(ss_writer *w, const char *key, const char *value, ss_error *err)
     const struct stream *s = (struct stream *)w;
     (void)err;
     if (s->format->has_notes)
-        fprintf(s->out.file, "# %s: %s\n", key, value);
+        fprintf(s->file, "# %s: %s\n", key, value);
     return SS_OK;
 }
 
@@ -152,15 +146,17 @@ static ss_status
 end_stream(ss_writer *w, size_t samples, ss_error *err)
 {
     struct stream *s = (struct stream *)w;
+    ss_status st = SS_OK;
     if (s->open_end && s->format->has_notes)
-        fprintf(s->out.file, "# samples: %zu\n", samples);
-    for (int i = 0; s->open_end && s->format->separator == '\0' && i < COEFFICIENT_COLUMNS; i++)
-        s->out.used += s->format->number(s->out.buffer + s->out.used, i == 2 ? (double)(samples - 1) / s->rate : 0,
-                                         i + 1 == COEFFICIENT_COLUMNS);
-    ss_status st = drain(s, err);
-    if (st == SS_OK && s->format->end != NULL)
-        st = s->format->end(s->out.file, s->rate, s->columns, s->row, err);
-    if (st == SS_OK && (fflush(s->out.file) != 0 || ferror(s->out.file)))
+        fprintf(s->file, "# samples: %zu\n", samples);
+    for (int i = 0; s->open_end && s->format->separator == '\0' && i < COEFFICIENT_COLUMNS; i++) {
+        char cell[SS_NUMBER_MAX];
+        double x = i == 2 ? (double)(samples - 1) / s->head->rate : 0;
+        fwrite(cell, 1, s->format->number(cell, x, i + 1 == COEFFICIENT_COLUMNS), s->file);
+    }
+    if (s->format->end != NULL)
+        st = s->format->end(s->file, s->head->rate, s->head->n_columns, s->row, err);
+    if (st == SS_OK && (fflush(s->file) != 0 || ferror(s->file)))
         st = ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO));
     return st;
 }
@@ -169,24 +165,24 @@ static void
 free_stream(ss_writer *w)
 {
     free(((struct stream *)w)->gap);
-    ss_header_free(((struct stream *)w)->names);
+    ss_header_free(((struct stream *)w)->head);
     free(w);
 }
 
 static ss_status
-begin_coefficients(struct stream *s, const ss_header *head, ss_error *err)
+begin_coefficients(struct stream *s, ss_error *err)
 {
     ss_header *own = NULL;
-    const char *open_end = ss_header_find_note(head, "stream");
+    const char *open_end = ss_header_find_note(s->head, "stream");
     s->open_end = open_end != NULL && strcmp(open_end, "yes") == 0;
-    ss_status st = ss_header_gaps(&s->gap, &s->n_gaps, head, NULL);
+    ss_status st = ss_header_gaps(&s->gap, &s->n_gaps, s->head, NULL);
     if (st == SS_OK)
-        st = ss_header_select(&own, head, NULL, 0, 0, NULL);
+        st = ss_header_select(&own, s->head, NULL, 0, 0, NULL);
     for (int i = 0; st == SS_OK && i < COEFFICIENT_COLUMNS; i++)
         st = ss_header_add_column(own, ss_coefficient_columns[i][0], ss_coefficient_columns[i][1], NULL);
     if (st == SS_OK) {
         own->has_time = 0;
-        st = s->format->begin(s->out.file, own, ss_kind_magic(SS_KIND_COEFFICIENTS), err);
+        st = s->format->begin(s->file, own, ss_kind_magic(SS_KIND_COEFFICIENTS), err);
     }
     ss_header_free(own);
     return st;
@@ -200,31 +196,23 @@ new_stream(ss_writer **out_writer, FILE *out, ss_format format, const ss_content
     const ss_header *head = what->grid != NULL && !what->events ? what->grid->head : what->signal;
     if (out == NULL || head == NULL)
         return SS_FAIL_NULL(err);
-    struct stream *s = malloc(sizeof *s);
+    struct stream *s = calloc(1, sizeof *s);
     if (s == NULL)
         return ss_fail_memory(err, NULL);
     s->base.calls = &calls;
     s->holds = what->events ? EVENTS : what->grid != NULL ? COEFFICIENTS : SAMPLES;
     s->format = ss_format_table(format);
-    s->rate = head->rate;
-    s->start = head->start;
-    s->has_time = head->has_time && s->format->has_time ? 1 : 0;
-    s->columns = head->n_columns;
-    s->gap = NULL;
-    s->names = NULL;
-    s->open_end = 0;
-    s->row = s->out.used = 0;
-    s->out.file = out;
-    ss_status st = s->format->key != NULL ? ss_header_copy(&s->names, head, err) : SS_OK;
-    if (st == SS_OK && what->events) {
+    s->time = head->has_time && s->format->has_time;
+    s->file = out;
+    ss_status st = ss_header_copy(&s->head, head, err);
+    if (st == SS_OK && s->holds == EVENTS) {
         if ((st = ss_rows_begin(&s->rows, out, format, SS_KIND_EVENTS, err)) == SS_OK) {
             ss_rows_notes(&s->rows, head, (const char *const []){ NULL });      /* it has none of its own */
             write_event(&s->rows, &(ss_event){ .t = 0 });       /* the names */
         }
-    } else if (st == SS_OK && what->grid != NULL)
-        st = begin_coefficients(s, head, err);
-    else if (st == SS_OK)
-        st = s->format->begin(out, head, ss_kind_magic(SS_KIND_SIGNAL), err);
+    } else if (st == SS_OK)
+        st = s->holds == COEFFICIENTS ? begin_coefficients(s, err)
+            : s->format->begin(out, head, ss_kind_magic(SS_KIND_SIGNAL), err);
     if (st == SS_OK)
         *out_writer = &s->base;
     else
