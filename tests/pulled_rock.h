@@ -4,6 +4,7 @@
 #define PULLED_ROCK_H
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <stickslip.h>
 
@@ -22,6 +23,7 @@ typedef struct rock {
     size_t n;
     int uneven;                 /* 1: rows at random times; 2: a row in ten before the first change */
     double mean;                /* of the friction; 0: .6 */
+    int digits;                 /* of path and time in a file; 0: all */
 } rock;
 
 static inline double
@@ -76,6 +78,14 @@ rock_carry(const rock *r, double u[2], double from, double to)
     }
 }
 
+static inline double
+rock_rounded(const rock *r, double x)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.*g", r->digits > 0 ? r->digits : 17, x);
+    return atof(text);
+}
+
 /* Times, path [um] and friction, as a signal whose last column is the time; NULL: it runs away. */
 static inline ss_signal *
 rock_signal(const rock *r, uint64_t *seed)
@@ -112,9 +122,10 @@ rock_signal(const rock *r, uint64_t *seed)
         double keep = r->by_time ? exp((before - t) / r->memory) : r->memory, x = rock_load(r, t, &speed);
         noise = keep * noise + sqrt(1 - keep * keep) * rock_gauss(seed);
         double off = t > 0.9 * end ? r->jump : 0;
-        s->values[i] = 1e6 * (x + off + (r->path_noise > 0 ? r->path_noise * rock_gauss(seed) : 0));
         s->values[r->n + i] = (r->mean > 0 ? r->mean : 0.6) + r->drift * x + r->a * u[0] + r->b * u[1] + r->noise * noise;
-        s->values[2 * r->n + i] = t;
+        x += off + (r->path_noise > 0 ? r->path_noise * rock_gauss(seed) : 0);
+        s->values[i] = rock_rounded(r, 1e6 * x);
+        s->values[2 * r->n + i] = rock_rounded(r, t);
     }
     return s;
 }

@@ -151,6 +151,14 @@ finds_the_truth_of_simulated_rocks(void **state)
     r.until[3] = 450;
     r.n = 4500;
     answers("three steps", &r, 9, 3, 0);
+    r = (rock){ .a = .0086, .b = .0075, .Dc = 16e-6, .k = 1900, .drift = 3.5, .speed = { 5e-6, 5e-7, 5e-6 },
+                .until = { 75.25, 1131, 1236.4 }, .noise = 3e-5, .n = 745, .digits = 8 };
+    answers("changes between rows half a Dc apart", &r, 12, 2, 0);
+    r.until[2] = 0, r.n = 7000;
+    answers("means of rows", &r, 13, 1, 0);
+    r = (rock){ .a = .016, .b = .0175, .Dc = 2.5e-6, .k = 1600, .speed = { 3e-6, 30e-6, 3e-6, 30e-6 },
+                .until = { 30, 34, 76, 80 }, .noise = 3e-5, .n = 6000, .digits = 9 };
+    answers("slides too short for a soft spring", &r, 14, 3, 0);
     r = usual;                                  /* a shear stress in MPa, of 150 MPa of normal stress */
     r.mean = 90;
     r.a *= 250, r.b *= 250, r.k *= 250, r.drift *= 250, r.noise *= 250;

@@ -28,11 +28,10 @@ typedef struct law {
     const track *record;
     int is_slip;
     wander noise;
-    double *g, *moved;          /* of the unknowns, and of one that is a little larger [n] */
+    double *g, *moved;          /* friction of the unknowns, and if one is a little larger [n] */
     double *rows;               /* [n][UNKNOWNS + 1] */
     ss_range range[UNKNOWNS];
-    double *t, *load;           /* the path: the rows, and corners between them */
-    size_t nodes, inserted[2];  /* inserted: a corner's index among the rows, the last corner first */
+    double *t, *load, *places;  /* the path, and friction along it */
 } law;
 
 static double
@@ -55,9 +54,11 @@ run(const law *l, double *g, const double *u, int moved, double by, double tol)
 {
     const slider s = slider_of(l, u[CRITICAL] + (moved == CRITICAL) * by, exp(u[RING] + (moved == RING) * by),
                                exp(u[STIFFNESS] - u[DIRECT] + (moved == STIFFNESS) * by));
-    ss_status st = ss_slider_run(g, &s, l->t, l->load, l->nodes, tol);
-    for (size_t i = l->nodes - l->record->n; i-- > 0;)      /* the first corner first: others' rows are right then */
-        memmove(g + l->inserted[i], g + l->inserted[i] + 1, (l->nodes - 1 - l->inserted[i]) * sizeof *g);
+    const track *r = l->record;
+    ss_status st = ss_slider_run(l->places, &s, l->t, l->load, r->places, tol);
+    memset(g, 0, r->n * sizeof *g);
+    for (size_t i = 0; i < r->places; i++)
+        g[r->place[i].row] += r->place[i].share * l->places[i];
     return st;
 }
 
@@ -185,12 +186,14 @@ static ss_status
 thin(track *few, const track *r)
 {
     *few = *r;
-    few->n = 0;
+    few->n = few->places = 0;
     few->t = malloc(3 * r->n * sizeof *few->t);
-    if (few->t == NULL)
+    few->place = malloc(r->places * sizeof *few->place);
+    if (few->t == NULL || few->place == NULL)
         return SS_ENOMEM;
     few->load = few->t + r->n;
     few->mu = few->load + r->n;
+    const place *p = r->place, *end = p + r->places;
     for (size_t i = 0, rows; i < r->n; i += rows, few->n++) {
         size_t away = r->n;
         for (size_t k = 0; k < r->changes; k++) {
@@ -202,6 +205,11 @@ thin(track *few, const track *r)
         few->t[few->n] = gsl_stats_mean(r->t + i, 1, rows);
         few->load[few->n] = gsl_stats_mean(r->load + i, 1, rows);
         few->mu[few->n] = gsl_stats_mean(r->mu + i, 1, rows);
+        for (; p < end && p->row < i + rows; p++)
+            if (rows == 1)
+                few->place[few->places++] = (place){ p->t, p->load, few->n, p->share };
+        if (rows > 1)
+            few->place[few->places++] = (place){ few->t[few->n], few->load[few->n], few->n, 1 };
     }
     return SS_OK;
 }
@@ -210,28 +218,17 @@ static ss_status
 make_room(law *l, const track *r, int is_slip)
 {
     *l = (law){ .record = r, .is_slip = is_slip, .noise = { 0, 1, 0 } };
-    const size_t n = r->n + 2;
-    l->g = malloc((4 + UNKNOWNS + 1) * n * sizeof *l->g);
+    l->g = malloc(((2 + UNKNOWNS + 1) * r->n + 3 * r->places) * sizeof *l->g);
     if (l->g == NULL)
         return SS_ENOMEM;
-    l->moved = l->g + n;
-    l->t = l->moved + n;
-    l->load = l->t + n;
-    l->rows = l->load + n;
-    memcpy(l->t, r->t, r->n * sizeof *l->t);
-    memcpy(l->load, r->load, r->n * sizeof *l->load);
-    l->nodes = r->n;
-    for (size_t k = r->changes; k-- > 0;) {
-        size_t at = 0;
-        while (at < r->n && r->t[at] < r->corner[k].t)
-            at++;
-        if (isnan(r->corner[k].t))
-            continue;
-        memmove(l->t + at + 1, l->t + at, (l->nodes - at) * sizeof *l->t);
-        memmove(l->load + at + 1, l->load + at, (l->nodes - at) * sizeof *l->load);
-        l->t[at] = r->corner[k].t;
-        l->load[at] = r->corner[k].load;
-        l->inserted[l->nodes++ - r->n] = at;
+    l->moved = l->g + r->n;
+    l->rows = l->moved + r->n;
+    l->t = l->rows + (UNKNOWNS + 1) * r->n;
+    l->load = l->t + r->places;
+    l->places = l->load + r->places;
+    for (size_t i = 0; i < r->places; i++) {
+        l->t[i] = r->place[i].t;
+        l->load[i] = r->place[i].load;
     }
     return SS_OK;
 }
@@ -262,6 +259,7 @@ begin(start *best, const track *record, int is_slip, double stiffness, const ss_
         }
     }
     free(few.t);
+    free(few.place);
     free(l.g);
     return st;
 }

@@ -5,17 +5,20 @@
 #include <stddef.h>
 #include <stickslip/steps.h>
 
-/* A place of the load point between two rows; NaN: there is none. */
-typedef struct corner {
+/* Where the load point is at a time, between which it moves evenly; and the part that friction there has in a row. */
+typedef struct place {
     double t, load;
-} corner;
+    size_t row;
+    double share;
+} place;
 
 /* A record around one step. */
 typedef struct track {
     size_t n;
     double *t, *load, *mu;      /* [s], [m] from the first row on, friction */
     size_t change[2], changes;  /* rows at which the speed changes */
-    corner corner[2];           /* of each change */
+    place *place;               /* in the order of time */
+    size_t places;
     double speed;               /* before them [m/s] > 0 */
 } track;
 

@@ -25,7 +25,7 @@
 #include "io/record.h"
 #include "signal/header.h"
 
-enum { FEWEST = 4, MOST = 4096 };      /* rows of a line, and of a step */
+enum { FEWEST = 4, MOST = 4096, CLOSE = 1024 };   /* rows of a line, of a step, and behind a corner that are no means */
 enum { ROOM = 8 };              /* columns of a step: time, friction, two paths, two laws along either */
 #define CHANGE 0.2              /* the least relative change of speed */
 #define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
@@ -41,8 +41,11 @@ const char *const ss_step_law_names[SS_STEP_LAWS] = { "aging", "slip" };
 typedef struct slide {
     double meets;               /* when it meets the one before [s] */
     double speed, weight;       /* mean of its lines, by how well each shows it */
-    corner begins[2];           /* on a chain of lines, and of slides: where it begins */
 } slide;
+
+typedef struct corner {
+    double t, load;
+} corner;
 
 typedef struct line {
     size_t first, end;          /* rows */
@@ -60,6 +63,8 @@ typedef struct path {
     double start;               /* x of the first row, as recorded */
     line *line;
     size_t lines, room;
+    corner *corner[2];          /* of either chain, where noise explains the links beside it */
+    size_t corners[2];
 } path;
 
 /* The line through the rows first ... end - 1; returns the sum of squares about it. */
@@ -76,31 +81,71 @@ fit_line(const path *p, size_t first, size_t end, line *out)
     return left;
 }
 
+/* The two lines that fit these rows best; returns their squares, infinite if there are too few rows. */
+static double
+fit_two(const path *p, size_t first, size_t end, line *left, line *right)
+{
+    double least = INFINITY;
+    for (size_t i = first + FEWEST; i + FEWEST <= end; i++) {
+        line a = { 0 }, b = { 0 };
+        double squares = fit_line(p, first, i, &a) + fit_line(p, i, end, &b);
+        if (squares < least) {
+            least = squares;
+            *left = a;
+            *right = b;
+        }
+    }
+    return least;
+}
+
+/* Does another line save squares that noise does not explain, be it that of the path or what is left of n rows? */
+static int
+is_needed(const path *p, double without, double with, size_t n)
+{
+    return without - with > fmax(p->saved, SIGNIFICANT * with / (double)n);
+}
+
 /* Cut these rows into lines, in order.  SS_ENOMEM. */
 static ss_status
 cut(path *p, size_t first, size_t end)
 {
-    line whole = { 0 }, a = { 0 }, left = { 0 }, right = { 0 };
-    double least = fit_line(p, first, end, &whole);
-    for (size_t i = first + FEWEST; i + FEWEST <= end; i++) {
-        double squares = fit_line(p, first, i, &left) + fit_line(p, i, end, &right);
-        if (squares < least) {
-            least = squares;
-            a = left;
-        }
-    }
-    if (a.end > 0 && whole.squares - least > p->saved) {
-        ss_status st = cut(p, first, a.end);
-        return st == SS_OK ? cut(p, a.end, end) : st;
+    line whole = { 0 }, left, right;
+    fit_line(p, first, end, &whole);
+    if (is_needed(p, whole.squares, fit_two(p, first, end, &left, &right), end - first)) {
+        ss_status st = cut(p, first, left.end);
+        return st == SS_OK ? cut(p, left.end, end) : st;
     }
     line *more = ss_list_room(p->line, &p->room, p->lines, sizeof *more);
     if (more == NULL)
         return SS_ENOMEM;
     p->line = more;
-    const double lasts = p->t[end - 1] - p->t[first];
-    whole.of = (slide){ .speed = whole.speed, .weight = (double)(end - first) * lasts * lasts };
     more[p->lines++] = whole;
     return SS_OK;
+}
+
+static void
+drop(path *p, size_t i, size_t n)
+{
+    memmove(&p->line[i], &p->line[i + n], (p->lines - i - n) * sizeof *p->line);
+    p->lines -= n;
+}
+
+/* Leave out lines that only stand where a cut was not the best beside the next one. */
+static void
+prune(path *p)
+{
+    for (size_t k = 1; k + 1 < p->lines;) {
+        line *l = &p->line[k], left, right;
+        double three = l[-1].squares + l->squares + l[1].squares;
+        if (is_needed(p, fit_two(p, l[-1].first, l[1].end, &left, &right), three, l[1].end - l[-1].first)) {
+            k++;
+            continue;
+        }
+        l[-1] = left;
+        l[1] = right;
+        drop(p, k, 1);
+        k -= k > 1;
+    }
 }
 
 /* Are the n lines behind this one a ramp to the next, short beside both, in time and way? */
@@ -132,13 +177,6 @@ difference(const line *l)
     return by / fmax(CHANGE * fmax(fabs(l[0].speed), fabs(l[1].speed)), 5 * (l[0].error + l[1].error));
 }
 
-static void
-drop(path *p, size_t i, size_t n)
-{
-    memmove(&p->line[i], &p->line[i + n], (p->lines - i - n) * sizeof *p->line);
-    p->lines -= n;
-}
-
 /* Join lines of like speed, the likest first, and leave out ramps: then the change between their neighbours ends
  * where the next line begins. */
 static void
@@ -167,16 +205,23 @@ join(path *p)
     }
 }
 
-/* The variance of the path's noise, from how far rows are off their neighbours; room for n numbers. */
+/* The square of how far a row is off its neighbours, in parts of the path's noise. */
 static double
-noise_of(const path *p, double *off)
+off_neighbours(const path *p, size_t i)
 {
-    for (size_t i = 1; i + 1 < p->n; i++) {
-        double w = (p->t[i + 1] - p->t[i]) / (p->t[i + 1] - p->t[i - 1]);
-        double by = p->x[i] - w * p->x[i - 1] - (1 - w) * p->x[i + 1];
-        off[i - 1] = by * by / (1 + w * w + (1 - w) * (1 - w));
-    }
-    return ss_wander_variance(off, p->n - 2);
+    double w = (p->t[i + 1] - p->t[i]) / (p->t[i + 1] - p->t[i - 1]);
+    double by = p->x[i] - w * p->x[i - 1] - (1 - w) * p->x[i + 1];
+    return by * by / (1 + w * w + (1 - w) * (1 - w));
+}
+
+/* The variance of the path's noise along a line, which that of its stamps makes larger the faster it is. */
+static double
+noise_along(const path *p, const line *l)
+{
+    double sum = 0, n = 0;
+    for (size_t i = l->first + FEWEST; i + FEWEST < l->end; i++, n++)
+        sum += off_neighbours(p, i);
+    return fmax(p->noise, n > 2 * FEWEST ? sum / n : 0);
 }
 
 /* The time at which a line meets the next, if that is near, else that of the next one's first row. */
@@ -222,9 +267,12 @@ chain(path *p)
                 sum[k + 1] += u * x;
                 squares += off * off;
             }
+            if (pass == 0)
+                continue;
             const int fitted = fits;
-            fits = pass == 1 && squares < NOISY * p->noise * (double)(end - i) + p->rounding;
-            p->line[k].of.begins[0] = fits && fitted ? (corner){ from, p->start + at[k] } : (corner){ NAN, NAN };
+            fits = squares < NOISY * noise_along(p, &p->line[k]) * (double)(end - i) + p->rounding;
+            if (fits && fitted)
+                p->corner[0][p->corners[0]++] = (corner){ from, p->start + at[k] };
             for (size_t j = i; fits && j < end; j++) {
                 double u = (p->t[j] - from) / (to - from);
                 p->moved[0][j] = p->start + (1 - u) * at[k] + u * at[k + 1];
@@ -247,7 +295,8 @@ slide_on(path *p)
     for (size_t k = 0, i = 0; k < p->lines; k++) {
         slide *s = &p->line[k].of;
         const double to = end_of(p, k);
-        s->begins[1] = (corner){ s->meets, x };
+        if (k > 0)
+            p->corner[1][p->corners[1]++] = (corner){ s->meets, x };
         for (; i < p->n && (p->t[i] < to || k + 1 == p->lines); i++)
             p->moved[1][i] = x + s->speed * (p->t[i] - s->meets);
         x += s->speed * (to - s->meets);
@@ -264,7 +313,9 @@ find_lines(path *p)
         return SS_ENOMEM;
     p->moved[1] = p->moved[0] + p->n;
     const double from = p->start = p->x[0], way = p->x[p->n - 1] - from;
-    p->noise = noise_of(p, p->moved[0]);
+    for (size_t i = 1; i + 1 < p->n; i++)
+        p->moved[0][i] = off_neighbours(p, i);
+    p->noise = ss_wander_variance(p->moved[0] + 1, p->n - 2);
     memset(p->sum[0], 0, sizeof p->sum[0]);
     for (size_t i = 0; i < p->n; i++) {
         long double t = p->t[i] - p->t[0], x = p->x[i] - from, of[5] = { t, x, t * t, t * x, x * x };
@@ -274,10 +325,18 @@ find_lines(path *p)
     p->rounding = 10 * DBL_EPSILON * way * way;
     p->saved = fmax(SIGNIFICANT * p->noise, p->rounding);
     ss_status st = cut(p, 0, p->n);
-    for (size_t k = 0; st == SS_OK && k < p->lines; k++)
-        p->line[k].of.meets = k > 0 ? joint(p, &p->line[k - 1]) : p->t[0];
     if (st == SS_OK)
-        st = chain(p);
+        prune(p);
+    for (size_t k = 0; st == SS_OK && k < p->lines; k++) {
+        line *l = &p->line[k];
+        const double lasts = p->t[l->end - 1] - p->t[l->first];
+        l->of = (slide){ k > 0 ? joint(p, l - 1) : p->t[0], l->speed, (double)(l->end - l->first) * lasts * lasts };
+    }
+    p->corner[0] = st == SS_OK ? malloc(2 * p->lines * sizeof *p->corner[0]) : NULL;
+    if (p->corner[0] == NULL)
+        return SS_ENOMEM;
+    p->corner[1] = p->corner[0] + p->lines;
+    st = chain(p);
     if (st == SS_OK) {
         join(p);
         slide_on(p);
@@ -287,55 +346,96 @@ find_lines(path *p)
 
 /* --- a step -------------------------------------------------------------------------------- */
 
+/* Where a slide may be steady. */
+static size_t
+middle(const path *p, size_t k)
+{
+    return k > 0 ? (p->line[k].first + p->line[k].end) / 2 : 0;
+}
+
+/* The slide from which on the load point's way to the middle of a later one is known: that before it, or itself. */
+static size_t
+history(const path *p, int which, size_t at)
+{
+    const size_t held = at > 1 && p->line[at - 1].speed < STILL * p->line[at - 2].speed;
+    const size_t before = at > 0 ? at - 1 - held : 0;
+    const double from = p->t[middle(p, before)], to = p->t[middle(p, at)];
+    size_t corners = 0;
+    for (size_t i = 0; i < p->corners[which]; i++)
+        corners += p->corner[which][i].t > from && p->corner[which][i].t < to;
+    return corners >= at - before ? before : at;
+}
+
+/* Lay the places of the load point under the rows of a step, each the mean of so many of the record.  Where
+ * friction bends, at and behind corners, each row has a place, else each mean.  The slide before is passed first,
+ * since it may not be forgotten in the middle of this one.  SS_ENOMEM. */
+static ss_status
+lay(track *r, const path *p, int which, size_t at, size_t apart)
+{
+    const corner *c = p->corner[which], *end = c + p->corners[which];
+    const size_t from = history(p, which, at), first = middle(p, at), start = middle(p, from);
+    const double *x = p->moved[which];
+    place *to = r->place = malloc((r->n * apart + p->corners[which] + 1) * sizeof *to);
+    if (to == NULL)
+        return SS_ENOMEM;
+    while (c < end && c->t <= p->t[start])
+        c++;
+    if (from < at)
+        *to++ = (place){ p->t[start], x[start] - x[first], 0, 0 };
+    for (size_t i = 0, bent = 0, k = first; i < r->n; i++, bent -= bent < apart ? bent : apart) {
+        const size_t behind = first + (i + 1) * apart;
+        if (c < end && c->t <= p->t[behind - 1])
+            bent = CLOSE;
+        if (bent == 0) {
+            *to++ = (place){ r->t[i], r->load[i], i, 1 };
+            k = behind;
+        }
+        for (; k < behind; k++) {
+            for (; c < end && c->t <= p->t[k]; c++)
+                *to++ = (place){ c->t, c->load - x[first], i, 0 };
+            *to++ = (place){ p->t[k], x[k] - x[first], i, 1 / (double)apart };
+        }
+    }
+    r->places = (size_t)(to - r->place);
+    line of = { 0 };
+    fit_line(p, start, p->line[from].end, &of);
+    r->speed = which == 0 ? of.speed : p->line[from].of.speed;
+    if (from == at && which == 0)           /* the slide begins on its line, not on its first row's noise */
+        r->place->load = of.from + of.speed * (r->place->t - p->t[0] - of.at) - (x[first] - p->start);
+    return SS_OK;
+}
+
 /* Take the rows of a step, whose slide begins with line `at`; the next `lines` belong to it. */
 static ss_status
-take(ss_step *s, track r[2], const path *p, const double *mu, size_t at, size_t lines, double sign)
+take(ss_step *s, track r[2], const path *p, const double *mu, size_t at, size_t lines)
 {
     const line *l = &p->line[at];
-    const size_t first = at > 0 ? (l->first + l->end) / 2 : l->first, all = l[lines - 1].end - first;
-    const size_t apart = all / MOST + 1, n = all / apart;
-    double *room = malloc(ROOM * n * sizeof *room);
+    const size_t first = middle(p, at), all = l[lines - 1].end - first, apart = all / MOST + 1, n = all / apart;
+    double *room = calloc(ROOM * n, sizeof *room);
     if (room == NULL)
         return SS_ENOMEM;
     s->n = n;
     s->t = room;
     s->friction = room + n;
-    line whole = { 0 };
-    fit_line(p, first, l->end, &whole);
-    for (int k = 0; k < 2; k++)
-        r[k] = (track){ .n = n, .t = s->t, .mu = s->friction, .load = room + (2 + (size_t)k) * n,
-                        .changes = lines - 1, .speed = sign * (k == 0 ? whole.speed : l->of.speed) };
-    s->path = r[0].load;
-    for (size_t i = 0; i < n; i++) {
-        double sum[4] = { 0 };
-        for (size_t k = first + i * apart; k < first + (i + 1) * apart; k++) {
-            const double of[4] = { p->t[k], mu[k], sign * (p->moved[0][k] - p->x[first]),
-                                   sign * (p->moved[1][k] - p->x[first]) };
-            for (int j = 0; j < 4; j++)
-                sum[j] += of[j] / (double)apart;
-        }
+    for (size_t i = 0; i < n * apart; i++) {
+        const double of[4] = { p->t[first + i], mu[first + i], p->moved[0][first + i] - p->moved[0][first],
+                               p->moved[1][first + i] - p->moved[1][first] };
         for (size_t j = 0; j < 4; j++)
-            room[j * n + i] = sum[j];
+            room[j * n + i / apart] += of[j] / (double)apart;
     }
-    for (int which = 0; which < 2; which++) {
-        track *to = &r[which];
-        for (size_t k = 1; k < lines; k++) {        /* means of rows are too coarse for corners */
-            const corner c = l[k].of.begins[which];
-            to->change[k - 1] = (l[k].first - first) / apart;
-            const int is_between = apart == 1 && c.t > s->t[0] && c.t < s->t[n - 1];
-            to->corner[k - 1] = (corner){ is_between ? c.t : NAN, sign * (c.load - p->x[first]) };
-        }
-        double middle = 0, mean = 0;            /* the slide begins on its line, not on its first row's noise */
-        for (size_t i = 0; i < to->change[0]; i++) {
-            middle += (s->t[i] - s->t[0]) / (double)to->change[0];
-            mean += to->load[i] / (double)to->change[0];
-        }
-        to->load[0] = mean - to->speed * middle;
+    ss_status st = SS_OK;
+    for (int k = 0; st == SS_OK && k < 2; k++) {
+        r[k] = (track){ .n = n, .t = s->t, .mu = s->friction, .load = room + (2 + (size_t)k) * n,
+                        .changes = lines - 1 };
+        for (size_t j = 1; j < lines; j++)
+            r[k].change[j - 1] = (l[j].first - first) / apart;
+        st = lay(&r[k], p, k, at, apart);
     }
+    s->path = r[0].load;
     s->at = p->t[l[1].first];
-    s->before = r->speed;
-    s->after = sign * l[lines - 1].speed;
-    return SS_OK;
+    s->before = l->speed;
+    s->after = l[lines - 1].speed;
+    return st;
 }
 
 /* What a step does not show is no number. */
@@ -434,23 +534,25 @@ read_columns(double *x, double *mu, const ss_signal *signal, size_t load, size_t
     return SS_OK;
 }
 
-/* Fit each step of a path.  sign: the direction of the slide. */
+/* Fit each step of a path. */
 static ss_status
-fit_steps(ss_steps *out, const path *p, const double *mu, double sign, double stiffness)
+fit_steps(ss_steps *out, const path *p, const double *mu, double stiffness)
 {
     out->step = calloc(p->lines + 1, sizeof *out->step);
     ss_status st = out->step != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0, lines; st == SS_OK && i + 1 < p->lines; i += lines - 1) {
         const line *l = &p->line[i];
         int holds = fabs(l[1].speed) < STILL * fabs(l[0].speed) && i + 2 < p->lines;
-        track record[2];
+        track record[2] = { { 0 } };
         lines = holds ? 3 : 2;
-        if (!(sign * l->speed > 0) || (i > 0 && fabs(l->speed) < STILL * fabs(l[-1].speed)))
+        if (!(l->speed > 0) || (i > 0 && fabs(l->speed) < STILL * fabs(l[-1].speed)))
             continue;
         ss_step *s = &out->step[out->n++];
-        st = take(s, record, p, mu, i, lines, sign);
+        st = take(s, record, p, mu, i, lines);
         if (st == SS_OK)
             st = judge(s, record, NOISY * p->noise + p->rounding, stiffness);
+        free(record[0].place);
+        free(record[1].place);
     }
     return st;
 }
@@ -474,16 +576,19 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
     ss_status st = SS_ENOMEM;
     if (x != NULL && made != NULL)
         st = read_columns(x, mu, signal, load, friction, normal, err);
+    for (size_t i = 0, back = st == SS_OK && n > 0 && x[n - 1] < x[0]; back && i < n; i++)
+        x[i] = -x[i];           /* the slide goes forwards */
     if (st == SS_OK && n >= 2 * FEWEST)
         st = find_lines(&p);
     if (st == SS_OK)
-        st = fit_steps(made, &p, mu, n > 0 && x[n - 1] < x[0] ? -1 : 1, stiffness);
+        st = fit_steps(made, &p, mu, stiffness);
     if (st == SS_OK && made->n == 0)
         st = ss_fail(err, SS_EDATA, "the speed of column %s has no step behind a steady slide",
                      signal->head->column[load].name);
     free(p.sum);
     free(p.line);
     free(p.moved[0]);
+    free(p.corner[0]);
     free(x);
     if (st == SS_OK)
         *out = made;
