@@ -13,14 +13,6 @@
 
 enum { PIECE = 1 << 18 };               /* so many numbers are in memory, or one row */
 
-static ss_status
-fail_file(const struct kept *k, ss_error *err)
-{
-    char name[300];
-    snprintf(name, sizeof name, "%.200s: a temporary file for its rows", k->name);
-    return ss_fail_errno(err, name, errno);
-}
-
 /* Open a file without a name, which nobody else sees and which ends with the process. */
 static FILE *
 open_nameless(const char *first)
@@ -51,30 +43,35 @@ rows_in_piece(const struct kept *k)
 void
 ss_kept_begin(struct kept *k, const char *name, const char *folder, size_t width)
 {
-    k->name = name;
-    k->folder = folder;
-    k->width = width;
-    k->n = k->held = 0;
-    k->is_away = 0;
+    *k = (struct kept){ .name = name, .folder = folder, .width = width, .block = k->block, .room = k->room,
+                        .file = k->file };
     if (k->file != NULL)
         rewind(k->file);
+}
+
+ss_status
+ss_kept_check(const struct kept *k, ss_error *err)
+{
+    char name[300];
+    snprintf(name, sizeof name, "%.200s: a temporary file for its rows", k->name);
+    return k->error == 0 ? SS_OK : ss_fail_errno(err, name, k->error);
 }
 
 /* Write the block to the file, and empty it. */
 static ss_status
 write_block(struct kept *k, ss_error *err)
 {
-    if (k->file == NULL && (k->file = open_nameless(k->folder)) == NULL)
-        return fail_file(k, err);
-    if (fwrite(k->block, k->width * sizeof *k->block, k->held, k->file) != k->held)
-        return fail_file(k, err);
+    if ((k->file == NULL && (k->file = open_nameless(k->folder)) == NULL)
+        || fwrite(k->block, k->width * sizeof *k->block, k->held, k->file) != k->held || fflush(k->file) != 0)
+        k->error = errno;
     k->is_away = 1;
+    k->first = k->n;
     k->held = 0;
-    return SS_OK;
+    return ss_kept_check(k, err);
 }
 
 ss_status
-ss_kept_new(struct kept *k, double **row, ss_error *err)
+ss_kept_add(struct kept *k, const double row[], ss_error *err)
 {
     ss_status st = k->held == rows_in_piece(k) ? write_block(k, err) : SS_OK;
     if (st != SS_OK)
@@ -83,38 +80,26 @@ ss_kept_new(struct kept *k, double **row, ss_error *err)
     if (more == NULL)
         return ss_fail_memory(err, k->name);
     k->block = more;
-    *row = more + k->held * k->width;
+    memcpy(more + k->held++ * k->width, row, k->width * sizeof *more);
+    k->n++;
     return SS_OK;
 }
 
 ss_status
 ss_kept_end(struct kept *k, ss_error *err)
 {
-    ss_status st = k->is_away ? write_block(k, err) : SS_OK;
-    if (st == SS_OK && k->is_away && fflush(k->file) != 0)
-        return fail_file(k, err);
-    return st;
+    return k->is_away ? write_block(k, err) : SS_OK;
 }
 
-ss_status
-ss_kept_rewind(struct kept *k, ss_error *err)
+const double *
+ss_kept_fetch(struct kept *k, uint64_t i)
 {
-    k->at = 0;
-    k->given = 0;
-    if (!k->is_away)
-        return SS_OK;
-    k->held = 0;
-    return fseeko(k->file, 0, SEEK_SET) == 0 ? SS_OK : fail_file(k, err);
-}
-
-ss_status
-ss_kept_fetch(struct kept *k, ss_error *err)
-{
-    uint64_t left = k->n - k->given, piece = rows_in_piece(k);
-    size_t n = (size_t)(left < piece ? left : piece);
-    k->at = 0;
-    k->held = n;
-    return fread(k->block, k->width * sizeof *k->block, n, k->file) == n ? SS_OK : fail_file(k, err);
+    size_t piece = rows_in_piece(k);
+    if (i >= k->n || k->error != 0)
+        return NULL;
+    k->first = i / piece * piece;
+    k->held = k->n - k->first < piece ? (size_t)(k->n - k->first) : piece;
+    return ss_kept_copy(k, k->first, k->held, k->block, NULL) == SS_OK ? ss_kept_row(k, i) : NULL;
 }
 
 ss_status
@@ -124,8 +109,8 @@ ss_kept_copy(struct kept *k, uint64_t first, size_t n, double *to, ss_error *err
     if (!k->is_away)
         memcpy(to, k->block + first * k->width, n * bytes);
     else if (fseeko(k->file, (off_t)(first * bytes), SEEK_SET) != 0 || fread(to, bytes, n, k->file) != n)
-        return fail_file(k, err);
-    return SS_OK;
+        k->error = errno != 0 ? errno : EIO;
+    return ss_kept_check(k, err);
 }
 
 void
@@ -141,25 +126,27 @@ ss_kept_free(struct kept *k)
 struct kept_source {
     ss_source base;
     struct kept rows;
+    uint64_t next;
 };
 
 static ss_status
 give_kept(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
-    struct kept *kept = &((struct kept_source *)s)->rows;
+    struct kept_source *k = (struct kept_source *)s;
     const double *row;
-    ss_status st = SS_OK;
-    for (; *n < max && (st = ss_kept_next(kept, &row, err)) == SS_OK && row != NULL; ++*n)
-        for (size_t c = 0; c < kept->width; c++)
+    for (; *n < max && (row = ss_kept_row(&k->rows, k->next)) != NULL; ++*n, k->next++)
+        for (size_t c = 0; c < k->rows.width; c++)
             if (column[c] != NULL)
                 column[c][*n] = row[c];
-    return st;
+    return ss_kept_check(&k->rows, err);
 }
 
 static ss_status
 rewind_kept(ss_source *s, ss_error *err)
 {
-    return ss_kept_rewind(&((struct kept_source *)s)->rows, err);
+    (void)err;
+    ((struct kept_source *)s)->next = 0;
+    return SS_OK;
 }
 
 static int
@@ -180,16 +167,15 @@ static ss_status
 fill(struct kept *kept, ss_source *from, ss_error *err)
 {
     size_t columns = from->head->n_columns, piece = ss_source_piece(from), n = 1;
-    double **column = ss_columns_new(columns, piece), *row;
+    double **column = ss_columns_new(columns + 1, piece), *row = column != NULL ? column[columns] : NULL;
     ss_status st = column != NULL ? SS_OK : ss_fail_memory(err, from->name);
     while (st == SS_OK && n > 0) {
         st = ss_source_rows(from, column, piece, &n, err);
-        for (size_t i = 0; st == SS_OK && i < n; i++)
-            if ((st = ss_kept_new(kept, &row, err)) == SS_OK) {
-                for (size_t c = 0; c < columns; c++)
-                    row[c] = column[c][i];
-                ss_kept_add(kept);
-            }
+        for (size_t i = 0; st == SS_OK && i < n; i++) {
+            for (size_t c = 0; c < columns; c++)
+                row[c] = column[c][i];
+            st = ss_kept_add(kept, row, err);
+        }
     }
     free(column);
     return st == SS_OK ? ss_kept_end(kept, err) : st;
@@ -207,6 +193,5 @@ ss_source_keep(ss_source **s, const char *folder, ss_error *err)
         return SS_ENOMEM;
     k->base.rewinds = 1;
     ss_kept_begin(&k->rows, k->base.name, folder, k->base.head->n_columns);
-    ss_status st = fill(&k->rows, k->base.inner, err);
-    return st == SS_OK ? ss_kept_rewind(&k->rows, err) : st;
+    return fill(&k->rows, k->base.inner, err);
 }

@@ -258,15 +258,11 @@ name_columns(struct sheet *t, const struct npy *a)
 static ss_status
 keep_values(struct input *in, const struct npy *a, struct kept *value, ss_error *err)
 {
-    double *x;
+    double x;
     ss_status st = SS_OK;
-    for (uint64_t i = 0; st == SS_OK && i < a->rows * a->columns; i++) {
-        st = ss_kept_new(value, &x, err);
-        if (st == SS_OK)
-            st = read_record(in, a, i, x, err);
-        if (st == SS_OK)
-            ss_kept_add(value);
-    }
+    for (uint64_t i = 0; st == SS_OK && i < a->rows * a->columns; i++)
+        if ((st = read_record(in, a, i, &x, err)) == SS_OK)
+            st = ss_kept_add(value, &x, err);
     return st == SS_OK ? ss_kept_end(value, err) : st;
 }
 

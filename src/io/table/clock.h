@@ -7,11 +7,21 @@
 
 #define CLOCK_TOLERANCE 0.1     /* a stamp may be off by so many sample periods */
 
-/* The stamps of a table, in its column of times; NONE: there is none. */
+/* A pass through the stamps of a table, from zeros behind the first two on. */
 struct stamps {
-    struct sheet *t;
+    struct kept *rows;
     struct time_column of;
+    size_t n;                   /* stamps so far */
+    double stamp, before;       /* the last one, and that before it */
+    unsigned long line;         /* where it stands */
+    uint64_t row;
 };
+/* Go to the next stamp.  Returns 0 if there is none. */
+int ss_stamps_next(struct stamps *s);
+/* SS_ECLOCK: they are fewer than two, or do not ascend. */
+ss_status ss_stamps_check(struct stamps s, ss_error *err);
+/* The median of steps, or of some thousand that lie evenly among them, of stamps that ascend. */
+double ss_usual_step(struct stamps s);
 
 /* The samples of rows: one after the other, or, where some may be missing, as the steps of their stamps show.
  * Begin with the usual step, or 0, and zeros. */
@@ -29,10 +39,8 @@ struct clock {
     size_t n;                   /* stamps */
     double last;                /* the number of the last sample */
 };
-/* Find the uniform clock of the stamps, which must ascend. */
-ss_status ss_find_clock(const struct stamps *s, struct clock *clock, ss_error *err);
-/* The median step of stamps, which must ascend. */
-ss_status ss_usual_step(const struct stamps *s, double *usual, ss_error *err);
+/* Find the uniform clock of stamps that ascend. */
+ss_status ss_find_clock(struct stamps s, struct clock *clock, ss_error *err);
 /* The error of a stamp that comes so many sample periods too late. */
 ss_status ss_clock_refuse(const char *name, unsigned long line, double late, ss_error *err);
 /* The fewest digits of a number that is x, but for 1e-9 of it. */

@@ -400,20 +400,21 @@ ss_text_check_times(struct text *x, ss_error *err)
 {
     struct sheet *t = &x->t;
     const double *row, step = t->counted.increment;
-    double from_times = 0, from_numbers = 0;
+    double first = 0, from_times = 0, from_numbers = 0;
     size_t other = t->n_columns;
     int each = x->labview && x->layout == LAYOUT_MULTI;
     if (!(step > 0) || t->counted.numbered || t->column[0].kind != COLUMN_NUMBERS || t->opts->time != NULL
         || t->opts->rate > 0)
         return SS_OK;
-    ss_status st = ss_kept_rewind(&t->rows, err);
-    for (double i = 0; st == SS_OK && (st = ss_kept_next(&t->rows, &row, err)) == SS_OK && row != NULL; i++) {
+    for (uint64_t i = 0; (row = ss_kept_row(&t->rows, i)) != NULL; i++) {
         for (size_t c = 2; each && c < other; c += 2)
             if (row[0] < row[c] || row[0] > row[c])
                 other = c;
-        from_times = fmax(from_times, fabs(row[0] - t->first[0] - i * step));
-        from_numbers = fmax(from_numbers, fabs(row[0] - t->first[0] - i));
+        first = i == 0 ? row[0] : first;
+        from_times = fmax(from_times, fabs(row[0] - first - (double)i * step));
+        from_numbers = fmax(from_numbers, fabs(row[0] - first - (double)i));
     }
+    ss_status st = ss_kept_check(&t->rows, err);
     if (st == SS_OK && each && other < t->n_columns)
         return ss_fail(err, SS_EDATA, "%s: column %zu: the times of its channel are not those of the first; make a file "
                        "of each", t->name, other + 1);
@@ -422,7 +423,7 @@ ss_text_check_times(struct text *x, ss_error *err)
     if (st != SS_OK || x->first_x == 0 || (x->labview && x->layout == LAYOUT_NO))
         return st;
     if (from_times <= fmax(MOST_APART * step, MOST_ROUNDING)) {
-        t->counted.origin = t->first[0];
+        t->counted.origin = first;
     } else if (from_numbers > 1e-6) {           /* nor does it number the rows */
         t->counted.increment = 0;
         return name_first_time(t);

@@ -18,6 +18,7 @@ struct samples {
     struct timing timing;
     size_t *of, n;              /* the columns of the table that are given */
     struct sample_count count;
+    uint64_t next;              /* the row to be read next */
     const double *row;          /* that is given next, as this sample; NULL: it is not read yet */
     size_t sample, given;       /* given: samples so far */
     ss_progress progress;
@@ -32,37 +33,46 @@ give_row(const struct samples *s, const double *row, double *const column[], siz
             column[c][at] = row != NULL ? row[s->of[c]] : NAN;
 }
 
+/* Let s->row be the next row that has a time; NULL: there is none, or, unless it may wait, none is there yet. */
+static ss_status
+read_row(struct samples *s, int may_wait, ss_error *err)
+{
+    size_t time = s->timing.time.column;
+    do {
+        if (s->live != NULL && s->next == s->rows->n) {
+            ss_status st = may_wait ? s->live->later->next(s->live, err) : SS_OK;
+            if (st != SS_OK || s->next == s->rows->n)
+                return st;
+        }
+        s->row = ss_kept_row(s->rows, s->next);
+        s->next += s->row != NULL;
+    } while (s->row != NULL && time != NONE && isnan(s->row[time]));
+    ss_progress_at(&s->progress, (1 + (double)s->next / (double)s->rows->n) / 2);
+    return ss_kept_check(s->rows, err);
+}
+
 static ss_status
 give_samples(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct samples *s = (struct samples *)base;
     const struct time_column *time = &s->timing.time;
-    ss_status st = SS_OK;
     for (; *n < max; ++*n, s->given++) {
-        if (s->row == NULL && s->live != NULL && s->rows->at == s->rows->held && *n > 0)
-            break;
         if (s->row == NULL) {
-            if (s->live != NULL && s->rows->at == s->rows->held)
-                st = s->live->later->next(s->live, err);
-            if (st == SS_OK)
-                st = ss_sheet_next(s->rows, time->column, &s->row, err);
+            ss_status st = read_row(s, *n == 0, err);
             if (st != SS_OK || s->row == NULL)
-                break;
+                return st;
             /* a row that came after its clock was found must be on it, but for what a stamp may be off */
             double late = s->live == NULL || time->column == NONE ? 0
                 : (ss_sheet_stamp(time, s->row) - base->head->start) * base->head->rate - (double)s->given;
-            if (!(fabs(late) <= CLOCK_TOLERANCE)) {
-                st = ss_clock_refuse(base->name, (unsigned long)s->row[s->rows->width - 1], late, err);
-                break;
-            }
+            if (!(fabs(late) <= CLOCK_TOLERANCE))
+                return ss_clock_refuse(base->name, (unsigned long)s->row[s->rows->width - 1], late, err);
             s->sample = s->timing.usual > 0 ? ss_clock_sample(&s->count, ss_sheet_stamp(time, s->row)) : s->given;
         }
         int there = s->sample == s->given;
         give_row(s, there ? s->row : NULL, column, *n);
         s->row = there ? NULL : s->row;
     }
-    ss_progress_at(&s->progress, (1 + (double)s->rows->given / (double)s->rows->n) / 2);
-    return st;
+    return SS_OK;
 }
 
 /* Each row as it is, and its time in the last column. */
@@ -70,14 +80,11 @@ static ss_status
 give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct samples *s = (struct samples *)base;
-    const struct time_column *time = &s->timing.time;
-    const double *row;
     ss_status st = SS_OK;
-    for (; *n < max && (st = ss_sheet_next(s->rows, time->column, &row, err)) == SS_OK && row != NULL; ++*n) {
-        give_row(s, row, column, *n);
-        column[s->n - 1][*n] = ss_sheet_stamp(time, row);
+    for (; *n < max && (st = read_row(s, 1, err)) == SS_OK && s->row != NULL; ++*n) {
+        give_row(s, s->row, column, *n);
+        column[s->n - 1][*n] = ss_sheet_stamp(&s->timing.time, s->row);
     }
-    ss_progress_at(&s->progress, (1 + (double)s->rows->given / (double)s->rows->n) / 2);
     return st;
 }
 
@@ -85,17 +92,18 @@ static ss_status
 rewind_samples(ss_source *base, ss_error *err)
 {
     struct samples *s = (struct samples *)base;
+    (void)err;
     s->count = (struct sample_count){ .usual = s->timing.usual };
     s->row = NULL;
-    s->given = 0;
-    return ss_kept_rewind(s->rows, err);
+    s->next = s->given = 0;
+    return SS_OK;
 }
 
 static int
 samples_wait(const ss_source *base)
 {
     const struct samples *s = (const struct samples *)base;
-    return s->rows->at == s->rows->held && s->live->later->waits(s->live);
+    return s->next == s->rows->n && s->live->later->waits(s->live);
 }
 
 static void
@@ -150,17 +158,15 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     s->timing = timing;
     s->progress = progress;
     s->rows = &t->rows;
-    if (t->later != NULL) {
-        s->live = t;
-    } else {
+    s->live = t->later != NULL ? t : NULL;
+    if (s->live == NULL) {
         s->own = t->rows;
         s->own.name = s->base.name;
         s->rows = &s->own;
         t->rows = (struct kept){ 0 };
     }
+    rewind_samples(&s->base, err);
     st = choose_columns(s, t, stamped, err);
-    if (st == SS_OK)
-        st = rewind_samples(&s->base, err);
     if (st == SS_OK && resampled)
         st = ss_source_resample(out, t->names->rate, 1, timing.longest, err);
     return st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE ? ss_source_fill_gaps(out, t->opts->gaps, err) : st;

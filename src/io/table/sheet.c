@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
-#include <string.h>
 #include "base/number.h"
 
 ss_status
@@ -29,7 +28,6 @@ ss_sheet_free(struct sheet *t)
     ss_kept_free(&t->rows);
     ss_header_free(t->names);
     free(t->column);
-    free(t->first);
 }
 
 void
@@ -45,49 +43,22 @@ ss_sheet_warn(const struct sheet *t, ss_status about, const char *format, ...)
     t->opts->warn(about, text.text, t->opts->user);
 }
 
-/* --- adding rows --------------------------------------------------------------------------- */
-
-ss_status
-ss_sheet_new_row(struct sheet *t, unsigned long line, double **row, ss_error *err)
-{
-    ss_status st = ss_kept_new(&t->rows, row, err);
-    if (st == SS_OK)
-        (*row)[t->n_columns] = (double)line;
-    return st;
-}
-
-ss_status
-ss_sheet_add_row(struct sheet *t, const double *row, ss_error *err)
-{
-    ss_kept_add(&t->rows);
-    if (t->rows.n > 1)
-        return SS_OK;
-    free(t->first);
-    t->first = malloc((t->n_columns + 1) * sizeof *t->first);
-    if (t->first == NULL)
-        return ss_fail_memory(err, t->name);
-    memcpy(t->first, row, (t->n_columns + 1) * sizeof *t->first);
-    return SS_OK;
-}
-
 ss_status
 ss_sheet_add_columns(struct sheet *t, double *const column[], size_t first, size_t n, ss_error *err)
 {
-    ss_status st = SS_OK;
-    double *row;
+    double *row = malloc((t->n_columns + 1) * sizeof *row);
+    ss_status st = row != NULL ? SS_OK : ss_fail_memory(err, t->name);
     for (size_t i = 0; st == SS_OK && i < n; i++) {
-        st = ss_sheet_new_row(t, (unsigned long)(first + i + 1), &row, err);
         for (size_t c = 0; st == SS_OK && c < t->n_columns; c++) {
-            row[c] = column[c][i];
-            if (isfinite(row[c]))
-                continue;
-            row[c] = NAN;
-            if (t->opts->gaps == SS_GAPS_REFUSE)
+            row[c] = isfinite(column[c][i]) ? column[c][i] : NAN;
+            if (isnan(row[c]) && t->opts->gaps == SS_GAPS_REFUSE)
                 st = ss_fail(err, SS_EGAPS, "%s: row %zu, column %s: not a finite number", t->name, first + i + 1,
                              t->names->column[c].name);
         }
+        row[t->n_columns] = (double)(first + i + 1);
         if (st == SS_OK)
-            st = ss_sheet_add_row(t, row, err);
+            st = ss_kept_add(&t->rows, row, err);
     }
+    free(row);
     return st;
 }

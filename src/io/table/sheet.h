@@ -30,7 +30,7 @@ struct sheet_column {
 struct sheet;
 /* A table whose rows come as they are read. */
 struct sheet_calls {
-    /* Replace the rows by those that have arrived, at least one unless there are no more. */
+    /* Drop the rows, and add those that have arrived, at least one unless there are no more. */
     ss_status (*next)(struct sheet *t, ss_error *err);
     int (*waits)(const struct sheet *t);
     void (*free)(struct sheet *t);
@@ -50,7 +50,6 @@ struct sheet {
     const char *clue;           /* the line above the data that may give the rate, or NULL; its number */
     unsigned long clue_line;
     struct kept rows;           /* each of them the values of all columns and the number of its line */
-    double *first;              /* the first of them */
     const struct sheet_calls *later;    /* NULL: all rows are there */
 };
 
@@ -59,10 +58,7 @@ ss_status ss_sheet_begin(struct sheet *t, const char *name, const ss_read_opts *
 void ss_sheet_begin_rows(struct sheet *t);
 void ss_sheet_free(struct sheet *t);
 
-/* Room for the values of one more row, and, when they are there, add it. */
-ss_status ss_sheet_new_row(struct sheet *t, unsigned long line, double **row, ss_error *err);
-ss_status ss_sheet_add_row(struct sheet *t, const double *row, ss_error *err);
-/* Or add n rows of a table that is no text, from the first-th on, and check that they are numbers. */
+/* Add n rows of a table that is no text, from the first-th on, and check that they are numbers. */
 ss_status ss_sheet_add_columns(struct sheet *t, double *const column[], size_t first, size_t n, ss_error *err);
 
 /* Pass a warning to the caller's function, if there is one. */
@@ -88,16 +84,6 @@ ss_status ss_sheet_find_clock(struct sheet *t, struct timing *timing, ss_error *
 ss_status ss_sheet_is_plain(struct sheet *t, int *yes);
 /* Mark the columns that the caller does not need, as far as the names tell, before the first row is read. */
 ss_status ss_sheet_mark_spare(struct sheet *t, ss_error *err);
-/* After ss_kept_end: the next row that has a time in this column (NONE: the next), or NULL. */
-static inline ss_status
-ss_sheet_next(struct kept *rows, size_t time, const double **row, ss_error *err)
-{
-    ss_status st;
-    do
-        st = ss_kept_next(rows, row, err);
-    while (*row != NULL && time != NONE && isnan((*row)[time]));
-    return st;
-}
 static inline double
 ss_sheet_stamp(const struct time_column *c, const double *row)
 {

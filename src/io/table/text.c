@@ -243,8 +243,8 @@ read_cell(struct text *x, size_t i, double *value, ss_error *err)
         return SS_OK;
     enum cell_kind kind = ss_cell_read(cell, x->separator, value);
     if (c->kind == COLUMN_TEXT)
-        return kind != CELL_NUMBER ? SS_OK : ss_fail(err, SS_EGAPS, "%s:%.0f: column %s: '' is not a number",
-                                                     x->t.name, x->t.first[x->t.n_columns], name);
+        return kind != CELL_NUMBER ? SS_OK : ss_fail(err, SS_EGAPS, "%s:%lu: column %s: '' is not a number",
+                                                     x->t.name, x->first, name);
     int missing = kind == CELL_NOT_FINITE || cell[0] == '\0';
     if (c->spare && kind != CELL_NUMBER) {
         if (!c->incomplete)
@@ -293,20 +293,23 @@ read_plain(const struct text *x, const char *p, double *row)
 static ss_status
 append_row(struct text *x, const char *line, ss_error *err)
 {
-    double *row;
     size_t columns = x->t.n_columns;
-    ss_status st = ss_sheet_new_row(&x->t, x->in->line, &row, err);
-    if (st == SS_OK && !read_plain(x, line, row)) {
+    x->first = x->t.rows.n == 0 ? x->in->line : x->first;
+    x->row[columns] = (double)x->in->line;
+    if (!read_plain(x, line, x->row)) {
         size_t n = ss_text_split(x, line, x->separator);
         if (n == NONE)
             return SS_ENOMEM;
         if (n != columns && !(n == columns + 1 && (x->comments || x->labview)))
             return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", x->t.name, x->in->line, columns,
                            PLURAL(columns), n);
-        for (size_t i = 0; st == SS_OK && i < columns; i++)
-            st = read_cell(x, i, &row[i], err);
+        for (size_t i = 0; i < columns; i++) {
+            ss_status st = read_cell(x, i, &x->row[i], err);
+            if (st != SS_OK)
+                return st;
+        }
     }
-    return st == SS_OK ? ss_sheet_add_row(&x->t, row, err) : st;
+    return ss_kept_add(&x->t.rows, x->row, err);
 }
 
 /* --- one table ----------------------------------------------------------------------------- */
@@ -318,6 +321,7 @@ find_kinds(struct text *x, const char *row)
     size_t numbers, n = x->t.n_columns;
     char *shape = ss_text_shape(x, row, x->separator, &numbers);
     struct sheet_column *column = x->t.column = calloc(n, sizeof *column);
+    x->row = malloc((n + 1) * sizeof *x->row);
     for (size_t i = 0; shape != NULL && column != NULL && i < n; i++) {
         unsigned parts = ss_stamp_read(x->cell[i]).parts;
         int empty = shape[i] == 'e' && !ss_text_may_lack(x);
@@ -325,7 +329,7 @@ find_kinds(struct text *x, const char *row)
         column[i].begins_empty = empty && !x->labview;
         column[i].stamps = ss_stamp_column(parts);
     }
-    ss_status st = shape != NULL && column != NULL ? SS_OK : SS_ENOMEM;
+    ss_status st = shape != NULL && column != NULL && x->row != NULL ? SS_OK : SS_ENOMEM;
     free(shape);
     return st;
 }
@@ -498,8 +502,10 @@ clear_table(struct text *x)
 {
     struct sheet *t = &x->t;
     free(t->column);
+    free(x->row);
     ss_header_free(t->names);
     t->column = NULL;
+    x->row = NULL;
     ss_header_new(&t->names, 0, 0, NULL);
     t->n_columns = x->next_columns;
     t->counted.increment = 0;
@@ -512,11 +518,12 @@ clear_table(struct text *x)
 
 /* Append a description of a table: "2 from line 17, 1200 rows of t Fx Fz". */
 static void
-list_table(const struct sheet *t, size_t number, char *list, size_t size)
+list_table(const struct text *x, size_t number, char *list, size_t size)
 {
+    const struct sheet *t = &x->t;
     size_t n = strlen(list);
-    int more = snprintf(list + n, size - n, "%s%zu from line %.0f, %llu row%s of", number > 1 ? "; " : "",
-                        number, t->first[t->n_columns], (unsigned long long)t->rows.n, PLURAL(t->rows.n));
+    int more = snprintf(list + n, size - n, "%s%zu from line %lu, %llu row%s of", number > 1 ? "; " : "",
+                        number, x->first, (unsigned long long)t->rows.n, PLURAL(t->rows.n));
     for (size_t c = 0; c < t->n_columns && more >= 0 && n + (size_t)more < size; c++) {
         n += (size_t)more;
         more = snprintf(list + n, size - n, " %s", t->names->column[c].name);
@@ -535,7 +542,7 @@ read_tables(struct text *x, char *row, int more, ss_error *err)
             st = read_line(x, &row, &more, err);
         if (st != SS_OK || number == wanted || (row == NULL && number == 1 && wanted == 0))
             return st;
-        list_table(&x->t, number, list, sizeof list);
+        list_table(x, number, list, sizeof list);
         if (row == NULL)
             return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", x->t.name, number, PLURAL(number), list);
         st = clear_table(x);
@@ -554,7 +561,7 @@ text_waits(const struct sheet *t)
     return ss_input_waits(((const struct text *)t)->in);
 }
 
-/* Replace the rows by those that have arrived, at least one unless the text ends. */
+/* Drop the rows, and add those that have arrived, at least one unless the text ends. */
 static ss_status
 next_rows(struct sheet *t, ss_error *err)
 {
@@ -562,7 +569,8 @@ next_rows(struct sheet *t, ss_error *err)
     char *row = NULL;
     int more = 1;
     ss_status st = SS_OK;
-    t->rows.at = t->rows.held = 0;
+    t->rows.first = t->rows.n;
+    t->rows.held = 0;
     while (st == SS_OK && more && (t->rows.held == 0 || ss_input_has_line(x->in)))
         st = read_line(x, &row, &more, err);
     return st == SS_OK && row != NULL ? ss_fail(err, SS_ETABLES, "%s:%lu: another table begins here", t->name,
@@ -621,6 +629,7 @@ free_text(struct sheet *t)
     struct text *x = (struct text *)t;
     drop_lines(x);
     free(x->head);
+    free(x->row);
     free(x->cell);
     free(x->copy);
     ss_sheet_free(t);

@@ -20,6 +20,8 @@ struct text {
     char separator;             /* '\t' ';' ',' or ' ' (any blanks); '\0': one column */
     size_t next_columns;        /* columns and separator of the next table in the file */
     char next_separator;
+    unsigned long first;        /* the line of the first row */
+    double *row;                /* that is read */
     char *copy, **cell;         /* of the line that was split last, and its cells */
     size_t copy_room, cell_room;
     struct text_line *head;     /* lines above the data */

@@ -25,14 +25,12 @@ enum { ROUND = 4 };             /* digits of a rate in days; those of scattered 
 
 /* Find the clock on which the rows are samples. */
 static ss_status
-find_uniform(struct sheet *t, const struct stamps *s, double taken, double digit, double *usual, ss_error *err)
+find_uniform(struct sheet *t, struct stamps s, double taken, double digit, double *usual, ss_error *err)
 {
     int gaps = t->opts->gaps != SS_GAPS_REFUSE;
     struct clock clock = { .taken = taken, .digit = gaps ? 0 : digit };
-    ss_status st = gaps ? ss_usual_step(s, usual, err) : SS_OK;
-    clock.usual = *usual;
-    if (st == SS_OK)
-        st = ss_find_clock(s, &clock, err);
+    clock.usual = *usual = gaps ? ss_usual_step(s) : 0;
+    ss_status st = ss_find_clock(s, &clock, err);
     t->names->rate = clock.rate;
     t->names->start = clock.start;
     if (st == SS_OK && (clock.last + 1) / GAPS_MOST >= (double)clock.n + 1)
@@ -40,32 +38,20 @@ find_uniform(struct sheet *t, const struct stamps *s, double taken, double digit
     return st;
 }
 
-/* The clock is opts->resample; check that the stamps can be resampled to it.  *own becomes their rate. */
+/* The clock is opts->resample; check that the stamps can be resampled to it. */
 static ss_status
-find_resampled(struct sheet *t, const struct stamps *s, double *longest, double *own, ss_error *err)
+find_resampled(struct sheet *t, struct stamps s, double usual, double *longest, ss_error *err)
 {
-    double usual, last = 0, start = 0, gap = -1, rate = t->names->rate = t->opts->resample;
-    size_t n = 0;
-    const double *row = NULL;
-    ss_status st = ss_usual_step(s, &usual, err);
-    if (st == SS_OK)
-        st = ss_kept_rewind(&t->rows, err);
+    double start = 0, gap = -1, rate = t->names->rate = t->opts->resample;
     *longest = LONGEST * usual;
-    for (; st == SS_OK && (st = ss_sheet_next(&t->rows, s->of.column, &row, err)) == SS_OK && row != NULL; n++) {
-        double stamp = ss_sheet_stamp(&s->of, row);
-        if (n == 0)
-            start = stamp;
-        else if (gap < 0 && stamp - last > *longest)
-            gap = ss_resample_gap(last - start, stamp - start, rate);
-        last = stamp;
-    }
-    if (st != SS_OK)
-        return st;
-    *own = 1 / usual;
-    t->names->start = start;
-    double samples = ss_resample_count(start, last, rate);
-    if (samples > MOST_SAMPLES && samples / MOST_PER_STAMP >= (double)n + 1)
-        return ss_fail(err, SS_EDATA, "%s: %zu time stamps would become %.15g samples at %g Hz", t->name, n, samples,
+    while (ss_stamps_next(&s))
+        if (s.n == 1)
+            t->names->start = start = s.stamp;
+        else if (gap < 0 && s.stamp - s.before > *longest)
+            gap = ss_resample_gap(s.before - start, s.stamp - start, rate);
+    double samples = ss_resample_count(start, s.stamp, rate);
+    if (samples > MOST_SAMPLES && samples / MOST_PER_STAMP >= (double)s.n + 1)
+        return ss_fail(err, SS_EDATA, "%s: %zu time stamps would become %.15g samples at %g Hz", t->name, s.n, samples,
                        rate);
     if (t->opts->gaps != SS_GAPS_REFUSE || gap < 0)
         return SS_OK;
@@ -78,17 +64,17 @@ static ss_status
 read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, ss_error *err)
 {
     const struct time_column *time = &timing->time;
-    const struct stamps s = { t, *time };
-    if (t->opts->resample > 0)
-        return find_resampled(t, &s, &timing->longest, own, err);
-    if (t->opts->stamps) {
-        double step = 0;
-        ss_status done = ss_usual_step(&s, &step, err);
-        t->names->rate = *own = 1 / step;
-        t->names->start = ss_sheet_stamp(time, t->first);
-        return done;
+    struct stamps s = { &t->rows, *time, .n = 0 };
+    ss_status st = ss_stamps_check(s, err);
+    if (st != SS_OK)
+        return st;
+    if (t->opts->resample > 0 || t->opts->stamps) {
+        double usual = ss_usual_step(s);
+        *own = t->names->rate = 1 / usual;
+        t->names->start = ss_sheet_stamp(time, ss_kept_row(&t->rows, 0));
+        return t->opts->resample > 0 ? find_resampled(t, s, usual, &timing->longest, err) : SS_OK;
     }
-    ss_status st = find_uniform(t, &s, time->zero * time->factor / time->divisor, digit, &timing->usual, err);
+    st = find_uniform(t, s, time->zero * time->factor / time->divisor, digit, &timing->usual, err);
     *own = t->names->rate;
     return st;
 }
@@ -151,32 +137,16 @@ check_rate(const struct sheet *t, const char *name, const struct time_unit *give
     return SS_OK;
 }
 
-/* Find what 1 in the last digit of the times in a column of days is [s], as far as doubles have it. */
-static ss_status
-find_digit(struct sheet *t, size_t column, double zero, double *digit, ss_error *err)
+/* What 1 in the last digit of the times in a column of days is [s], as far as doubles have it. */
+static double
+find_digit(struct sheet *t, size_t column, double zero)
 {
     const double *row;
     double days = 1, apart = nextafter(fabs(zero), INFINITY) - fabs(zero);
-    ss_status st = ss_kept_rewind(&t->rows, err);
-    while (st == SS_OK && (st = ss_sheet_next(&t->rows, column, &row, err)) == SS_OK && row != NULL)
+    for (uint64_t i = 0; (row = ss_kept_row(&t->rows, i)) != NULL; i++)
         while (days > 10 * apart && fabs(remainder(row[column] - zero, days)) > apart)
             days /= 10;
-    *digit = SECONDS_A_DAY * days;
-    return st;
-}
-
-/* The status of times without a unit, from `first` on, that are not uniform: SS_EUNIT if their usual step shows
- * days. */
-static ss_status
-doubt_stamps(struct sheet *t, const struct time_column *time, double first, ss_status refused, ss_error *err)
-{
-    double step;
-    const struct stamps s = { t, *time };
-    ss_status st = ss_is_day_now(first) ? ss_usual_step(&s, &step, NULL) : refused;
-    if (st == SS_ENOMEM)
-        return ss_fail_memory(err, t->name);
-    return st == SS_OK && are_days(first, 1 / step)
-        ? ask_about_days(t, t->names->column[time->column].name, first, 1 / step, err) : refused;
+    return SECONDS_A_DAY * days;
 }
 
 static ss_status
@@ -185,15 +155,12 @@ read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
     const struct time_unit *known;
     const char *name = t->names->column[column].name;
     int is_date = 0;
-    double rate = 0, first, digit = 0;
+    double rate = 0, first = NAN;
     char text[32];
-    const double *row = NULL;
-    ss_status st = ss_kept_rewind(&t->rows, err);
-    if (st == SS_OK)
-        st = ss_sheet_next(&t->rows, column, &row, err);
-    first = st == SS_OK && row != NULL ? row[column] : NAN;
-    if (st == SS_OK)
-        st = unit_of_times(t, column, first, &known, &is_date, err);
+    const double *row;
+    for (uint64_t i = 0; isnan(first) && (row = ss_kept_row(&t->rows, i)) != NULL; i++)
+        first = row[column];
+    ss_status st = unit_of_times(t, column, first, &known, &is_date, err);
     if (st != SS_OK)
         return st;
     if (is_date)
@@ -202,13 +169,14 @@ read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
     const struct time_unit *unit = known != NULL ? known : ss_time_unit_find("s");
     double zero = ss_time_unit_zero(unit, first);
     timing->time = (struct time_column){ column, t->counted.origin, zero, unit->factor, unit->divisor };
-    if (fabs(zero) > 0 && (st = find_digit(t, column, zero, &digit, err)) != SS_OK)
-        return st;
-    st = read_stamps(t, timing, digit, &rate, err);
+    st = read_stamps(t, timing, fabs(zero) > 0 ? find_digit(t, column, zero) : 0, &rate, err);
     if (st == SS_OK)
         st = check_rate(t, name, known, first, rate, err);
-    else if ((st == SS_EUNEVEN || st == SS_EGAPS) && known == NULL)
-        st = doubt_stamps(t, &timing->time, first, st, err);
+    else if ((st == SS_EUNEVEN || st == SS_EGAPS) && known == NULL) {
+        rate = 1 / ss_usual_step((struct stamps){ &t->rows, timing->time, .n = 0 });
+        if (are_days(first, rate))
+            st = ask_about_days(t, name, first, rate, err);
+    }
     if (st != SS_OK || !(fabs(zero) > 0))
         return st;
     snprintf(text, sizeof text, "%.0f", zero);  /* the day from whose midnight on seconds are counted */
@@ -400,16 +368,13 @@ ss_sheet_is_plain(struct sheet *t, int *yes)
     ss_read_opts quiet = *t->opts;
     struct sheet first = *t;
     struct timing timing;
-    const double *row;
     quiet.warn = NULL;
     first.opts = &quiet;
     ss_status st = ss_sheet_find_clock(&first, &timing, NULL);
     size_t time = timing.time.column;
     *yes = st == SS_OK && (time == NONE || (t->column[time].kind == COLUMN_NUMBERS && timing.time.zero == 0));
-    if (!*yes || time == NONE)
-        return st == SS_ENOMEM ? st : SS_OK;
-    ss_kept_rewind(&first.rows, NULL);
-    for (uint64_t i = 0; ss_sheet_next(&first.rows, time, &row, NULL) == SS_OK && row != NULL; i++)
-        *yes &= ss_is_on_clock(ss_sheet_stamp(&timing.time, row), t->names->rate, t->names->start, i);
-    return SS_OK;
+    struct stamps s = { &first.rows, timing.time, .n = 0 };
+    while (*yes && time != NONE && ss_stamps_next(&s))
+        *yes = ss_is_on_clock(s.stamp, t->names->rate, t->names->start, s.n - 1);
+    return st == SS_ENOMEM ? st : SS_OK;
 }
