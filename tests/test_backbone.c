@@ -210,6 +210,37 @@ parameters_and_scenes_are_those_of_the_rig(void **state)
     }
 }
 
+/* Contacts so stiff that some five cycles of slip take nine tenths of the amplitude, then stick. */
+static void
+sliders_that_stop_soon_are_known(void **state)
+{
+    static const char *const names[] = { "contact_stiffness_ratio", "slip_amplitude", "damping_ratio" };
+    static const decay fast[] = {
+        { .w = 20 * PI, .amplitude = 1, .zeta = .002L, .sliders = 1, .kappa = { .5L }, .d = { .1L } },
+        { .w = 20 * PI, .amplitude = 1, .zeta = .001L, .sliders = 1, .kappa = { .8L }, .d = { .06L } },
+        { .w = 20 * PI, .amplitude = 1, .zeta = .004L, .sliders = 1, .kappa = { .3L }, .d = { .08L } } };
+    (void)state;
+    seed = 23;
+    for (size_t i = 0; i < sizeof fast / sizeof *fast; i++)
+        for (int draw = 0; draw < 3; draw++) {
+            const double truth[] = { (double)fast[i].kappa[0], (double)fast[i].d[0], (double)fast[i].zeta };
+            decay_turn *turn;
+            size_t turns;
+            ss_signal *signal = record(&fast[i], draw == 0 ? .001 : .005, "m", &turn, &turns);
+            ss_backbone *b = find(signal, NULL);
+            assert_int_equal(b->n_mechanisms, 1);
+            assert_int_equal(b->mechanism[0], SS_JENKINS);
+            for (size_t k = 0; k < 3; k++) {
+                double error = 0, value = number(b, names[k], &error);
+                print_message("%s %g +- %g, truth %g\n", names[k], value, error, truth[k]);
+                assert_true(fabs(value - truth[k]) <= 4 * error && error < .1 * truth[k]);
+            }
+            ss_backbone_free(b);
+            ss_signal_free(signal);
+            free(turn);
+        }
+}
+
 static void
 what_is_no_decay_has_no_rows(void **state)
 {
@@ -415,6 +446,7 @@ main(void)
         cmocka_unit_test(long_decays_without_noise_have_their_damping),
         cmocka_unit_test(rows_are_smooth_where_the_amplitude_grows), cmocka_unit_test(bands_hold_and_mechanisms_are_named),
         cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
+        cmocka_unit_test(sliders_that_stop_soon_are_known),
         cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),
         cmocka_unit_test(levels_give_the_damping), cmocka_unit_test(long_blocks_and_two_modes),
         cmocka_unit_test(velocity_and_acceleration_have_the_frequency),

@@ -77,8 +77,8 @@ spectrum(real_fft *f, size_t *size, const double *x, size_t n, int is_tapered)
 }
 
 /* The frequencies of the strongest lines in n samples, per sample, weighed by frequency, as slow changes have more
- * power than they matter, each other than those before; near > 0: the second is the strongest about it.  0: there is
- * none. */
+ * power than they matter, each other than those before; near > 0: the second is the strongest about it.  0: there
+ * is none. */
 static ss_status
 find_lines(double line[TRIED + 1], const double *x, size_t n, double near)
 {
@@ -188,8 +188,8 @@ find_extent(decay *d)
     return SS_OK;
 }
 
-/* 1: from a sample on the amplitude grows from what it is there by as much as noise never makes it grow, and slower
- * than a blow does. */
+/* 1: from a sample on the amplitude grows from what it is there by as much as noise never makes it grow, and
+ * slower than a blow does. */
 static int
 grows(const decay *d, size_t from, double amplitude)
 {
@@ -719,7 +719,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
         return ss_fail(err, SS_EINVAL, "an option is out of its range");
     const ss_column *of = &signal->head->column[column];
     decay_source source = { signal->head->rate, !(own.level_frequency > 0), of->unit, ss_motion_order(of->unit),
-                            derivative_of(of), own.mass, 1, NULL };
+                            derivative_of(of), own.mass, 1, { 0 }, NULL };
     if (own.mass > 0 && source.order < 0)
         return ss_fail(err, SS_EINVAL, "a mass needs a column in m, m/s or m/s^2, and %s is in '%s'", of->name,
                        of->unit);
@@ -742,6 +742,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     }
     if (st == SS_OK && b->why == NULL)
         st = (b->row = calloc(d.n_blocks, sizeof *b->row)) != NULL ? SS_OK : SS_ENOMEM;
+    source.beside = d.beside;
     if (st == SS_OK && b->why == NULL)
         st = ss_mechanism_find(b, d.block, d.n_blocks, &source);
     if (st == SS_OK && b->why == NULL)

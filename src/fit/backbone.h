@@ -29,6 +29,8 @@ typedef struct block {
     double cov[TRACKS][3];      /* variance of y, covariance, that of the rate; for white noise of variance 1 */
     double left, free;          /* sum of squares of the residuals, and degrees of freedom */
     double noise;               /* variance of the residuals here */
+    bend about;                 /* what it was fitted from, in so many steps */
+    int steps;
     bend at;                    /* what is smooth through the blocks, at t */
     double error[TRACKS];       /* of its rates */
     double lag, lag_error;      /* what damping takes from the square of w */
@@ -36,10 +38,10 @@ typedef struct block {
 } block;
 
 /* Fit samples first ... end - 1 of x, NaN where they are missing, starting from a bend, beside a line, the second
- * and third harmonic and the lines; is_near: in one step.  0: there are too few samples, or no oscillation is
- * found. */
+ * and third harmonic and the lines; in so many steps, or steps 0: until it is near.  0: there are too few samples,
+ * or no oscillation is found. */
 int ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, const lines *beside,
-                 int is_near);
+                 int steps);
 
 /* What the smooth oscillation leaves of a block's samples, 0 for those that are missing. */
 void ss_block_leave(const block *b, const double *x, double *left);
@@ -94,6 +96,7 @@ typedef struct decay_source {
     int derivative;             /* the same in any unit, or by its name; -1: it is not known */
     double mass;                /* [kg]; 0: unknown */
     double unit;                /* of amplitudes in the column's unit: a power of 2, near the largest */
+    lines beside;               /* in all blocks */
     const char *beats;          /* not NULL: no mechanism, as the amplitude grows again */
 } decay_source;
 

@@ -137,9 +137,10 @@ sweep(double a[ROOM][ROOM], size_t m)
 }
 
 int
-ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, const lines *beside, int is_near)
+ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, const lines *beside, int steps)
 {
     double a[ROOM][ROOM], half = (double)(end - first) / 2;
+    const bend about = start;
     for (int i = 0; i < STEPS; i++) {
         size_t harmonics = start.w * 3 < 3 ? 2 : start.w * 2 < 3 ? 1 : 0, m = 6 + 2 * (harmonics + beside->n);
         memset(a, 0, sizeof a);
@@ -156,7 +157,8 @@ ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, co
         const double way[TRACKS][2] = { { re, im }, { -im, re } };
         *b = (block){ .first = first, .end = end, .t = (double)(first + end - 1) / 2, .left = fmax(a[m][m], 0),
                       .free = (double)(n - m), .y = { log(power) / 2, carg(c) },
-                      .rate = { creal(step) - start.s, cimag(step) + start.w }, .at = start };
+                      .rate = { creal(step) - start.s, cimag(step) + start.w },
+                      .about = about, .steps = i + 1, .at = start };
         for (int k = 0; k < TRACKS; k++)
             for (size_t p = 0; p < 2; p++)
                 for (size_t q = 0; q < 2; q++) {
@@ -165,14 +167,14 @@ ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, co
                     b->cov[k][1] += by * a[p][q + 2] / half;
                     b->cov[k][2] += by * a[p + 2][q + 2] / half / half;
                 }
-        if (is_near)
+        if (i + 1 == steps)
             return 1;
         double ease = far > 1 ? 1 / far : 1;
         start.s -= creal(step) * ease;
         start.w += cimag(step) * ease;
         if (!(start.w > 0) || start.w > 3)
             return 0;
-        if (pow(far, 4) < .01 * b->cov[LEVEL][2] * half * half * b->left / b->free || far < 1e-6)
+        if (steps == 0 && (pow(far, 4) < .01 * b->cov[LEVEL][2] * half * half * b->left / b->free || far < 1e-6))
             return 1;
     }
     return 0;

@@ -6,9 +6,10 @@
  * blocks, and the parameters are fitted to the blocks' amplitudes, phases and rates.
  *
  * All this is good to some percent of s, as the motion is no sine: that is a random walk of ln A and of the phase
- * beside the errors of the blocks, and the filter that knows both makes residuals of variance 1.  The mechanism
- * with the lowest BIC is named if chi^2 allows it; it cannot be told from a rival that is nearly as good, unless
- * the rival contains it. */
+ * beside the errors of the blocks, and the filter that knows both makes residuals of variance 1.  If a slider is
+ * best, its exact motion is cut into the same blocks and fitted instead, as it may slip for a cycle only.
+ * The mechanism with the lowest BIC is named if chi^2 allows it; it cannot be told from a rival that is nearly as
+ * good, unless the rival contains it. */
 #include "fit/backbone.h"
 
 #include <complex.h>
@@ -18,14 +19,16 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/least.h"
+#include "fit/samples.h"
 
 enum { LN_A, TURN, W, S, C, SHAPE, BEND, RATIO, UNKNOWNS };     /* at the start; w; viscous s; of the mechanism */
-enum { TAKEN = 64 };            /* samples of the smooth curve to begin from */
+enum { TAKEN = 64, EXACT_MOST = 1 << 15 };      /* samples of the smooth curve to begin from; of an exact motion */
 #define TWO_MODES SS_MECHANISMS                 /* no mechanism, but a rival of all */
 #define TRUST .05               /* of s: the error of what is said of it */
 #define SLIPPING .2             /* of what rates change by in half a period: the error of what a slider, which
                                    slips in a part of it, is said to do */
 #define HARMONIC .15            /* times a contact's stiffness re the spring's: the error that a sine makes */
+#define STUCK .2                /* of ln A below where a slider sticks, its last slip is past */
 #define NEARLY 6.0              /* of BIC: the better one cannot be told */
 #define CHANCE .25              /* probability of such a gain of chi^2: one that contains the better one is a
                                    rival then */
@@ -64,7 +67,10 @@ typedef struct trial {
     size_t n, tracks;
     double w;                   /* about which w is counted, in units of the mean damping */
     struct told *told;          /* n to work with */
-    int derivative;             /* of x that is seen, as in decay_source */
+    const block *b;             /* n, from which points are */
+    double unit, ln_a;          /* mean damping, per sample; ln of the start's amplitude */
+    int is_exact;               /* 1: a slider's blocks are those of its motion */
+    const decay_source *source;
 } trial;
 
 /* s = u[S] + u[C] g(A), with a factor near 1 for Jenkins, whose spring of stiffness u[C] of->w re the mass makes
@@ -116,8 +122,8 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
     double fall = s[1] / (1 + (w[2] - w[0]) / (4 * h) / w[1]), s_dot = -fall * (s[2] - s[0]) / (2 * h);
     lag[0] = of->kind == SS_JENKINS || of->kind == SS_MICROSLIP ? s[1] * s[1] + s_dot
         : of->kind == SS_QUADRATIC ? .183 * s[1] * s[1] : u[S] * u[S] + 3 * (s[1] - u[S]) * s[1];
-    lag[0] -= given_back(of->derivative, s_dot);
-    lag[1] = not_known(of->derivative, s_dot);
+    lag[0] -= given_back(of->source->derivative, s_dot);
+    lag[1] = not_known(of->source->derivative, s_dot);
     rate[LEVEL] = -fmin(fall, 1e4);
     rate[PHASE] = sqrt(fmax(w[1] * w[1] - lag[0], 0)) - of->w;
 }
@@ -143,28 +149,86 @@ tell_two(told *out, const trial *of, const double u[UNKNOWNS])
     }
 }
 
+/* Carry ln A and the phase on over dt, which may be negative. */
 static void
+carry_on(const trial *of, const double u[UNKNOWNS], double dt, double y[TRACKS], double lag[2])
+{
+    double k[4][TRACKS];
+    int parts = 1;
+    rates(of, u, y[LEVEL], k[0], lag);
+    parts += (int)fmin(fabs(dt) * fmax(-k[0][LEVEL], 1) / .2, 8);
+    for (int part = 0; part < parts; part++) {
+        double h = dt / parts;
+        for (int j = 0; j < 4; j++)
+            rates(of, u, y[LEVEL] + (j == 0 ? 0 : (j < 3 ? h / 2 : h) * k[j - 1][LEVEL]), k[j], lag);
+        for (size_t c = 0; c < TRACKS; c++)
+            y[c] += h / 6 * (k[0][c] + 2 * k[1][c] + 2 * k[2][c] + k[3][c]);
+    }
+}
+
+/* Where a slider slips for a cycle or two, the law is an average over too little.  So move the exact model from a
+ * turn before the blocks on, cut its motion into the same blocks, up to where it sticks, and see what they tell.
+ * *told_blocks, which is 0, becomes their number, unless it cannot be moved so. */
+static ss_status
+tell_exactly(told *out, size_t *told_blocks, const trial *of, const double u[UNKNOWNS])
+{
+    const block *b = of->b;
+    const int order = of->source->derivative > 0 ? of->source->derivative : 0;
+    double w = (of->w + u[W]) * of->unit, contact = u[C] * of->w * of->unit * of->unit, rate[TRACKS], steps = 0;
+    double y[TRACKS] = { u[LN_A], u[TURN] - M_PI / 2 * order }, back = (b->t - (double)b->first) * of->unit;
+    size_t n = 1, done = 0;
+    while (n < of->n && b[n - 1].level - of->ln_a > log(u[SHAPE]) - STUCK)
+        n++;
+    rates(of, u, y[LEVEL], rate, out->lag);
+    double turns = floor((y[PHASE] - (rate[PHASE] + of->w) * back) / M_PI) - 1;
+    double ahead = (y[PHASE] - turns * M_PI) / (rate[PHASE] + of->w);
+    carry_on(of, u, -ahead, y, out->lag);
+    rates(of, u, y[LEVEL], rate, out->lag);
+    double a = exp(of->ln_a + y[LEVEL]) / pow((rate[PHASE] + of->w) * of->unit, order);
+    size_t end = b[n - 1].end - b->first;
+    ss_scene scene = { .model = ss_model_named("compliant"), .mass = 1, .stiffness = w * w,
+                       .damping = 2 * u[S] * of->unit,
+                       .friction = contact * u[SHAPE] * exp(of->ln_a) / pow(w, order),
+                       .x0 = fmod(turns, 2) == 0 ? a : -a, .settle = (ahead - back) / of->unit,
+                       .duration = (double)end, .rate = 1 };
+    if (end > EXACT_MOST || ss_scene_set(&scene, "contact_stiffness", contact, NULL) != SS_OK
+        || ss_scene_set(&scene, "contact_damping", 0, NULL) != SS_OK)
+        return SS_OK;
+    double *x = malloc(end * sizeof *x);
+    ss_status st = x != NULL ? ss_samples_run(&scene, order, SAMPLES_FINE, x, NULL, end, &steps) : SS_ENOMEM;
+    for (block is; st == SS_OK && done < n; done++) {
+        if (!ss_block_fit(&is, x, b[done].first - b->first, b[done].end - b->first, b[done].about,
+                          &of->source->beside, b[done].steps))
+            break;
+        double turn = is.y[PHASE] - of->w * (of->p[done].t - of->p->t);
+        turn -= 2 * M_PI * round((turn - of->p[done].y[PHASE]) / (2 * M_PI));
+        out[done] = (told){ { is.y[LEVEL] - of->ln_a, turn },
+                            { is.rate[LEVEL] / of->unit, is.rate[PHASE] / of->unit - of->w }, { 0 }, { 0 } };
+        rates(of, u, out[done].y[LEVEL], rate, out[done].lag);
+    }
+    free(x);
+    *told_blocks = done == n ? n : 0;
+    return st == SS_ENOMEM ? st : SS_OK;
+}
+
+static ss_status
 tell(told *out, const trial *of, const double u[UNKNOWNS])
 {
     double y[TRACKS] = { u[LN_A], u[TURN] };
     if (of->kind == TWO_MODES) {
         tell_two(out, of, u);
-        return;
+        return SS_OK;
     }
-    for (size_t i = 0; i < of->n; i++) {
-        const point *p = &of->p[i];
-        double dt = i > 0 ? p->t - p[-1].t : 0, k[4][TRACKS];
-        int parts = 1 + (int)fmin(dt * fmax(-p->rate[LEVEL], 1) / .2, 8);
-        for (int part = 0; part < parts; part++) {
-            double h = dt / parts;
-            for (int j = 0; j < 4; j++)
-                rates(of, u, y[LEVEL] + (j == 0 ? 0 : (j < 3 ? h / 2 : h) * k[j - 1][LEVEL]), k[j], out[i].lag);
-            for (size_t c = 0; c < TRACKS; c++)
-                y[c] += h / 6 * (k[0][c] + 2 * k[1][c] + 2 * k[2][c] + k[3][c]);
-        }
+    size_t i = 0;
+    ss_status st = of->kind == SS_JENKINS && of->is_exact ? tell_exactly(out, &i, of, u) : SS_OK;
+    if (i > 0)
+        memcpy(y, out[i - 1].y, sizeof y);
+    for (; i < of->n; i++) {
+        carry_on(of, u, i > 0 ? of->p[i].t - of->p[i - 1].t : 0, y, out[i].lag);
         memcpy(out[i].y, y, sizeof y);
         rates(of, u, y[LEVEL], out[i].rate, out[i].lag);
     }
+    return st;
 }
 
 /* Residuals of variance 1 if the mechanism is right: of y by the filter's gains, of rates beside y's. */
@@ -174,7 +238,8 @@ leave(const double *u, double *residual, double *slopes, void *user)
     const trial *of = user;
     double off[TRACKS] = { 0 };
     (void)slopes;
-    tell(of->told, of, u);
+    if (tell(of->told, of, u) != SS_OK)
+        return SS_ENOMEM;
     for (size_t i = 0; i < of->n; i++)
         for (size_t c = 0; c < of->tracks; c++) {
             const point *p = &of->p[i];
@@ -218,9 +283,11 @@ make_points(point *p, const block *b, size_t n, double unit, double ln_a, double
 
 /* Set u[S] and u[C] >= 0 so that s fits the smooth one, and W and BEND by w; returns what the first leaves. */
 static double
-begin(const trial *of, const block *b, double unit, double ln_a, double u[UNKNOWNS])
+begin(const trial *of, double u[UNKNOWNS])
 {
     const struct law *law = &laws[of->kind];
+    const block *b = of->b;
+    const double unit = of->unit, ln_a = of->ln_a;
     double left = 0, sum[6] = { 0 };
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < of->n; i++) {
@@ -293,26 +360,18 @@ begin_two(const point *p, const block *b, size_t n, double ln_a, double w, doubl
 typedef struct fitted {
     ss_mechanism kind;
     double u[UNKNOWNS], covariance[UNKNOWNS * UNKNOWNS], squares, free, p, bic;
+    int is_exact;               /* as of trials */
 } fitted;
 
+/* Fit from f->u on. */
 static ss_status
-fit(fitted *f, trial *of, const block *b, double unit, double ln_a)
+fit(fitted *f, const trial *of)
 {
     const struct law *law = &laws[of->kind];
     static const double difference[UNKNOWNS] = { 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6 };
     ss_range range[UNKNOWNS];
-    double least_left = INFINITY, unknowns = 0;
+    double unknowns = 0;
     least_end end;
-    f->kind = of->kind;
-    if (of->kind == TWO_MODES)
-        begin_two(of->p, b, of->n, ln_a, of->w * unit, f->u);
-    for (size_t i = 0; of->kind != TWO_MODES && i < 5 && law->shape[i] > 0; i++) {
-        double u[UNKNOWNS] = { [SHAPE] = law->shape[i] }, left = begin(of, b, unit, ln_a, u);
-        if (left < least_left) {
-            least_left = left;
-            memcpy(f->u, u, sizeof u);
-        }
-    }
     for (int k = 0; k < UNKNOWNS; k++) {
         int is_free = law->free[k] && (of->tracks == TRACKS || (k != TURN && k != W && k != BEND));
         int has_sign = k == LN_A || k == TURN || k == W || of->kind == TWO_MODES;
@@ -320,14 +379,34 @@ fit(fitted *f, trial *of, const block *b, double unit, double ln_a)
             : has_sign ? (ss_range){ -1e9, 1e9 } : (ss_range){ 0, 1e3 };
         unknowns += is_free;
     }
-    least of_fit = { .rows = 2 * of->tracks * of->n, .unknowns = UNKNOWNS, .model = leave, .user = of,
+    least of_fit = { .rows = 2 * of->tracks * of->n, .unknowns = UNKNOWNS, .model = leave, .user = (void *)of,
                      .range = range, .difference = difference, .steps = 60, .tol = 1e-7, .noise = 1 };
     ss_status st = ss_least_fit(&end, &of_fit, f->u, NULL, f->covariance);
+    f->is_exact = of->is_exact;
     f->squares = end.squares;
     f->free = (double)of_fit.rows - unknowns;
     f->p = isfinite(end.squares) ? gsl_cdf_chisq_Q(end.squares, f->free) : 0;
     f->bic = (isfinite(end.squares) ? end.squares : INFINITY) + unknowns * log((double)of_fit.rows);
     return st;
+}
+
+/* Fit from what the smooth curve tells. */
+static ss_status
+fit_first(fitted *f, trial *of, ss_mechanism kind)
+{
+    const struct law *law = &laws[kind];
+    double least_left = INFINITY;
+    f->kind = of->kind = kind;
+    if (kind == TWO_MODES)
+        begin_two(of->p, of->b, of->n, of->ln_a, of->w * of->unit, f->u);
+    for (size_t i = 0; kind != TWO_MODES && i < 5 && law->shape[i] > 0; i++) {
+        double u[UNKNOWNS] = { [SHAPE] = law->shape[i] }, left = begin(of, u);
+        if (left < least_left) {
+            least_left = left;
+            memcpy(f->u, u, sizeof u);
+        }
+    }
+    return fit(f, of);
 }
 
 static int
@@ -370,7 +449,7 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
     } else if (f->kind == SS_QUADRATIC)
         add(out, f, "drag_over_mass", per, C, 3 * M_PI / 4 * unit / w / a);
     else if (f->kind == SS_JENKINS) {
-        double more = HARMONIC * f->u[C] * contact / w / w;
+        double more = f->is_exact ? 0 : HARMONIC * f->u[C] * contact / w / w;
         add(out, f, "contact_stiffness_ratio", "", C, contact / w / w);
         add(out, f, "slip_amplitude", of->column, SHAPE, a);
         if (of->mass > 0) {
@@ -409,11 +488,10 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
     double start[STATES][STATES] = { { 0 } }, x[STATES] = { 0 };
     told *at = calloc(n, sizeof *at), *by = calloc(n, sizeof *by);
     place *p = calloc(2 * n, sizeof *p), end[TRACKS];
-    if (at == NULL || by == NULL || p == NULL) {
+    if (at == NULL || by == NULL || p == NULL || tell(at, of, f->u) != SS_OK) {
         free(at), free(by), free(p);
         return SS_ENOMEM;
     }
-    tell(at, of, f->u);
     for (size_t c = 0; c < of->tracks; c++)
         for (size_t i = 0; i < n; i++) {
             place *to = &p[c * n + i];
@@ -421,7 +499,8 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
             double t = i + 1 < n ? of->p[i + 1].t - of->p[i].t : 0;
             double lost = i + 1 < n ? fmax(at[i].y[LEVEL] - at[i + 1].y[LEVEL], 1e-9) : 0;
             double past = c == LEVEL ? -lost : t;
-            *to = (place){ .see = { { 1 }, { 0, rate }, { 0, 0, s * s - given_back(of->derivative, s * s) } },
+            double bent = s * s - given_back(of->source->derivative, s * s);
+            *to = (place){ .see = { { 1 }, { 0, rate }, { 0, 0, bent } },
                            .turn = { { 1, past, past * lost / 2 }, { 0, 1, lost }, { 0, 0, 1 } } };
             ss_place_see(to, &b[i], (int)c, of->p[i].y[c] - at[i].y[c], of->p[i].rate[c] - at[i].rate[c], unit);
             ss_place_walk(to, lost);
@@ -431,13 +510,14 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
             to->stir = pow(at[i].slip[c] * t, 2);
             to->variance[1] += pow(at[i].slip[c], 2);
         }
-    for (size_t k = 0; k < UNKNOWNS; k++) {
+    ss_status st = SS_OK;
+    for (size_t k = 0; st == SS_OK && k < UNKNOWNS; k++) {
         double u[UNKNOWNS], sigma = sqrt(f->covariance[k * UNKNOWNS + k]);
         if (!(sigma > 0) || !isfinite(sigma))
             continue;
         memcpy(u, f->u, sizeof u);
         u[k] += sigma / 10;
-        tell(by, of, u);
+        st = tell(by, of, u);
         for (size_t c = 0; c < of->tracks; c++)
             for (size_t i = 0; i < n; i++) {
                 p[c * n + i].see[0][states] = (by[i].y[c] - at[i].y[c]) * 10;
@@ -476,7 +556,7 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
         }
     }
     free(at), free(by), free(p);
-    return SS_OK;
+    return st;
 }
 
 ss_status
@@ -488,20 +568,25 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     told *what = calloc(n, sizeof *what);
     fitted f[SS_MECHANISMS];
     trial of = { .p = p, .n = n, .tracks = source->has_phase ? TRACKS : 1, .w = w / unit, .told = what,
-                 .derivative = source->derivative };
+                 .source = source, .b = b, .unit = unit, .ln_a = ln_a };
     ss_status st = p != NULL && what != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
         make_points(p, b, n, unit, ln_a, w);
-    for (int k = 0; st == SS_OK && k < SS_MECHANISMS; k++) {
-        of.kind = (ss_mechanism)k;
-        st = fit(&f[k], &of, b, unit, ln_a);
-    }
+    for (int k = 0; st == SS_OK && k < SS_MECHANISMS; k++)
+        st = fit_first(&f[k], &of, (ss_mechanism)k);
     if (st != SS_OK) {
-        free(p);
-        free(what);
+        free(p), free(what);
         return st;
     }
     qsort(f, SS_MECHANISMS, sizeof *f, by_bic);
+    of.kind = f->kind;
+    of.is_exact = of.kind == SS_JENKINS && source->has_phase;
+    if (of.is_exact) {
+        const fitted by_law = *f;
+        st = fit(f, &of);
+        *f = f->bic < by_law.bic ? *f : by_law;
+        of.is_exact = f->is_exact;
+    }
     const fitted *best = f;
     while (best < f + SS_MECHANISMS - 1 && best->p < REJECT)
         best++;
@@ -509,13 +594,11 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     int is_other = best->p < REJECT || source->beats != NULL;
     if (!is_other && source->has_phase) {
         fitted two;
-        of.kind = TWO_MODES;
-        st = fit(&two, &of, b, unit, ln_a);
+        st = fit_first(&two, &of, TWO_MODES);
         is_other = st == SS_OK && two.bic + NEARLY < best->bic;
     }
     if (st == SS_ENOMEM) {
-        free(p);
-        free(what);
+        free(p), free(what);
         return st;
     }
     out->chi2_dof = best->squares / best->free;
@@ -550,9 +633,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
             b[i].error[PHASE] = unit * error[PHASE];
         }
     }
-    free(sum);
-    free(p);
-    free(what);
+    free(sum), free(p), free(what);
     if (st != SS_OK)
         return st;
     of.kind = best->kind;
