@@ -215,44 +215,6 @@ many_datasets_together_claim_no_more_than_one_may(void **state)
     assert_signal_refused(words);
 }
 
-/* Hard links and soft ones, of t and of a column. */
-static void
-a_dataset_under_two_names_is_refused(void **state)
-{
-    static const struct { const char *from, *to; int soft; const char *words; } row[] = {
-        { "t", "y", 0, ":/signal/y: is another name of a dataset that was read before it" },
-        { "x", "y", 0, ":/signal/y: is another name of a dataset that was read before it" },
-        { "t", "y", 1, ":/signal/y: is another name of a dataset that was read before it" },
-        { "/signal/x", "y", 1, ":/signal/y: is another name of a dataset that was read before it" },
-    };
-    (void)state;
-    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
-        hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-        hid_t group = open_signal_of_times(file, 3);
-        put_without_values(group, "x", 3);
-        if (row[i].soft)
-            H5Lcreate_soft(row[i].from, group, row[i].to, H5P_DEFAULT, H5P_DEFAULT);
-        else
-            H5Lcreate_hard(group, row[i].from, group, row[i].to, H5P_DEFAULT, H5P_DEFAULT);
-        H5Gclose(group);
-        H5Fclose(file);
-        assert_signal_refused(row[i].words);
-    }
-    ss_signal *signal = new_signal(100);
-    ss_coefficients *c = transform(signal, 0), *back = NULL;
-    ss_error err = { 0 };
-    write_ok(&(ss_record){ .coefficients = c });
-    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
-    H5Ldelete(file, "/wavelet/scale000/im", H5P_DEFAULT);
-    H5Lcreate_hard(file, "/wavelet/scale000/re", file, "/wavelet/scale000/im", H5P_DEFAULT, H5P_DEFAULT);
-    H5Fclose(file);
-    assert_int_equal(read_map(&back, path, &err), SS_EDATA);
-    assert_string_equal(err.text + strlen(path), ":/wavelet/scale000/im: is another name of a dataset "
-                        "that was read before it");
-    ss_coefficients_free(c);
-    ss_signal_free(signal);
-}
-
 static void
 a_column_shorter_than_t_is_refused(void **state)
 {
@@ -728,7 +690,6 @@ main(void)
         cmocka_unit_test(flipped_bits_are_refused_or_harmless),
         cmocka_unit_test(nothing_leads_out_of_a_file_or_claims_more_than_it_holds),
         cmocka_unit_test(many_datasets_together_claim_no_more_than_one_may),
-        cmocka_unit_test(a_dataset_under_two_names_is_refused),
         cmocka_unit_test(a_column_shorter_than_t_is_refused),
         cmocka_unit_test(one_text_under_many_names_is_not_read_many_times),
         cmocka_unit_test(the_list_of_arrays_ends_after_10000_objects),

@@ -10,55 +10,29 @@
 #include "io/hdf5/h5.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <unistd.h>
 
 typedef struct driver_info {
-    h5_disk *disk;              /* to be written; NULL: a file is opened for reading */
+    h5_disk *disk;
 } driver_info;
-
-static H5FD_t *
-open_for_reading(const char *name)
-{
-    h5_disk *disk = H5allocate_memory(sizeof *disk, 1);
-    if (disk == NULL)
-        return NULL;
-    disk->fd = open(name, O_RDONLY);
-    off_t end = disk->fd >= 0 ? lseek(disk->fd, 0, SEEK_END) : -1;
-    disk->reading = 1;
-    disk->eof = (haddr_t)end;
-    if (end >= 0)
-        return &disk->of_hdf5;
-    if (disk->fd >= 0)
-        close(disk->fd);
-    H5free_memory(disk);
-    return NULL;
-}
 
 static H5FD_t *
 open_file(const char *name, unsigned flags, hid_t access, haddr_t most)
 {
-    (void)flags, (void)most;
-    const driver_info *info = H5Pget_driver_info(access);
-    if (info == NULL)
-        return NULL;
-    if (info->disk == NULL)
-        return open_for_reading(name);
-    memset(&info->disk->of_hdf5, 0, sizeof info->disk->of_hdf5);
-    info->disk->eoa = info->disk->eof = 0;
-    return &info->disk->of_hdf5;
+    (void)name, (void)flags, (void)most;
+    h5_disk *disk = ((const driver_info *)H5Pget_driver_info(access))->disk;
+    memset(&disk->of_hdf5, 0, sizeof disk->of_hdf5);
+    disk->eoa = 0;
+    disk->eof = disk->reading ? disk->eof : 0;
+    return &disk->of_hdf5;
 }
 
-/* What is written stays the caller's. */
+/* The disk stays the caller's. */
 static herr_t
 close_file(H5FD_t *file)
 {
-    h5_disk *f = (h5_disk *)file;
-    if (f->reading) {
-        close(f->fd);
-        H5free_memory(f);
-    }
+    (void)file;
     return 0;
 }
 
@@ -74,14 +48,6 @@ query(const H5FD_t *file, unsigned long *flags)
     *flags = H5FD_FEAT_DATA_SIEVE;
     if (file == NULL || !((const h5_disk *)file)->reading)      /* what is accumulated is not read one by one */
         *flags |= H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_AGGREGATE_SMALLDATA;
-    return 0;
-}
-
-static herr_t
-get_handle(H5FD_t *file, hid_t access, void **handle)
-{
-    (void)access;
-    *handle = file;
     return 0;
 }
 
@@ -188,7 +154,6 @@ static const H5FD_class_t driver = {
     .get_eoa = get_eoa,
     .set_eoa = set_eoa,
     .get_eof = get_eof,
-    .get_handle = get_handle,
     .read = read_bytes,
     .write = write_bytes,
     .truncate = truncate_file,

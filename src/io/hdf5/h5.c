@@ -4,11 +4,12 @@
  * out of proportion to the file is refused before HDF5 acts on it. */
 #include "io/hdf5/h5.h"
 
+#include <fcntl.h>
 #include <math.h>
-#include <search.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include "base/error.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
@@ -17,8 +18,7 @@ ss_status
 ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text)
 {
     char where[256] = "";
-    h5_disk *disk;
-    if (H5Fget_vfd_handle(file->id, H5P_DEFAULT, (void **)&disk) >= 0 && disk->packed)
+    if (file->disk.packed)
         return ss_fail(file->err, SS_EDATA, "%s: names or attributes in it are packed by filters; only values may be",
                        file->path);
     if (group > 0 && name[0] != '/')
@@ -28,17 +28,12 @@ ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const
     return ss_fail(file->err, status, "%s%s%s%s%s: %s", file->path, colon, where, slash, name, text);
 }
 
-static int
-compare_addresses(const void *a, const void *b)
-{
-    haddr_t x = *(const haddr_t *)a, y = *(const haddr_t *)b;
-    return (x > y) - (x < y);
-}
-
 ss_status
 ss_h5_open(h5_file *file)
 {
-    hid_t access = ss_h5_disk_access(NULL, &file->driver);
+    file->disk = (h5_disk){ .fd = open(file->path, O_RDONLY), .reading = 1 };
+    file->disk.eof = file->disk.fd >= 0 ? (haddr_t)lseek(file->disk.fd, 0, SEEK_END) : 0;
+    hid_t access = ss_h5_disk_access(&file->disk, &file->driver);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     file->id = H5Fopen(file->path, H5F_ACC_RDONLY, access);
     H5Pclose(access);
@@ -50,15 +45,12 @@ ss_h5_open(h5_file *file)
 void
 ss_h5_close(h5_file *file)
 {
-    while (file->seen != NULL) {
-        void *address = *(void **)file->seen;
-        tdelete(address, &file->seen, compare_addresses);
-        free(address);
-    }
     if (file->id >= 0)
         H5Fclose(file->id);
     if (file->driver > 0)
         H5FDunregister(file->driver);
+    if (file->disk.reading && file->disk.fd >= 0)
+        close(file->disk.fd);
 }
 
 /* --- objects ------------------------------------------------------------------------------- */
@@ -81,19 +73,11 @@ inside_only(hid_t class)
 }
 
 hid_t
-ss_h5_open_dataset(hid_t group, const char *name)
+ss_h5_open_dataset(hid_t group, const char *name, int in_pieces)
 {
     hid_t access = inside_only(H5P_DATASET_ACCESS);
-    hid_t id = H5Dopen2(group, name, access);
-    H5Pclose(access);
-    return id;
-}
-
-hid_t
-ss_h5_open_pieces(hid_t group, const char *name)
-{
-    hid_t access = inside_only(H5P_DATASET_ACCESS);
-    H5Pset_chunk_cache(access, 0, 0, 0);
+    if (in_pieces)
+        H5Pset_chunk_cache(access, 0, 0, 0);
     hid_t id = H5Dopen2(group, name, access);
     H5Pclose(access);
     return id;
@@ -193,45 +177,6 @@ ss_h5_refuse_values(hid_t dataset)
     return refuse_values(dataset, &bytes);
 }
 
-/* Refuse a dataset that has been read under another name: under many names, one would be read many times. */
-static ss_status
-refuse_second_name(h5_file *file, hid_t dataset, const char **wrong)
-{
-    H5O_info_t info;
-    *wrong = "cannot be read";
-    if (H5Oget_info(dataset, &info) < 0)
-        return SS_EDATA;
-    haddr_t *address = malloc(sizeof *address), **node;
-    if (address == NULL)
-        return SS_ENOMEM;
-    *address = info.addr;
-    node = tsearch(address, &file->seen, compare_addresses);
-    if (node != NULL && *node == address)
-        return SS_OK;
-    free(address);
-    *wrong = "is another name of a dataset that was read before it";
-    return node != NULL ? SS_EDATA : SS_ENOMEM;
-}
-
-/* Add the values of a dataset to those that the file claims, once, before they are read. */
-static ss_status
-claim(h5_file *file, hid_t dataset, size_t *n, const char **wrong)
-{
-    double bytes;
-    *wrong = refuse_values(dataset, &bytes);
-    if (*wrong != NULL)
-        return SS_EDATA;
-    ss_status status = refuse_second_name(file, dataset, wrong);
-    if (status != SS_OK)
-        return status;
-    hid_t space = H5Dget_space(dataset);
-    *n = (size_t)H5Sget_simple_extent_npoints(space);
-    H5Sclose(space);
-    file->claimed += bytes;
-    *wrong = "with those before, claims more values than a file of this size can hold";
-    return file->claimed > file_size(dataset) ? SS_EDATA : SS_OK;
-}
-
 /* If HDF5_PLUGIN_PRELOAD has forbidden plugins for good, HDF5 gives no mask, and 0 is returned. */
 unsigned
 ss_h5_forbid_plugins(void)
@@ -329,7 +274,7 @@ ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text)
 ss_status
 ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n)
 {
-    hid_t id = ss_h5_open_dataset(group, name);
+    hid_t id = ss_h5_open_dataset(group, name, 1);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
     const char *wrong = ss_h5_refuse_values(id);
@@ -423,13 +368,19 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
 ss_status
 ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n)
 {
-    hid_t id = ss_h5_open_dataset(group, name);
+    hid_t id = ss_h5_open_dataset(group, name, 1);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
-    const char *wrong;
-    ss_status status = claim(file, id, n, &wrong);
+    double bytes = 0;
+    const char *wrong = refuse_values(id, &bytes);
+    hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
+    *n = space >= 0 ? (size_t)H5Sget_simple_extent_npoints(space) : 0;
+    H5Sclose(space);
+    file->claimed += bytes;
+    if (wrong == NULL && file->claimed > file_size(id))
+        wrong = "with those before, claims more values than a file of this size can hold";
     H5Dclose(id);
-    return status == SS_EDATA ? ss_h5_fail(file, status, group, name, wrong) : status;
+    return wrong == NULL ? SS_OK : ss_h5_fail(file, SS_EDATA, group, name, wrong);
 }
 
 int

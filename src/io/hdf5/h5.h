@@ -15,14 +15,25 @@
 #define H5_MAX_VALUES 1000000000        /* in one dataset: 8 GB as doubles */
 #define H5_MAX_TEXT 1048576             /* bytes of an attribute */
 
+/* An open file on disk as HDF5 sees it (disk.c). */
+typedef struct h5_disk {
+    H5FD_t of_hdf5;             /* comes first */
+    int fd, error;              /* error: the errno of the first failure, or 0 */
+    int reading, packed;        /* packed: a heap with filters was refused */
+    haddr_t eoa, eof;           /* end of what is allocated, of what is there */
+} h5_disk;
+/* A file access list for this disk, to be closed, or < 0.  The driver is to be unregistered behind the file: H5Fclose
+ * drops what the file holds of it before its last use. */
+hid_t ss_h5_disk_access(h5_disk *disk, hid_t *driver);
+
 typedef struct h5_file {
     hid_t id;
     const char *path;           /* for messages */
     ss_error *err;
+    h5_disk disk;
     hid_t driver;               /* to be unregistered behind the file */
     double claimed;             /* bytes of the file that the values read so far need at least */
     double text;                /* and of text in attributes */
-    void *seen;                 /* the datasets among them, a tree of tsearch() by their addresses */
 } h5_file;
 
 /* SS_EIO or the given status, with the text "PATH:GROUP/NAME: TEXT"; group 0 for the file itself. */
@@ -34,23 +45,10 @@ ss_status ss_h5_open(h5_file *file);
 /* Close it, if it is open. */
 void ss_h5_close(h5_file *file);
 
-/* An open file on disk as HDF5 sees it; error is the errno of the first failure to write, or 0 (disk.c).
- * ss_h5_disk_access gives a file access list, to be closed, or < 0: for this disk, which is written, or for a
- * file that is read, for NULL.  The driver is to be unregistered behind the file: H5Fclose drops what the
- * file holds of it before its last use. */
-typedef struct h5_disk {
-    H5FD_t of_hdf5;             /* comes first */
-    int fd, error;
-    int reading, packed;        /* packed: a heap with filters was refused */
-    haddr_t eoa, eof;           /* end of what is allocated, of what is there */
-} h5_disk;
-hid_t ss_h5_disk_access(h5_disk *disk, hid_t *driver);
-
-/* Objects by their path, links out of the file not followed; < 0 if there is none. */
-hid_t ss_h5_open_dataset(hid_t group, const char *name);
+/* Objects by their path, links out of the file not followed; < 0 if there is none.  A dataset in pieces is one of
+ * which whole chunks are read, so that none is kept in memory. */
+hid_t ss_h5_open_dataset(hid_t group, const char *name, int in_pieces);
 hid_t ss_h5_open_group(hid_t group, const char *name);
-/* A dataset of which whole chunks are read, so that none is kept in memory. */
-hid_t ss_h5_open_pieces(hid_t group, const char *name);
 /* The reason why the values of a dataset must not be read, or NULL: they are not plain real numbers of
  * this file, or more than the file can hold. */
 const char *ss_h5_refuse_values(hid_t dataset);
@@ -87,8 +85,7 @@ int ss_h5_read_rows(hid_t id, int by_columns, size_t row, size_t n, double *valu
 
 /* SS_EDATA with the place of the first value that is not finite. */
 ss_status ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n);
-/* The number of values of a dataset, which the caller reads next: they are counted as claimed, and a
- * second name for the same dataset is refused. */
+/* The number of values of a dataset, which the caller reads next: they are counted as claimed. */
 ss_status ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n);
 
 /* Rate, start and whether the text form has a column of time, from a group into a new header, with the

@@ -200,12 +200,12 @@ open_disk(h5_output *out)
     struct stat st;
     out->spooled = stat(out->path, &st) == 0 && !S_ISREG(st.st_mode);
     FILE *spool = out->spooled ? tmpfile() : NULL;
-    out->disk.fd = spool != NULL ? dup(fileno(spool))
+    out->file.disk.fd = spool != NULL ? dup(fileno(spool))
         : out->spooled ? -1 : open(out->path, O_RDWR | O_CREAT | O_TRUNC, 0666);
     int why = errno;
     if (spool != NULL)
         fclose(spool);
-    return out->disk.fd >= 0 ? SS_OK : ss_fail_errno(&out->error, out->path, why);
+    return out->file.disk.fd >= 0 ? SS_OK : ss_fail_errno(&out->error, out->path, why);
 }
 
 ss_status
@@ -214,7 +214,7 @@ ss_h5_output_open(h5_output *out)
     ss_status st = open_disk(out);
     if (st != SS_OK)
         return st;
-    hid_t access = ss_h5_disk_access(&out->disk, &out->file.driver);
+    hid_t access = ss_h5_disk_access(&out->file.disk, &out->file.driver);
     if (access < 0)
         return SS_ENOMEM;
     out->file.id = create_file(out->path, access);
@@ -231,7 +231,7 @@ copy_out(const h5_output *out)
     ssize_t n = 1;
     if (copy == NULL)
         return errno;
-    while (n > 0 && (n = pread(out->disk.fd, piece, sizeof piece, at)) > 0) {
+    while (n > 0 && (n = pread(out->file.disk.fd, piece, sizeof piece, at)) > 0) {
         at += n;
         if (fwrite(piece, 1, (size_t)n, copy) != (size_t)n)
             n = -1;
@@ -251,15 +251,15 @@ ss_h5_output_close(h5_output *out, ss_status st)
     if (out->file.driver > 0)
         H5FDunregister(out->file.driver);
     out->file.driver = 0;
-    if (out->disk.fd < 0)
+    if (out->file.disk.fd < 0)
         return st;
-    if (st == SS_OK && out->disk.error == 0 && out->spooled)
-        out->disk.error = copy_out(out);
-    if (close(out->disk.fd) != 0 && out->disk.error == 0)
-        out->disk.error = errno;
-    out->disk.fd = -1;
-    if (out->disk.error != 0)
-        st = ss_fail_errno(&out->error, out->path, out->disk.error);
+    if (st == SS_OK && out->file.disk.error == 0 && out->spooled)
+        out->file.disk.error = copy_out(out);
+    if (close(out->file.disk.fd) != 0 && out->file.disk.error == 0)
+        out->file.disk.error = errno;
+    out->file.disk.fd = -1;
+    if (out->file.disk.error != 0)
+        st = ss_fail_errno(&out->error, out->path, out->file.disk.error);
     if (st != SS_OK && !out->spooled && stat(out->path, &is) == 0 && S_ISREG(is.st_mode))
         unlink(out->path);
     return st;
@@ -268,8 +268,8 @@ ss_h5_output_close(h5_output *out, ss_status st)
 ss_status
 ss_h5_output_check(h5_output *out, ss_status st)
 {
-    if (st == SS_OK && out->disk.error != 0)
-        st = ss_fail_errno(&out->error, out->path, out->disk.error);
+    if (st == SS_OK && out->file.disk.error != 0)
+        st = ss_fail_errno(&out->error, out->path, out->file.disk.error);
     if (st == SS_ENOMEM)
         ss_fail(&out->error, st, "%s: %s", out->file.path, ss_strerror(st));
     return st;

@@ -43,12 +43,11 @@ int ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t t
 typedef struct h5_output {
     char *path;                 /* to be freed after the end */
     h5_file file;               /* fails into error */
-    h5_disk disk;
     int spooled;                /* path is not a regular file: it gets a copy at the end */
     ss_error error;
 } h5_output;
 
-/* Make the file at out->path, whose file.id and disk.fd are -1; to be closed even after a failure. */
+/* Make the file at out->path, whose file.id and file.disk.fd are -1; to be closed even after a failure. */
 ss_status ss_h5_output_open(h5_output *out);
 /* The status of a step, or that of the disk if this has failed since; its text is in out->error. */
 ss_status ss_h5_output_check(h5_output *out, ss_status st);

@@ -115,7 +115,7 @@ list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
     }
     if (fits && info->type != H5O_TYPE_DATASET)
         return 0;
-    hid_t id = fits ? ss_h5_open_dataset(root, name) : -1;
+    hid_t id = fits ? ss_h5_open_dataset(root, name, 0) : -1;
     int is_array = id >= 0 && check_array(list->file, id, name, &shape) == SS_OK;
     H5Dclose(id);
     if (fits && (!is_array || snprintf(list->text + length, room, " /%s", name) < (int)room))
@@ -175,7 +175,7 @@ static ss_status
 find_times(rows *s, hid_t group, const char *time)
 {
     array shape;
-    hid_t id = ss_h5_open_pieces(group, time);
+    hid_t id = ss_h5_open_dataset(group, time, 1);
     if (id < 0)
         return ss_header_column(s->base.head, time) >= 0 ? SS_OK
             : ss_h5_fail(&s->file, SS_EDATA, group, time, "no such dataset");
@@ -200,7 +200,7 @@ find_array(rows *s, const char *dataset, const ss_read_opts *opts)
         free(parent);
         return SS_ENOMEM;
     }
-    hid_t id = has_name ? ss_h5_open_pieces(file->id, dataset) : -1;
+    hid_t id = has_name ? ss_h5_open_dataset(file->id, dataset, 1) : -1;
     hid_t group = ss_h5_open_group(file->id, id < 0 ? dataset : parent);
     free(parent);
     if (id < 0)
@@ -230,7 +230,7 @@ open_list(h5_file *file, hid_t group, const char *link, hid_t *id, size_t *n)
     ss_status status = ss_h5_read_size(file, group, link, n);
     if (status != SS_OK)
         return status;
-    *id = ss_h5_open_pieces(group, link);
+    *id = ss_h5_open_dataset(group, link, 1);
     hid_t space = H5Dget_space(*id);
     int rank = H5Sget_simple_extent_ndims(space);
     H5Sclose(space);

@@ -45,7 +45,7 @@ check_parts(file_source *s, hid_t group, size_t rows, size_t n)
         size_t claimed;
         if ((st = ss_h5_read_size(&s->file, group, part_name[k], &claimed)) != SS_OK)
             break;
-        hid_t id = ss_h5_open_dataset(group, part_name[k]), space = H5Dget_space(id);
+        hid_t id = ss_h5_open_dataset(group, part_name[k], 0), space = H5Dget_space(id);
         int rank = H5Sget_simple_extent_dims(space, dims, NULL);
         H5Sclose(space);
         H5Dclose(id);
@@ -114,7 +114,7 @@ read_grid(file_source *s, ss_coefficients *map)
         st = add_scale(s, map, j[i], &opts);
     free(j);
     for (int k = 0; st == SS_OK && s->dense && k < 2; k++)
-        s->part[k] = ss_h5_open_dataset(s->group, part_name[k]);
+        s->part[k] = ss_h5_open_dataset(s->group, part_name[k], 0);
     if (st == SS_OK && (s->row = malloc(s->longest * sizeof *s->row)) == NULL)
         st = SS_ENOMEM;
     return st;

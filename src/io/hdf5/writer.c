@@ -3,14 +3,12 @@
  * /signal has a dataset for each column; /events has datasets of one length; /wavelet has a group a scale, or one
  * rectangle if all scales have one coefficient a sample.  Where the number of samples and coefficients is known,
  * the datasets of a scale are closed when they are full.  If it is not, all datasets stay open, with chunks so short
- * that one of each fits into memory.  Rows of a signal alone are put together first: then the length of most signals
- * is known when the file is made. */
+ * that one of each fits into memory; rows then go to one chunk of each column after the other, however they come. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
 #include "base/error.h"
 #include "base/list.h"
 #include "base/versions.h"
@@ -21,8 +19,7 @@
 #include "signal/gaps.h"
 #include "signal/header.h"
 
-enum { TOGETHER = 1 << 20,      /* values of a signal that are written at a time */
-       OPEN_BYTES = 32 << 20,   /* about so much are all chunks in memory if lengths are not known */
+enum { OPEN_BYTES = 32 << 20,   /* about so much are all chunks in memory if lengths are not known */
        LEAST_CHUNK = 256 };
 
 struct scale_datasets {
@@ -42,9 +39,7 @@ typedef struct h5_writer {
 
     hid_t *column, times;       /* of /signal, which has a dataset for each column; NULL: there is none */
     size_t n_columns, samples;  /* samples: written so far */
-    ss_header *head;            /* of a signal alone, and its rows that were not written yet; or NULL */
-    double **row;
-    size_t n_rows;
+    size_t piece;               /* of each column, that are written at a time */
 
     int has_events;
     ss_event *event;
@@ -149,6 +144,7 @@ begin_signal(h5_writer *w, const ss_header *head)
     h5_dataset v = { .name = "t", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE,
                      .chunk = chunk_of(w, 8 * (head->n_columns + 1)) };
     hid_t group = ss_h5_new_group(w->output.file.id, "signal");
+    w->piece = v.chunk > 0 ? (size_t)v.chunk : H5_PIECE;
     if ((w->column = calloc(head->n_columns + 1, sizeof *w->column)) == NULL)
         return SS_ENOMEM;
     if (group < 0 || !write_clock(group, head) || (w->times = ss_h5_new_dataset(group, &v, 1, &dims, NULL)) < 0)
@@ -176,16 +172,16 @@ append_rows(h5_writer *w, double *const column[], size_t n)
 {
     if (w->column == NULL || (!w->growing && n > w->length - w->samples))
         return ss_fail(&w->output.error, SS_EINVAL, "more samples than the file was begun with");
-    if (!write_times(w, w->times, NULL, w->samples, n))
-        return fail(w, 0, "/signal/t");
-    for (size_t c = 0; c < w->n_columns; c++)
-        for (size_t i = 0, m; i < n; i += m) {
-            hsize_t at = w->samples + i;
-            m = n - i < H5_PIECE ? n - i : H5_PIECE;
+    for (size_t i = 0, m; i < n; i += m, w->samples += m) {
+        size_t left = w->piece - w->samples % w->piece;
+        hsize_t at = w->samples;
+        m = n - i < left ? n - i : left;
+        if (!write_times(w, w->times, NULL, w->samples, m))
+            return fail(w, 0, "/signal/t");
+        for (size_t c = 0; c < w->n_columns; c++)
             if (!ss_h5_write_piece(w->column[c], 1, &at, m, H5T_NATIVE_DOUBLE, column[c] + i))
                 return fail(w, 0, "/signal");
-        }
-    w->samples += n;
+    }
     return SS_OK;
 }
 
@@ -495,23 +491,6 @@ write_notes(h5_writer *w, const ss_header *head)
     return SS_OK;
 }
 
-/* Make the file of a record of n samples, or, if it grows, of an unknown number. */
-static ss_status
-begin(h5_writer *w, const ss_header *signal, const ss_coefficients *grid, size_t n, int growing)
-{
-    const ss_header *head = grid != NULL ? grid->head : signal;
-    w->rate = head != NULL ? head->rate : 1;
-    w->start = head != NULL ? head->start : 0;
-    w->length = n;
-    w->growing = growing;
-    ss_status st = ss_h5_output_open(&w->output);
-    if (st == SS_OK)
-        st = write_notes(w, head);
-    if (st == SS_OK && signal != NULL)
-        st = begin_signal(w, signal);
-    return st == SS_OK && grid != NULL ? begin_wavelet(w, grid) : st;
-}
-
 /* Run a step of a writer that has not failed.  The first failure, which may be the disk's, is kept for all calls
  * that follow. */
 #define STEP(base, err, work) do { \
@@ -527,44 +506,10 @@ begin(h5_writer *w, const ss_header *signal, const ss_coefficients *grid, size_t
         return w->status; \
     } while (0)
 
-/* Write the rows that were put together; all: there are no more. */
-static ss_status
-write_together(h5_writer *w, int all)
-{
-    size_t n = w->length > 0 || !all ? w->length : w->n_rows;
-    ss_status st = w->column == NULL ? begin(w, w->head, NULL, n, n == 0 && !all) : SS_OK;
-    if (st == SS_OK)
-        st = append_rows(w, w->row, w->n_rows);
-    w->n_rows = 0;
-    return st;
-}
-
-static size_t
-room_of(const ss_header *head)
-{
-    return TOGETHER / (head->n_columns + 1) + 1;
-}
-
-static ss_status
-put_together(h5_writer *w, double *const column[], size_t n)
-{
-    size_t columns = w->head->n_columns, room = room_of(w->head);
-    ss_status st = SS_OK;
-    for (size_t i = 0, m; st == SS_OK && i < n; i += m) {
-        m = n - i < room - w->n_rows ? n - i : room - w->n_rows;
-        if (m == 0)
-            st = write_together(w, 0);
-        for (size_t c = 0; c < columns; c++)
-            memcpy(w->row[c] + w->n_rows, column[c] + i, m * sizeof *column[c]);
-        w->n_rows += m;
-    }
-    return st;
-}
-
 static ss_status
 write_rows(ss_writer *base, double *const column[], size_t n, ss_error *err)
 {
-    STEP(base, err, w->head != NULL ? put_together(w, column, n) : append_rows(w, column, n));
+    STEP(base, err, append_rows(w, column, n));
 }
 
 static ss_status
@@ -597,8 +542,6 @@ static ss_status
 append_note(h5_writer *w, const char *key, const char *value)
 {
     hid_t root = w->output.file.id;
-    if (root < 0)
-        return ss_header_note(w->head, key, value, NULL);
     int good = H5Aexists(root, key) <= 0 || H5Adelete(root, key) >= 0;
     return good && ss_h5_write_text(root, key, value) ? SS_OK : fail(w, 0, key);
 }
@@ -613,13 +556,10 @@ write_note(ss_writer *base, const char *key, const char *value, ss_error *err)
 static ss_status
 complete(h5_writer *w, size_t samples)
 {
-    ss_status st = w->head != NULL ? write_together(w, 1) : SS_OK;
     int fits = w->growing || samples == w->length;
-    if (st == SS_OK && ((w->n_scales > 0 && (samples < 1 || !fits))
-                        || (w->column != NULL && (w->samples != samples || !fits))))
-        st = ss_fail(&w->output.error, SS_EINVAL, "%zu samples are not what the file has", samples);
-    if (st == SS_OK && w->has_events)
-        st = write_all_events(w);
+    if ((w->n_scales > 0 && (samples < 1 || !fits)) || (w->column != NULL && (w->samples != samples || !fits)))
+        return ss_fail(&w->output.error, SS_EINVAL, "%zu samples are not what the file has", samples);
+    ss_status st = w->has_events ? write_all_events(w) : SS_OK;
     return st == SS_OK && w->n_scales > 0 ? end_wavelet(w, samples) : st;
 }
 
@@ -645,8 +585,6 @@ free_writer(ss_writer *base)
     H5E_BEGIN_TRY {
         ss_h5_output_close(&w->output, SS_STOP);     /* does nothing if it has ended */
     } H5E_END_TRY
-    ss_header_free(w->head);
-    free(w->row);
     free(w->event);
     free(w->column);
     free(w->unit);
@@ -657,19 +595,21 @@ free_writer(ss_writer *base)
     free(w);
 }
 
-/* A signal alone is put together first, anything else begins at once. */
 static ss_status
-prepare(h5_writer *w, const ss_contents *what)
+begin(h5_writer *w, const ss_contents *what)
 {
-    const ss_header *signal = what->signal;
+    const ss_header *head = what->grid != NULL ? what->grid->head : what->signal;
+    w->rate = head != NULL ? head->rate : 1;
+    w->start = head != NULL ? head->start : 0;
     w->length = what->n;
+    w->growing = what->n == 0;
     w->has_events = what->events;
-    if (w->output.path == NULL)
-        return SS_ENOMEM;
-    if (signal == NULL || what->grid != NULL)
-        return begin(w, signal, what->grid, what->n, what->n == 0);
-    w->row = ss_columns_new(signal->n_columns, room_of(signal));
-    return w->row != NULL ? ss_header_copy(&w->head, signal, NULL) : SS_ENOMEM;
+    ss_status st = w->output.path != NULL ? ss_h5_output_open(&w->output) : SS_ENOMEM;
+    if (st == SS_OK)
+        st = write_notes(w, head);
+    if (st == SS_OK && what->signal != NULL)
+        st = begin_signal(w, what->signal);
+    return st == SS_OK && what->grid != NULL ? begin_wavelet(w, what->grid) : st;
 }
 
 static ss_status
@@ -686,10 +626,9 @@ writer_new(ss_writer **out, const char *path, const ss_contents *what, ss_error 
         return ss_fail_memory(err, path);
     w->base.calls = &calls;
     w->output.path = strdup(path);
-    w->output.disk.fd = -1;
-    w->output.file = (h5_file){ .id = -1, .path = path, .err = &w->output.error };
+    w->output.file = (h5_file){ .id = -1, .path = path, .err = &w->output.error, .disk.fd = -1 };
     H5E_BEGIN_TRY {
-        st = ss_h5_output_check(&w->output, prepare(w, what));
+        st = ss_h5_output_check(&w->output, begin(w, what));
     } H5E_END_TRY
     w->output.file.path = w->output.path;
     if (st == SS_OK)
