@@ -90,11 +90,9 @@ open_au(ss_source **out, const struct opening *o, ss_error *err)
     if (f == NULL)
         return SS_ENOMEM;
     *out = &f->base;
-    ss_status st = ss_input_need(in, FIXED_HEADER, err);
+    ss_status st = ss_input_whole(in, FIXED_HEADER, "AU header", err);
     if (st != SS_OK)
         return st;
-    if (in->hi - in->lo < FIXED_HEADER)
-        return ss_fail(err, SS_EDATA, "%s: truncated AU header", in->name);
     const unsigned char *p = (unsigned char *)in->buffer + in->lo;
     uint32_t field[6];
     for (int i = 0; i < 6; i++)
@@ -110,11 +108,9 @@ open_au(ss_source **out, const struct opening *o, ss_error *err)
     if (channels < 1 || channels > MAX_CHANNELS || field[4] < 1)
         return ss_fail(err, SS_EDATA, "%s: AU header: impossible: %lu channels at %lu Hz", in->name,
                        (unsigned long)channels, (unsigned long)field[4]);
-    st = ss_input_need(in, offset, err);
+    st = ss_input_whole(in, offset, "AU annotation", err);
     if (st != SS_OK)
         return st;
-    if (in->hi - in->lo < offset)
-        return ss_fail(err, SS_EDATA, "%s: truncated AU annotation", in->name);
 
     char *annotation = strndup(in->buffer + in->lo + FIXED_HEADER, offset - FIXED_HEADER);
     st = annotation == NULL ? ss_fail_memory(err, in->name)

@@ -103,6 +103,13 @@ ss_input_need(struct input *in, size_t n, ss_error *err)
 }
 
 ss_status
+ss_input_whole(struct input *in, size_t n, const char *what, ss_error *err)
+{
+    ss_status st = ss_input_need(in, n, err);
+    return st != SS_OK || in->hi - in->lo >= n ? st : ss_fail(err, SS_EDATA, "%s: truncated %s", in->name, what);
+}
+
+ss_status
 ss_input_skip(struct input *in, uint64_t *n, ss_error *err)
 {
     ss_status st = SS_OK;

@@ -28,6 +28,8 @@ ss_status ss_input_open(struct input *in, FILE *file, const char *name, ss_error
 void ss_input_close(struct input *in);
 /* Fill the buffer to n unread bytes, or up to the end of the stream. */
 ss_status ss_input_need(struct input *in, size_t n, ss_error *err);
+/* The same where all of them must be there; SS_EDATA: "truncated WHAT". */
+ss_status ss_input_whole(struct input *in, size_t n, const char *what, ss_error *err);
 /* Skip *n bytes, which may be more than memory holds; *n becomes the number of missing bytes. */
 ss_status ss_input_skip(struct input *in, uint64_t *n, ss_error *err);
 /* The next line, without its end and with a NUL behind it, valid until the next call; *length = 0

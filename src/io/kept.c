@@ -5,11 +5,9 @@
 #include <string.h>
 #include <sys/types.h>
 #include <unistd.h>
-#include "base/columns.h"
 #include "base/error.h"
 #include "base/list.h"
 #include "io/kept.h"
-#include "io/reader.h"
 
 enum { PIECE = 1 << 18 };               /* so many numbers are in memory, or one row */
 
@@ -119,79 +117,4 @@ ss_kept_free(struct kept *k)
     if (k->file != NULL)
         fclose(k->file);
     free(k->block);
-}
-
-/* --- as a source --------------------------------------------------------------------------- */
-
-struct kept_source {
-    ss_source base;
-    struct kept rows;
-    uint64_t next;
-};
-
-static ss_status
-give_kept(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
-{
-    struct kept_source *k = (struct kept_source *)s;
-    const double *row;
-    for (; *n < max && (row = ss_kept_row(&k->rows, k->next)) != NULL; ++*n, k->next++)
-        for (size_t c = 0; c < k->rows.width; c++)
-            if (column[c] != NULL)
-                column[c][*n] = row[c];
-    return ss_kept_check(&k->rows, err);
-}
-
-static ss_status
-rewind_kept(ss_source *s, ss_error *err)
-{
-    (void)err;
-    ((struct kept_source *)s)->next = 0;
-    return SS_OK;
-}
-
-static int
-never_waits(const ss_source *s)
-{
-    (void)s;
-    return 0;
-}
-
-static void
-free_kept(ss_source *s)
-{
-    ss_kept_free(&((struct kept_source *)s)->rows);
-}
-
-/* Read all rows, and put them away. */
-static ss_status
-fill(struct kept *kept, ss_source *from, ss_error *err)
-{
-    size_t columns = from->head->n_columns, piece = ss_source_piece(from), n = 1;
-    double **column = ss_columns_new(columns + 1, piece), *row = column != NULL ? column[columns] : NULL;
-    ss_status st = column != NULL ? SS_OK : ss_fail_memory(err, from->name);
-    while (st == SS_OK && n > 0) {
-        st = ss_source_rows(from, column, piece, &n, err);
-        for (size_t i = 0; st == SS_OK && i < n; i++) {
-            for (size_t c = 0; c < columns; c++)
-                row[c] = column[c][i];
-            st = ss_kept_add(kept, row, err);
-        }
-    }
-    free(column);
-    return st == SS_OK ? ss_kept_end(kept, err) : st;
-}
-
-ss_status
-ss_source_keep(ss_source **s, const char *folder, ss_error *err)
-{
-    static const struct source_calls calls = {
-        .next = give_kept, .rewind = rewind_kept, .waits = never_waits, .free = free_kept };
-    if ((*s)->rewinds)
-        return SS_OK;
-    struct kept_source *k = ss_source_wrap(s, sizeof *k, &calls, err);
-    if (k == NULL)
-        return SS_ENOMEM;
-    k->base.rewinds = 1;
-    ss_kept_begin(&k->rows, k->base.name, folder, k->base.head->n_columns);
-    return fill(&k->rows, k->base.inner, err);
 }

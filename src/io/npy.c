@@ -192,12 +192,10 @@ static ss_status
 read_header(struct input *in, char **text, ss_error *err)
 {
     *text = NULL;
-    ss_status st = ss_input_need(in, MAGIC_BYTES + 4, err);
+    ss_status st = ss_input_whole(in, MAGIC_BYTES + 4, ".npy header", err);
     if (st != SS_OK)
         return st;
     const unsigned char *p = (const unsigned char *)in->buffer + in->lo;
-    if (in->hi - in->lo < MAGIC_BYTES + 4)
-        return ss_fail(err, SS_EDATA, "%s: truncated .npy header", in->name);
     size_t version = p[6], length = p[8] | (size_t)p[9] << 8, before = MAGIC_BYTES + 2;
     if (version == 2 || version == 3) {
         length |= (size_t)p[10] << 16 | (size_t)p[11] << 24;
@@ -206,11 +204,9 @@ read_header(struct input *in, char **text, ss_error *err)
     if (version < 1 || version > 3 || length > HEADER_MOST)
         return ss_fail(err, SS_EDATA, "%s: .npy of version %zu with a header of %zu bytes is not read; "
                        "versions 1 to 3 are", in->name, version, length);
-    st = ss_input_need(in, before + length, err);
+    st = ss_input_whole(in, before + length, ".npy header", err);
     if (st != SS_OK)
         return st;
-    if (in->hi - in->lo < before + length)
-        return ss_fail(err, SS_EDATA, "%s: truncated .npy header", in->name);
     *text = strndup(in->buffer + in->lo + before, length);
     in->lo += before + length;
     if (*text == NULL)

@@ -16,7 +16,7 @@ ss_status ss_reader_open(ss_reader **out, FILE *in, const char *name, struct ope
 
 /* Wrap a source for the options that hold for every format: a span of time, factors and units (adjust.c). */
 ss_status ss_source_adjust(ss_source **s, const ss_read_opts *opts, ss_error *err);
-/* Wrap a source that cannot go back in one that can (kept.c). */
+/* Wrap a source that cannot go back in one that can (table/samples.c). */
 ss_status ss_source_keep(ss_source **s, const char *folder, ss_error *err);
 
 #endif

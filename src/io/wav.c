@@ -35,15 +35,6 @@ little_endian(const char *at, unsigned n)
 }
 
 static ss_status
-need(struct input *in, size_t n, ss_error *err)
-{
-    ss_status st = ss_input_need(in, n, err);
-    if (st == SS_OK && in->hi - in->lo < n)
-        return ss_fail(err, SS_EDATA, "%s: truncated WAV header", in->name);
-    return st;
-}
-
-static ss_status
 skip(struct input *in, uint32_t length, ss_error *err)
 {
     uint64_t left = (uint64_t)length + length % 2;
@@ -59,7 +50,7 @@ read_description(struct input *in, uint32_t length, description *d, ss_error *er
     if (length < FMT_LEAST || length > FMT_MOST)
         return ss_fail(err, SS_EDATA, "%s: WAV header: a format of %lu bytes", in->name,
                        (unsigned long)length);
-    ss_status st = need(in, length, err);
+    ss_status st = ss_input_whole(in, length, "WAV header", err);
     if (st != SS_OK)
         return st;
     const char *p = in->buffer + in->lo;
@@ -88,7 +79,7 @@ read_chunks(struct input *in, description *d, uint64_t *place, uint32_t *length,
 {
     *place = RIFF_HEADER;
     for (int i = 0; i < MAX_CHUNKS; i++) {
-        ss_status st = need(in, CHUNK_HEADER, err);
+        ss_status st = ss_input_whole(in, CHUNK_HEADER, "WAV header", err);
         if (st != SS_OK)
             return st;
         char name[4];
@@ -130,7 +121,7 @@ open_wav(ss_source **out, const struct opening *o, ss_error *err)
     if (f == NULL)
         return SS_ENOMEM;
     *out = &f->base;
-    ss_status st = need(in, RIFF_HEADER, err);
+    ss_status st = ss_input_whole(in, RIFF_HEADER, "WAV header", err);
     if (st != SS_OK)
         return st;
     uint32_t all = little_endian(in->buffer + in->lo + 4, 4);

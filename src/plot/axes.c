@@ -11,17 +11,23 @@
 
 #define DECADES 8               /* powers of ten that stand at an axis, at most */
 #define TITLE_ROOM 34.0         /* [ems] */
+#define X_ROOM 30.0             /* of a label below the horizontal axis */
 #define SMALL 0.6               /* letters too small to read */
 #define TWO_LINES 0.8           /* letters of two lines, which leave tics their room */
 #define THREE_LINES 0.7         /* and of a title's three, which have the height of two */
 
-enum { LABEL_MAX = sizeof ((script_label *)0)->text - sizeof "…" };
+/* A label in one or two lines. */
+typedef struct label {
+    char text[256];
+    double font;                /* size of its letters, <= 1, over the usual size */
+} label;
+enum { LABEL_MAX = sizeof ((label *)0)->text - sizeof "…" };
 
 /* --- text ----------------------------------------------------------------------------------- */
 
 /* Append to the text, which is full when it has LABEL_MAX bytes. */
 static void
-add(script_label *l, const char *format, ...)
+add(label *l, const char *format, ...)
 {
     size_t n = strlen(l->text);
     va_list list;
@@ -31,14 +37,14 @@ add(script_label *l, const char *format, ...)
 }
 
 static int
-is_full(const script_label *l)
+is_full(const label *l)
 {
     return strlen(l->text) == LABEL_MAX;
 }
 
 /* A text that is full ends with a whole character and an ellipsis. */
 static void
-mark_cut(script_label *l)
+mark_cut(label *l)
 {
     size_t n = strlen(l->text);
     if (!is_full(l))
@@ -49,7 +55,7 @@ mark_cut(script_label *l)
 }
 
 static void
-add_superscript(script_label *l, int exponent)
+add_superscript(label *l, int exponent)
 {
     static const char *const digit[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
     char text[16];
@@ -60,7 +66,7 @@ add_superscript(script_label *l, int exponent)
 
 /* A text without line ends of its own, its ^2 and ^3 raised if it is a unit. */
 static void
-add_text(script_label *l, const char *text, int is_unit)
+add_text(label *l, const char *text, int is_unit)
 {
     for (; *text != '\0' && !is_full(l); text++)
         if (is_unit && *text == '^' && (text[1] == '2' || text[1] == '3') && !isdigit((unsigned char)text[2])
@@ -91,7 +97,7 @@ width_of(const char *text)
 
 /* Break the text behind the blank or _ nearest to its middle, if it has one. */
 static void
-break_text(script_label *l)
+break_text(label *l)
 {
     long best = 0, n = (long)strlen(l->text);
     for (long i = 1; i < n; i++)
@@ -105,35 +111,18 @@ break_text(script_label *l)
 
 /* --- labels --------------------------------------------------------------------------------- */
 
-/* The length of a column's name without the unit at its end: "slip_mm_s" of mm/s, "accel_g" of g. */
-static size_t
-name_length(const ss_column *column)
-{
-    const char *name = column->name, *unit = column->unit;
-    size_t n = strlen(name);
-    for (size_t i = strlen(unit), at = n; *unit != '\0' && at > 1; at--) {
-        while (i > 0 && unit[i - 1] == '^')
-            i--;
-        if (i == 0)
-            return name[at - 1] == '_' ? at - 1 : n;
-        if (name[at - 1] != unit[i - 1] && !(name[at - 1] == '_' && strchr("/ *", unit[i - 1]) != NULL))
-            break;
-        i--;
-    }
-    if (*unit != '\0')
-        ss_unit_of_name(name, &n);              /* that of the file, before another was given */
-    return n;
-}
-
 /* "name", or "name − offset unit". */
-static script_label
+static label
 quantity_of(const ss_column *column, double offset)
 {
-    script_label l = { .text = "" };
+    label l = { .text = "" };
     char number[SS_NUMBER_MAX];
+    size_t n = strlen(column->name);
     add_text(&l, column->name, 0);
-    if (!is_full(&l))
-        l.text[name_length(column)] = '\0';
+    if (column->unit[0] != '\0' && !is_full(&l)) {     /* a unit at the end of the name is not written twice */
+        ss_unit_of_name(column->name, &n);
+        l.text[n] = '\0';
+    }
     if (offset == 0)
         return l;
     ss_number_format(number, fabs(offset));
@@ -143,10 +132,10 @@ quantity_of(const ss_column *column, double offset)
 }
 
 /* "10^-3 unit". */
-static script_label
+static label
 unit_of(const ss_column *column, int exponent)
 {
-    script_label l = { .text = "" };
+    label l = { .text = "" };
     if (exponent != 0) {
         add(&l, "10");
         add_superscript(&l, exponent);
@@ -156,36 +145,38 @@ unit_of(const ss_column *column, int exponent)
     return l;
 }
 
-void
-ss_script_make_label(script_label *l, const ss_column *column, script_scale scale, double room)
+/* "name / (10^-3 unit)", or "(name − offset unit) / (10^-3 unit)"; if it is wider than its room, two lines, "name" and
+ * "(10^-3 unit)", or broken near its middle, in smaller letters; cut where it is longer than any picture. */
+static label
+make_label(const ss_column *column, script_scale scale, double room)
 {
-    const script_label name = quantity_of(column, scale.offset), unit = unit_of(column, scale.exponent);
+    const label name = quantity_of(column, scale.offset), unit = unit_of(column, scale.exponent);
     int is_square = strchr(column->unit, '(') != NULL;          /* brackets go round round ones */
     const char *open = is_square ? "[" : "(", *close = is_square ? "]" : ")";
     int is_sole = column->unit[0] == '\0' || (scale.exponent == 0 && strpbrk(column->unit, "/ *") == NULL);
-    *l = (script_label){ .text = "" };
-    add(l, scale.offset != 0 ? "(%s)" : "%s", name.text);
+    label l = { .text = "" }, two = l, broken;
+    add(&l, scale.offset != 0 ? "(%s)" : "%s", name.text);
     if (unit.text[0] != '\0')
-        add(l, " / %s%s%s", is_sole ? "" : open, unit.text, is_sole ? "" : close);
-    mark_cut(l);
-    script_label broken = *l, two = { .text = "" };
-    if (width_of(l->text) > room && unit.text[0] != '\0' && !is_full(&name)) {
+        add(&l, " / %s%s%s", is_sole ? "" : open, unit.text, is_sole ? "" : close);
+    mark_cut(&l);
+    broken = l;
+    if (width_of(l.text) > room && unit.text[0] != '\0' && !is_full(&name)) {
         add(&two, "%s\n%s%s%s", name.text, open, unit.text, close);
         mark_cut(&two);
-        *l = two;
+        l = two;
     }
-    if (width_of(l->text) * SMALL > room) {
-        break_text(&broken);
-        *l = width_of(broken.text) < width_of(l->text) ? broken : *l;
-    }
-    l->font = fmin(room / width_of(l->text), strchr(l->text, '\n') != NULL ? TWO_LINES : 1);
+    break_text(&broken);
+    if (width_of(l.text) * SMALL > room && width_of(broken.text) < width_of(l.text))
+        l = broken;
+    l.font = fmin(room / width_of(l.text), strchr(l.text, '\n') != NULL ? TWO_LINES : 1);
+    return l;
 }
 
 /* Write the label as a string, and behind it what is between, and its size. */
 static void
-write_label(FILE *out, const script_label *l, const char *between)
+write_label(FILE *out, const label *l, const char *between)
 {
-    ss_script_quote_lines(out, l->text);
+    ss_script_quote(out, l->text, 1);
     ss_print(out, "%s", between);
     if (l->font < 1)
         ss_print(out, " font sprintf(',%%.1f', %.2f*letters)", l->font);
@@ -193,26 +184,27 @@ write_label(FILE *out, const script_label *l, const char *between)
 }
 
 void
-ss_script_write_x_label(FILE *out, const script_label *l, const char *offset)
+ss_script_write_x_label(FILE *out, const ss_column *column, script_scale scale)
 {
-    char between[64];
-    snprintf(between, sizeof between, " noenhanced offset %s", offset);
+    const label l = make_label(column, scale, X_ROOM);
     fputs("set xlabel ", out);
-    write_label(out, l, between);
+    write_label(out, &l, " noenhanced offset 0,0.4");
 }
 
 void
-ss_script_write_side_label(FILE *out, int n, const script_label *l)
+ss_script_write_side_label(FILE *out, int n, const ss_column *column, script_scale scale, double room)
 {
+    const label l = make_label(column, scale, room);
     ss_print(out, "set label %d ", n);
-    write_label(out, l, strchr(l->text, '\n') != NULL ? " at screen 0.0135,graph 0.5 center rotate noenhanced"
+    write_label(out, &l, strchr(l.text, '\n') != NULL ? " at screen 0.0135,graph 0.5 center rotate noenhanced"
                 : " at screen 0.03,graph 0.5 center rotate noenhanced");
 }
 
 void
-ss_script_write_title(FILE *out, const char *title, const script_label *lines)
+ss_script_write_title(FILE *out, const char *title, const ss_column *lines)
 {
-    script_label l = { .text = "" }, all = l;
+    label l = { .text = "" }, all = l;
+    const label of_lines = lines != NULL ? make_label(lines, ss_script_power(0), INFINITY) : l;
     add_text(&l, title, 0);
     mark_cut(&l);
     double width = width_of(l.text);
@@ -221,7 +213,7 @@ ss_script_write_title(FILE *out, const char *title, const script_label *lines)
     int is_broken = strchr(l.text, '\n') != NULL;
     all.font = fmin(TITLE_ROOM / width_of(l.text), !is_broken ? 1 : lines == NULL ? TWO_LINES : THREE_LINES);
     add(&all, "%s%s%s%s", l.text, lines != NULL && l.text[0] != '\0' ? "\n" : "", lines != NULL ? "lines: " : "",
-        lines != NULL ? lines->text : "");
+        of_lines.text);
     mark_cut(&all);
     fputs("set title ", out);
     write_label(out, &all, " noenhanced offset 0,-0.5");
@@ -247,7 +239,7 @@ ss_script_write_decades(FILE *out, const char *axis, double lo, double hi)
         return;
     ss_print(out, "set %stics (", axis);
     for (int i = first - 1; i <= last; i++) {
-        script_label l = { .text = "" };
+        label l = { .text = "" };
         if (i % every == 0) {
             add(&l, "10");
             add_superscript(&l, i);

@@ -69,7 +69,6 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
         { "amplitude", "dB" }, { "frequency", "Hz" }, { "damping ratio", "" } };
     ss_plot_opts own;
     script_stack stack;
-    script_label label;
     if (out == NULL || b == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_script_take(&own, opts, err);
@@ -90,20 +89,17 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
     for (int i = 0; i < PANELS; i++) {
         script_extent e = i > 0 ? extent_of(b, i == 2) : SCRIPT_NO_EXTENT;
         script_scale scale = i > 0 ? ss_script_scale(e) : ss_script_power(0);
-        ss_script_make_label(&label, &names[i], scale, ROOM);
-        ss_script_write_panel(&stack, heights[i], gaps[i], &label);
+        ss_script_write_panel(&stack, heights[i], gaps[i], &names[i], scale, ROOM);
         if (i == 0) {
-            ss_script_make_label(&label, &(ss_column){ "time", "s" }, ss_script_power(0), INFINITY);
-            ss_script_write_x_label(out, &label, "0,0.4");
+            ss_script_write_x_label(out, &(ss_column){ "time", "s" }, ss_script_power(0));
             ss_print(out, "set xrange [%.9g:%.9g]\n", signal->head->start,
                      signal->head->start + (double)signal->n / signal->head->rate);
             fputs("plot $decay using 1:2 with lines lw 0.7 lc rgb '" ZERO_COLOUR "', "
                   "$rows using 1:3:2 with xerrorbars pt 7 ps 0.3*mark lw 1 lc rgb colour\n", out);
             continue;
         }
-        ss_script_make_label(&label, &(ss_column){ "amplitude", of->unit }, ss_script_power(0), INFINITY);
         if (i + 1 == PANELS)
-            ss_script_write_x_label(out, &label, "0,0.4");
+            ss_script_write_x_label(out, &(ss_column){ "amplitude", of->unit }, ss_script_power(0));
         else
             fputs("unset xlabel\n", out);
         ss_print(out, "set logscale x; set xtics format '%s'\nset xrange [%.6g:%.6g]\n",

@@ -79,9 +79,7 @@ static void
 write_frequency_tics(FILE *out, double lo, double hi)
 {
     int exponent = hi >= 1e5 ? 3 * (int)floor(log10(hi) / 3) : 0;
-    script_label label;
-    ss_script_make_label(&label, &(ss_column){ "frequency", "Hz" }, ss_script_power(exponent), 20);
-    ss_script_write_side_label(out, 2, &label);
+    ss_script_write_side_label(out, 2, &(ss_column){ "frequency", "Hz" }, ss_script_power(exponent), 20);
     int sparse = hi / lo > 2e4, dense = hi / lo < 8;
     double fine = hi / lo < 2 ? 10 : 1;         /* tics a digit */
     const char *between = "set ytics (";
@@ -122,12 +120,11 @@ ss_contour_write_spans(FILE *out, const script_span *span, const ss_overlay *ove
     double shortest = (span->to - span->from) / CONTOUR_COLUMNS * 2;        /* that is visible */
     fputs("$spans << EOD\n", out);
     for (size_t i = 0; i < overlay->n_spans; i++) {
-        double from = fmax(overlay->span[i][0], span->from);
-        double to = fmin(fmax(overlay->span[i][1], overlay->span[i][0] + shortest), span->to);
-        if (!(from <= to))
+        double onset = overlay->span[i][0], end = fmax(overlay->span[i][1], onset + shortest);
+        if (!(onset <= span->to && end >= span->from))
             continue;
-        write_time(out, span, from, " ");
-        write_time(out, span, to, "\n");
+        write_time(out, span, fmax(onset, span->from), " ");
+        write_time(out, span, fmin(end, span->to), "\n");
         n++;
     }
     fputs("EOD\n", out);
@@ -175,30 +172,6 @@ write_marks(FILE *out, const contour_map *map, const ss_contour_opts *contour)
     }
     fputs("EOD\n", out);
     return n;
-}
-
-/* NULL if every entry of an overlay can be drawn, else the name of the first that cannot. */
-static const char *
-find_unplaced(const ss_overlay *overlay)
-{
-    for (size_t i = 0; i < overlay->n_spans; i++)
-        if (!isfinite(overlay->span[i][0]) || !isfinite(overlay->span[i][1]))
-            return "transition";
-    for (size_t i = 0; i < overlay->n_maxima; i++)
-        if (!isfinite(overlay->maximum[i][0]) || !(overlay->maximum[i][1] > 0)
-            || isinf(overlay->maximum[i][1]))
-            return "maximum";
-    for (size_t i = 0; i < overlay->n_spikes; i++)
-        if (!isfinite(overlay->spike[i]))
-            return "spike";
-    return NULL;
-}
-
-ss_status
-ss_contour_check_overlay(const ss_overlay *overlay, ss_error *err)
-{
-    const char *what = overlay != NULL ? find_unplaced(overlay) : NULL;
-    return what == NULL ? SS_OK : ss_fail(err, SS_EINVAL, "a time or frequency of a %s is not finite", what);
 }
 
 /* --- the script ---------------------------------------------------------------------------- */
@@ -263,13 +236,11 @@ write_variables(FILE *out, const contour_map *map, const ss_contour_opts *contou
 static void
 write_signal(FILE *out, const trace *t)
 {
-    script_label label;
     ss_trace_write(out, "$signal", t);
-    ss_script_make_label(&label, t->column, t->scale, ROOM);
     ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t->extent, t->scale), 5);
     fputs("set tmargin at screen 0.925; set bmargin at screen 0.72\n"
           "set label 1 '(a)' at screen 0.01, screen 0.96\nset xtics format ''; ", out);
-    ss_script_write_side_label(out, 2, &label);
+    ss_script_write_side_label(out, 2, t->column, t->scale, ROOM);
     fputs(panel_a, out);
 }
 
@@ -402,11 +373,7 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
         return ss_fail_column(err, contour->column, signal->head->n_columns);
     if (c->w == NULL && c->source == NULL)
         return ss_fail(err, SS_EINVAL, "no coefficients, and no source of them");
-    for (size_t i = 0; i < contour->n_events; i++)
-        if (!isfinite(contour->event[i]))
-            return ss_fail(err, SS_EINVAL, "a time or frequency of an event is not finite");
-    st = check_scales(c, err);
-    return st == SS_OK ? ss_contour_check_overlay(contour->overlay, err) : st;
+    return check_scales(c, err);
 }
 
 /* The caller's options, and the map. */

@@ -39,9 +39,6 @@ size_t ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
 /* Write the datablock $spans, of two times a row, cut at the ends of span; returns the number of rows. */
 size_t ss_contour_write_spans(FILE *out, const script_span *span, const ss_overlay *overlay);
 
-/* SS_EINVAL: a time or frequency is not finite.  overlay may be NULL. */
-ss_status ss_contour_check_overlay(const ss_overlay *overlay, ss_error *err);
-
 int ss_palette_is_known(const char *name);
 /* The colour below all areas of a palette whose loudest level is light; NULL if it is dark: white paper. */
 const char *ss_palette_ground(const char *name);

@@ -49,7 +49,7 @@ write_panel(script_stack *stack, const map_column *column, script_scale of_x, si
     const double *x = column[0].value, *y = column[i].value;
     script_extent e = ss_script_extent(y, n);
     script_scale of_y = ss_script_scale(e);
-    script_label label = ss_map_label(column[i].label, of_y, ROOM);
+    map_label label;
     int line = 1, whole = 1;
     for (size_t k = 0; k < n; k++) {            /* rows of one value of the key stand together */
         line &= k == 0 || x[k] != x[k - 1] || y[k] == y[k - 1] || (isnan(y[k]) && isnan(y[k - 1]));
@@ -58,7 +58,7 @@ write_panel(script_stack *stack, const map_column *column, script_scale of_x, si
     ss_print(out, "$panel%zu << EOD\n", i);
     write_points(out, x, of_x, y, of_y, n, e);
     fputs("EOD\n", out);
-    ss_script_write_panel(stack, i == 1 ? FIRST : NEXT, GAP, &label);
+    ss_script_write_panel(stack, i == 1 ? FIRST : NEXT, GAP, ss_map_label(&label, column[i].label), of_y, ROOM);
     ss_script_write_tics(out, "ytics", ss_script_scaled_extent(e, of_y), i == 1 ? 6 : 4);
     if (line && whole)
         ss_print(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, "
@@ -75,7 +75,7 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
 {
     const ss_plot_opts titled = ss_map_titled(opts, t);
     script_stack stack;
-    script_label x_label = ss_map_label(column[0].label, x->scale, INFINITY);
+    map_label label;
     ss_status st = ss_script_begin_stack(&stack, out, &titled, NULL,
                                          FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, err);
     if (st != SS_OK)
@@ -87,7 +87,7 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     for (size_t i = 1; i < n_columns; i++) {
         if (i + 1 == n_columns) {
             fputs("set xtics format '%g'; ", out);
-            ss_script_write_x_label(out, &x_label, "0,0.4");
+            ss_script_write_x_label(out, ss_map_label(&label, column[0].label), x->scale);
             if (x->log)
                 ss_script_write_decades(out, "x", x->value[0], x->value[x->n - 1]);
         }

@@ -191,14 +191,14 @@ ss_map_titled(const ss_plot_opts *opts, const ss_table *t)
     return titled;
 }
 
-script_label
-ss_map_label(const ss_column *column, script_scale scale, double room)
+const ss_column *
+ss_map_label(map_label *l, const ss_column *column)
 {
-    script_label label;
-    ss_script_make_label(&label, column, scale, room);
-    for (size_t i = 0; i < strlen(column->name) && label.text[i] != '\0'; i++)
-        label.text[i] = label.text[i] == '_' ? ' ' : label.text[i];
-    return label;
+    snprintf(l->name, sizeof l->name, "%s", column->name);
+    for (char *c = l->name; *c != '\0'; c++)
+        *c = *c == '_' ? ' ' : *c;
+    l->column = (ss_column){ l->name, column->unit };
+    return &l->column;
 }
 
 script_extent

@@ -172,7 +172,7 @@ write_key(FILE *out, const drawn *d)
     if (d->n_values == 0)
         return;
     fputs("set key title ", out);
-    ss_script_quote(out, d->column[d->regions].label->name);
+    ss_script_quote(out, d->column[d->regions].label->name, 0);
     fputs(" noenhanced font fine\n", out);
 }
 
@@ -210,14 +210,13 @@ write_plot(FILE *out, const drawn *d, const ss_plot_opts *opts)
 static ss_status
 write_map(FILE *out, const drawn *d, const ss_plot_opts *opts, ss_error *err)
 {
-    script_label x = ss_map_label(d->column[0].label, d->g.x.scale, INFINITY);
-    script_label y = ss_map_label(d->column[1].label, d->g.y.scale, INFINITY);
-    script_label lines = ss_map_label(d->column[d->lines].label, ss_script_power(0), INFINITY);
-    ss_status st = ss_script_begin(out, opts, NULL, 7, d->lines > 0 ? &lines : NULL, err);
+    map_label label;
+    const ss_column *lines = d->lines > 0 ? ss_map_label(&label, d->column[d->lines].label) : NULL;
+    ss_status st = ss_script_begin(out, opts, NULL, 7, lines, err);
     if (st != SS_OK)
         return st;
-    ss_script_write_x_label(out, &x, "0,0.4");
-    ss_script_write_side_label(out, 1, &y);
+    ss_script_write_x_label(out, ss_map_label(&label, d->column[0].label), d->g.x.scale);
+    ss_script_write_side_label(out, 1, ss_map_label(&label, d->column[1].label), d->g.y.scale, INFINITY);
     fputs("line_colour = '#222222'; curve_colour = '" VERMILION "'; missing_colour = '#bbbbbb'\n"
           "fine = sprintf(',%.1f', 0.8*letters)\n", out);
     st = write_data(out, d, opts, err);

@@ -48,8 +48,12 @@ void ss_map_write_coordinate(FILE *out, const map_axis *a, double x, char behind
 
 /* These options, with the scene of the rows as their title if they have none. */
 ss_plot_opts ss_map_titled(const ss_plot_opts *opts, const ss_table *t);
-/* The label of a column: "base frequency / Hz" of base_frequency. */
-script_label ss_map_label(const ss_column *column, script_scale scale, double room);
+/* The column with blanks in its name, for labels: base_frequency becomes "base frequency". */
+typedef struct map_label {
+    char name[128];
+    ss_column column;
+} map_label;
+const ss_column *ss_map_label(map_label *label, const ss_column *column);
 /* The range of an axis, as it is drawn, and the length of the longest label of its tics. */
 script_extent ss_map_range(const map_axis *a);
 int ss_map_letters(const map_axis *a);

@@ -18,12 +18,8 @@ enum { POINTS = 8000 };         /* of a line */
 static void
 write_labels(script_stack *stack, double height, const ss_column *x, const ss_column *y)
 {
-    const script_scale plain = ss_script_power(0);
-    script_label of_x, of_y;
-    ss_script_make_label(&of_x, x, plain, INFINITY);
-    ss_script_make_label(&of_y, y, plain, ROOM);
-    ss_script_write_panel(stack, height, AXIS, &of_y);
-    ss_script_write_x_label(stack->out, &of_x, "0,0.4");
+    ss_script_write_panel(stack, height, AXIS, y, ss_script_power(0), ROOM);
+    ss_script_write_x_label(stack->out, x, ss_script_power(0));
 }
 
 ss_status
@@ -71,7 +67,7 @@ ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, 
     ss_script_write_key(out);
     fputs("plot $loop using 2:3 with lines lw 1 lc rgb '" SKY_BLUE "' title 'measured', "
           "$loop using 2:4 with lines lw 0.8 lc rgb '" VERMILION "' title ", out);
-    ss_script_quote(out, r->row[0].law);
+    ss_script_quote(out, r->row[0].law, 0);
     fputs("\nunset key\n", out);
     for (size_t i = 0; i < signal->n; i++)
         ss_script_include(&of_left, f[i] - r->predicted[i]);
@@ -82,7 +78,7 @@ ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, 
     ss_script_write_frame(out, 0.3, 0.965);
     ss_print(out, "set offsets 0,0,0,0; set xrange [0:1]; set yrange [0.4:%zu.6]; set ytics (", r->n);
     for (size_t i = 0; i < r->n; i++) {
-        ss_script_quote(out, r->row[i].law);
+        ss_script_quote(out, r->row[i].law, 0);
         ss_print(out, " %zu%s", r->n - i, i + 1 < r->n ? ", " : ")\n");
     }
     fputs("plot $laws using ($1/2):3:($1/2):(0.3) with boxxyerror fs solid 0.6 noborder lc rgb '" BLUE "', "

@@ -35,29 +35,29 @@ enum { ORDERS = 1024, PART_BITS = 3, BINS = ORDERS << PART_BITS };
 enum { PART = 1024, LENGTH_LAG = 2, ALL_PARTS = 8 };
 #define STRUCTURE 0.3
 
+struct of_scale {
+    uint64_t count[BINS];
+    double level[PART];         /* the bins of its latest levels */
+    size_t levels, parts;       /* how many of these there are, and parts before them */
+    double spectrum[PART + 1];  /* the sum over its parts */
+};
+
 struct noise_level {
     size_t n_scales;
-    uint64_t *count;            /* BINS of each scale */
+    struct of_scale *scale;
     double *power;              /* room for one of each */
-    double *level;              /* PART of each scale: the bins of its latest levels */
-    size_t *levels, *parts;     /* of each scale: how many of these there are, and parts before them */
-    double *spectrum;           /* PART + 1 of each scale: the sum over its parts */
     real_fft forth, back;       /* of a part, with as many zeros behind it */
 };
 
 void
 ss_noise_level_free(noise_level *noise)
 {
-    if (noise != NULL) {
-        free(noise->count);
-        free(noise->power);
-        free(noise->level);
-        free(noise->levels);
-        free(noise->parts);
-        free(noise->spectrum);
-        ss_real_fft_free(&noise->forth);
-        ss_real_fft_free(&noise->back);
-    }
+    if (noise == NULL)
+        return;
+    free(noise->scale);
+    free(noise->power);
+    ss_real_fft_free(&noise->forth);
+    ss_real_fft_free(&noise->back);
     free(noise);
 }
 
@@ -65,19 +65,16 @@ noise_level *
 ss_noise_level_new(size_t n_scales)
 {
     noise_level *noise = calloc(1, sizeof *noise);
-    if (noise == NULL || (noise->count = calloc(n_scales, BINS * sizeof *noise->count)) == NULL
-        || (noise->power = calloc(n_scales, sizeof *noise->power)) == NULL
-        || (noise->level = malloc(n_scales * PART * sizeof *noise->level)) == NULL
-        || (noise->levels = calloc(n_scales, sizeof *noise->levels)) == NULL
-        || (noise->parts = calloc(n_scales, sizeof *noise->parts)) == NULL
-        || (noise->spectrum = calloc(n_scales, (PART + 1) * sizeof *noise->spectrum)) == NULL
-        || ss_real_fft_new(&noise->forth, 2 * PART, 0) != SS_OK
-        || ss_real_fft_new(&noise->back, 2 * PART, 1) != SS_OK) {
-        ss_noise_level_free(noise);
+    if (noise == NULL)
         return NULL;
-    }
     noise->n_scales = n_scales;
-    return noise;
+    noise->scale = calloc(n_scales, sizeof *noise->scale);
+    noise->power = calloc(n_scales, sizeof *noise->power);
+    if (noise->scale != NULL && noise->power != NULL && ss_real_fft_new(&noise->forth, 2 * PART, 0) == SS_OK
+        && ss_real_fft_new(&noise->back, 2 * PART, 1) == SS_OK)
+        return noise;
+    ss_noise_level_free(noise);
+    return NULL;
 }
 
 /* The exponent of a double and the first bits behind its binary point, which count the bins. */
@@ -118,23 +115,20 @@ total_of(const uint64_t *count)
     return total;
 }
 
-/* Add the power spectrum of the latest levels of scale i, those above the median so far cut off. */
+/* Add the power spectrum of the latest levels of a scale, those above the median so far cut off. */
 static void
-add_part(noise_level *noise, size_t i)
+add_part(noise_level *noise, struct of_scale *of)
 {
-    const double *level = noise->level + i * PART;
-    const uint64_t *count = noise->count + i * BINS;
-    double *x = noise->forth.x, *spectrum = noise->spectrum + i * (PART + 1), mean = 0;
-    size_t n = noise->levels[i];
-    const double median = (double)bin_of(quantile(count, total_of(count), 0.5));
+    double *x = noise->forth.x, mean = 0;
+    const double median = (double)bin_of(quantile(of->count, total_of(of->count), 0.5));
     memset(x, 0, 2 * PART * sizeof *x);
-    for (size_t k = 0; k < n; k++)
-        mean += x[k] = level[k] < median ? level[k] : median;
-    for (size_t k = 0; k < n; k++)
-        x[k] -= mean / (double)n;
+    for (size_t k = 0; k < of->levels; k++)
+        mean += x[k] = fmin(of->level[k], median);
+    for (size_t k = 0; k < of->levels; k++)
+        x[k] -= mean / (double)of->levels;
     ss_real_fft_run(&noise->forth);
     for (size_t k = 0; k <= PART; k++)
-        spectrum[k] += x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1];
+        of->spectrum[k] += x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1];
 }
 
 size_t
@@ -148,18 +142,18 @@ void
 ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const double *level, size_t first,
                    size_t n)
 {
-    uint64_t *count = noise->count + i * BINS;
+    struct of_scale *of = &noise->scale[i];
     size_t step = ss_noise_level_step(scale);
     for (size_t k = (step - first % step) % step; k < n; k += step) {
         size_t bin = bin_of(level[k] * level[k]);
-        count[bin] += step;
-        noise->level[i * PART + noise->levels[i]++] = (double)bin;
-        if (noise->levels[i] < PART)
+        of->count[bin] += step;
+        of->level[of->levels++] = (double)bin;
+        if (of->levels < PART)
             continue;
-        if (noise->parts[i] < ALL_PARTS || noise->parts[i] % ALL_PARTS == 0)
-            add_part(noise, i);
-        noise->parts[i]++;
-        noise->levels[i] = 0;
+        if (of->parts < ALL_PARTS || of->parts % ALL_PARTS == 0)
+            add_part(noise, of);
+        of->parts++;
+        of->levels = 0;
     }
 }
 
@@ -177,15 +171,15 @@ power_of(const uint64_t *count, double total)
     return q[1] / -log1p(-part[1]);
 }
 
-/* Does |W|^2 of scale i have structure: does it change slowly, or repeat? */
+/* Does |W|^2 of a scale have structure: does it change slowly, or repeat? */
 static int
-has_structure(noise_level *noise, size_t i)
+has_structure(noise_level *noise, struct of_scale *of)
 {
     double *x = noise->back.x, most = 0;
-    if (noise->levels[i] > 0 && noise->parts[i] < ALL_PARTS)
-        add_part(noise, i);
+    if (of->levels > 0 && of->parts < ALL_PARTS)
+        add_part(noise, of);
     for (size_t k = 0; k <= PART; k++) {
-        x[2 * k] = noise->spectrum[i * (PART + 1) + k];
+        x[2 * k] = of->spectrum[k];
         x[2 * k + 1] = 0;
     }
     ss_real_fft_run(&noise->back);
@@ -201,12 +195,12 @@ ss_noise_level(noise_level *noise, const ss_scale *scale)
     double *power = noise->power, independent = 0;
     double step = log2(scale[n - 1].f / scale[0].f) / (double)(n - 1);         /* octaves */
     for (size_t i = 0; i < n; i++) {
-        const uint64_t *count = noise->count + i * BINS;
-        double total = total_of(count);
+        struct of_scale *of = &noise->scale[i];
+        double total = total_of(of->count);
         /* their duration in lengths of the wavelet: so many coefficients are independent */
         double lengths = total * scale[i].b_num / scale[i].b_den / (2 * sqrt(M_PI) * scale[i].a);
         independent += APART * step * lengths;
-        if (lengths >= LENGTHS && (power[found] = power_of(count, total)) > 0 && !has_structure(noise, i))
+        if (lengths >= LENGTHS && (power[found] = power_of(of->count, total)) > 0 && !has_structure(noise, of))
             found++;
     }
     if (found == 0 || (double)found * step < 1)

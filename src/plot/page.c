@@ -78,7 +78,7 @@ title_of(const ss_plot_opts *opts, const ss_header *head)
 
 ss_status
 ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
-                const script_label *lines, ss_error *err)
+                const ss_column *lines, ss_error *err)
 {
     const char *name = opts->format, *dot;
     if (name == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
@@ -169,7 +169,7 @@ ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *con
                  / SCRIPT_LEGEND - 1), entries(opts));
     for (size_t k = 0; k <= opts->n_over; k++) {
         ss_print(out, "%s%s = ", k == 0 ? "name" : "; over_name", k == 0 ? "" : ss_script_number[k - 1]);
-        ss_script_quote(out, opts->name != NULL ? opts->name[k] : column[k]->name);
+        ss_script_quote(out, opts->name != NULL ? opts->name[k] : column[k]->name, 0);
     }
     putc('\n', out);
 }
@@ -192,11 +192,12 @@ ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_opts *opts, 
 }
 
 void
-ss_script_write_panel(script_stack *s, double height, double gap, const script_label *label)
+ss_script_write_panel(script_stack *s, double height, double gap, const ss_column *label, script_scale scale,
+                      double room)
 {
     fputs(s->n++ == 0 ? "set multiplot\n" : "unset title; unset label 1\n", s->out);
     ss_print(s->out, "set tmargin at screen %.5f; set bmargin at screen %.5f\n", s->top / s->height,
              (s->top - height) / s->height);
-    ss_script_write_side_label(s->out, 1, label);
+    ss_script_write_side_label(s->out, 1, label, scale, room);
     s->top -= height + gap;
 }

@@ -21,23 +21,20 @@ typedef struct drawing {
     layer layer[SS_PLOT_OVER];          /* other signals: their columns over some panels, */
     trace *over[SS_PLOT_OVER];
     trace left[SS_PLOT_OVER];           /* and what the first panel's column has beyond them; of none: no column */
+    ss_column difference;
+    trace of_left;                      /* the column, the extent and the scale that these share */
     size_t bands;                       /* of features */
 } drawing;
 
-/* Write the data of all panels, those over a panel in its scale, and widen its extent.  All labels have the
- * letters of the smallest, as the first. */
+/* Write the data of all panels, those over a panel in its scale, and widen its extent. */
 static void
 write_data(drawing *d)
 {
     char name[40];
-    double font = 1;
     for (size_t i = 0; i < d->n; i++) {
         snprintf(name, sizeof name, "$panel%zu", i + 1);
         ss_trace_write(d->out, name, &d->t[i]);
-        ss_script_make_label(&d->t[i].label, d->t[i].column, d->t[i].scale, ROOM);
-        font = fmin(font, d->t[i].label.font);
     }
-    d->t[0].label.font = font;
     for (size_t k = 0; k < d->opts->n_over; k++)
         for (size_t m = 0; m < d->layer[k].n; m++) {
             trace *over = &d->over[k][m], *t = &d->t[d->layer[k].panel[m]];
@@ -50,25 +47,24 @@ write_data(drawing *d)
 
 /* The differences of all signals from the first panel, which have one scale and label. */
 static ss_status
-write_differences(drawing *d, trace *label, ss_error *err)
+write_differences(drawing *d, ss_error *err)
 {
-    trace all = { .extent = SCRIPT_NO_EXTENT };
-    char name[] = "difference";
+    trace *all = &d->of_left;
+    d->difference = (ss_column){ (char *)"difference", d->t[0].column->unit };
+    *all = (trace){ .column = &d->difference, .extent = SCRIPT_NO_EXTENT };
     for (size_t k = 0; k < d->opts->n_over; k++)
         if (d->left[k].column != NULL)
-            ss_script_widen(&all.extent, d->left[k].extent);
-    if (!(all.extent.lo <= all.extent.hi))
+            ss_script_widen(&all->extent, d->left[k].extent);
+    if (!(all->extent.lo <= all->extent.hi))
         return ss_fail(err, SS_EINVAL, "no difference can be drawn: no other column lies over the first panel");
-    all.scale = ss_script_scale(all.extent);
-    ss_script_make_label(&all.label, &(ss_column){ name, d->t[0].column->unit }, all.scale, ROOM);
+    all->scale = ss_script_scale(all->extent);
     for (size_t k = 0; k < d->opts->n_over; k++) {
         char block[24];
-        d->left[k].scale = all.scale;
+        d->left[k].scale = all->scale;
         snprintf(block, sizeof block, "$difference%s", ss_script_number[k]);
         if (d->left[k].column != NULL)
             ss_trace_write(d->out, block, &d->left[k]);
     }
-    *label = all;
     return SS_OK;
 }
 
@@ -94,7 +90,6 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     double legend = ss_script_legend(opts);
     size_t panels = d->n + (opts->difference != 0);
     script_stack stack;
-    trace left;
     ss_status st = ss_script_begin_stack(&stack, out, opts, head, legend + TIME + PANEL * (double)panels, err);
     if (st != SS_OK)
         return st;
@@ -104,7 +99,7 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     if (opts->features != NULL && (d->bands = ss_contour_write_spans(out, d->span, opts->features)) > 0)
         fputs("feature_colour = '" SHADE_COLOUR "'; set y2range [0:1]\n", out);
     write_data(d);
-    if (opts->difference && (st = write_differences(d, &left, err)) != SS_OK)
+    if (opts->difference && (st = write_differences(d, err)) != SS_OK)
         return st;
     ss_script_write_frame(out, 0.175, letters < 5 ? 0.965 : 1 - 0.0095 * letters);
     fputs("set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
@@ -116,12 +111,11 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     for (size_t i = 0; i < panels; i++) {
         int is_left = opts->difference && i == 1;
         size_t column = i > 1 && opts->difference ? i - 1 : i;
-        trace *t = is_left ? &left : &d->t[column];
+        const trace *t = is_left ? &d->of_left : &d->t[column];
         double gap = i + 1 < panels ? 0.1 * PANEL : 0;
-        t->label.font = d->t[0].label.font;
         if (i + 1 == panels)
             ss_script_write_time_labels(out, d->span);
-        ss_script_write_panel(&stack, PANEL - gap, gap, &t->label);
+        ss_script_write_panel(&stack, PANEL - gap, gap, t->column, t->scale, ROOM);
         ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t->extent, t->scale), 5);
         if (is_left)
             plot_differences(d);
@@ -230,7 +224,7 @@ ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n, co
         return ss_fail(err, SS_EINVAL, "no columns to draw");
     d.t = calloc(d.n, sizeof *d.t);
     size_t *index = malloc(d.n * sizeof *index);
-    st = d.t != NULL && index != NULL ? ss_contour_check_overlay(own.features, err) : ss_fail_memory(err, NULL);
+    st = d.t != NULL && index != NULL ? SS_OK : ss_fail_memory(err, NULL);
     for (size_t i = 0; st == SS_OK && i < d.n; i++)
         index[i] = n > 0 ? column[i] : i;
     if (st == SS_OK)

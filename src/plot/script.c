@@ -67,9 +67,8 @@ is_drawable(const char *text, size_t at, size_t n)
         : n == 3 ? p[0] != 0xef || p[1] != 0xbf || p[2] < 0xbe : 1;
 }
 
-/* Text between double quotes: a control character becomes a blank, an invalid byte U+FFFD. */
-static void
-quote(FILE *out, const char *text, int in_lines)
+void
+ss_script_quote(FILE *out, const char *text, int in_lines)
 {
     int escaped = 0;
     putc('"', out);
@@ -86,18 +85,6 @@ quote(FILE *out, const char *text, int in_lines)
         }
     }
     putc('"', out);
-}
-
-void
-ss_script_quote(FILE *out, const char *text)
-{
-    quote(out, text, 0);
-}
-
-void
-ss_script_quote_lines(FILE *out, const char *text)
-{
-    quote(out, text, 1);
 }
 
 ss_status

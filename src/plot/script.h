@@ -13,19 +13,19 @@
 /* Take a caller's options.  SS_EINVAL: they were not initialised. */
 ss_status ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err);
 
+/* What is drawn of a value: (x - offset)/unit.  offset is 0 unless labels would be long without. */
+typedef struct script_scale {
+    double offset, unit;        /* unit: 10^exponent */
+    int exponent;
+} script_scale;
+
 /* --- page.c: top, panels and end ------------------------------------------------------------ */
 
-/* A label in one or two lines, see axes.c. */
-typedef struct script_label {
-    char text[256];
-    double font;                /* size of its letters, <= 1, over the usual size */
-} script_label;
-
 /* Begin a picture of this height [cm], a title included: that of opts, or else scene or model of head, unless
- * it is NULL; and under it "lines: " and the label, unless it is NULL.  The script has the variables letters,
+ * it is NULL; and under it "lines: " and the label of a column, unless it is NULL.  The script has the variables letters,
  * their size in points, and mark, a factor of the sizes of points; the caller's own follow. */
 ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
-                          const script_label *lines, ss_error *err);
+                          const ss_column *lines, ss_error *err);
 /* SS_EIO if a write failed. */
 ss_status ss_script_end(FILE *out);
 /* Let all axes that follow begin and end at these parts of the width, with tics, borders and a grid in one
@@ -59,18 +59,19 @@ typedef struct script_stack {
 /* Begin a picture whose panels and axis are so high [cm] in all, below a title as above. */
 ss_status ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_opts *opts,
                                 const ss_header *head, double height, ss_error *err);
-/* Let what follows be drawn in a panel of this height, with a gap below it [cm], and with its label. */
-void ss_script_write_panel(script_stack *stack, double height, double gap, const script_label *label);
+/* Let what follows be drawn in a panel of this height, with a gap below it [cm], and a label that has so much
+ * room [ems]. */
+void ss_script_write_panel(script_stack *stack, double height, double gap, const ss_column *label, script_scale scale,
+                           double room);
 
 /* --- script.c: numbers, text, scales --------------------------------------------------------- */
 
 /* Bytes in a string constant between double quotes; escaped: the last byte was written as \ooo.  Returns
  * whether the last one is now. */
 int ss_script_write_bytes(FILE *out, const char *bytes, size_t n, int escaped);
-/* Text from outside as a gnuplot string constant that is data and nothing else, see script.c. */
-void ss_script_quote(FILE *out, const char *text);
-/* The same in lines, which end with \n. */
-void ss_script_quote_lines(FILE *out, const char *text);
+/* Text from outside as a gnuplot string constant that is data and nothing else, see script.c: a control character
+ * becomes a blank, but a line end in lines, and an invalid byte U+FFFD. */
+void ss_script_quote(FILE *out, const char *text, int in_lines);
 /* A number rounded to so many decimals, in any locale, and the text after it. */
 void ss_script_write(FILE *out, double x, int decimals, const char *behind);
 /* Decimals that distinguish a tenth of a pixel column in a picture of this range. */
@@ -101,11 +102,6 @@ ss_status ss_script_check(const char *column, script_extent of_values, ss_error 
 double ss_script_step(double range, double intervals, int *decimals);
 /* The length of the longest label of such steps over these values. */
 int ss_script_letters(script_extent of_values, int intervals);
-/* What is drawn of a value: (x - offset)/unit.  offset is 0 unless labels would be long without. */
-typedef struct script_scale {
-    double offset, unit;        /* unit: 10^exponent */
-    int exponent;
-} script_scale;
 script_scale ss_script_scale(script_extent of_values);
 script_scale ss_script_power(int exponent);     /* without an offset */
 double ss_script_scaled(double x, script_scale scale);
@@ -113,18 +109,13 @@ script_extent ss_script_scaled_extent(script_extent of_values, script_scale scal
 
 /* --- axes.c: labels and tics ---------------------------------------------------------------- */
 
-/* "name / (10^-3 unit)", or "(name − offset unit) / (10^-3 unit)"; if it is wider than its room, two lines,
- * "name" and "(10^-3 unit)", or broken near its middle, in smaller letters; cut where it is longer than any
- * picture. */
-void ss_script_make_label(script_label *label, const ss_column *column, script_scale scale,
-                          double room);     /* [ems] */
-/* Set the title, broken near its middle and smaller where it is too wide, and under it "lines: " and the label,
+/* The title, broken near its middle and smaller where it is too wide, and under it "lines: " and the label of a column,
  * unless it is NULL. */
-void ss_script_write_title(FILE *out, const char *title, const script_label *lines);
-/* Set the label of the horizontal axis, so far below it: "0,0.3". */
-void ss_script_write_x_label(FILE *out, const script_label *label, const char *offset);
-/* Set label number n beside the vertical axis; two lines are further out, to leave room for tics. */
-void ss_script_write_side_label(FILE *out, int n, const script_label *label);
+void ss_script_write_title(FILE *out, const char *title, const ss_column *lines);
+/* Label the horizontal axis with a name and a unit, and what its values are scaled by. */
+void ss_script_write_x_label(FILE *out, const ss_column *column, script_scale scale);
+/* Label number n beside the vertical axis has so much room [ems]; if it is longer, two lines, or smaller letters. */
+void ss_script_write_side_label(FILE *out, int n, const ss_column *column, script_scale scale, double room);
 
 /* set AXIS STEP: at most so many intervals over the values, of 1, 2 or 5 times a power of ten; where all
  * are the same, one tic at that value. */

@@ -60,7 +60,6 @@ typedef struct trace {
     double from, step;          /* [s] the time of the first value, and between two */
     script_extent extent;
     script_scale scale;         /* that its extent would have alone; a caller may change it */
-    script_label label;         /* for callers */
 } trace;
 
 /* Read n columns, and find the part that is shown; all t are to be freed even after a failure.  SS_EINVAL:

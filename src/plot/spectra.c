@@ -16,14 +16,6 @@
 #define ROOM 12.0               /* for the label of a panel [ems] */
 
 static void
-label_of(script_label *label, const ss_column *column, int decibels)
-{
-    char unit[DENSITY_UNIT];
-    ss_density_unit(unit, column->unit, decibels);
-    ss_script_make_label(label, &(ss_column){ column->name, unit }, ss_script_power(0), ROOM);
-}
-
-static void
 write_density(FILE *out, const ss_spectrum *s, size_t k, int decibels)
 {
     if (s->density[k] > 0)
@@ -125,12 +117,11 @@ static ss_status
 write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, ss_spectrum *const spectrum[],
              const layer layers[], ss_spectrum **const over_them[], const ss_plot_opts *opts, ss_error *err)
 {
-    double font = 1, legend = ss_script_legend(opts), from = spectrum[0]->step, to = 0;
-    char name[40];
+    double legend = ss_script_legend(opts), from = spectrum[0]->step, to = 0;
+    char name[40], unit[DENSITY_UNIT];
     script_stack stack;
     const ss_column *first[SS_PLOT_OVER + 1] = { &head->column[column[0]] };
     const ss_spectrum *s = spectrum[0], *over;
-    script_label label;
     ss_status st = ss_script_begin_stack(&stack, out, opts, head, legend + BELOW + PANEL * (double)n, err);
     if (st != SS_OK)
         return st;
@@ -153,8 +144,6 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
             if ((over = over_panel(&layers[k], over_them[k], i)) != NULL)
                 write_densities(out, name, over, opts->decibels);
         }
-        label_of(&label, &head->column[column[i]], opts->decibels);
-        font = fmin(font, label.font);          /* one for all panels */
     }
     ss_script_write_frame(out, 0.2, 0.95);
     if (opts->n_over > 0)
@@ -173,9 +162,9 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
                   "noenhanced offset 0,0.5\n", out);
             ss_script_write_decades(out, "x", from, to);
         }
-        label_of(&label, &head->column[column[i]], opts->decibels);
-        label.font = font;
-        ss_script_write_panel(&stack, PANEL - gap, gap, &label);
+        const ss_column *of = &head->column[column[i]];
+        ss_density_unit(unit, of->unit, opts->decibels);
+        ss_script_write_panel(&stack, PANEL - gap, gap, &(ss_column){ of->name, unit }, ss_script_power(0), ROOM);
         if (e.lo <= e.hi)
             ss_layers_plot(out, layers, opts, i, 0, "", "lines");
         else

@@ -37,12 +37,8 @@ draw_step(script_stack *stack, const ss_step *s, size_t number)
     const ss_column path = { (char *)"path of the load point", (char *)"\xc2\xb5m" };
     const ss_column mu = { (char *)"friction", (char *)"" }, left = { (char *)"left", (char *)"" };
     script_extent extent_of_mu, extent_of_left;
-    script_label of_path, of_mu, of_left;
     find_extents(s, &extent_of_mu, &extent_of_left);
     const script_scale scale = ss_script_scale(extent_of_mu), scale_left = ss_script_scale(extent_of_left);
-    ss_script_make_label(&of_path, &path, ss_script_power(0), INFINITY);
-    ss_script_make_label(&of_mu, &mu, scale, ROOM);
-    ss_script_make_label(&of_left, &left, scale_left, LEFT_ROOM);
     ss_print(out, "$step%zu << EOD\n", number);
     for (size_t i = 0, stride = 1 + s->n / POINTS; i < s->n; i += stride) {
         ss_print(out, "%.8g %.6g", 1e6 * s->path[i], ss_script_scaled(s->friction[i], scale));
@@ -52,7 +48,7 @@ draw_step(script_stack *stack, const ss_step *s, size_t number)
         putc('\n', out);
     }
     fputs("EOD\n", out);
-    ss_script_write_panel(stack, FRICTION, 0.25, &of_mu);
+    ss_script_write_panel(stack, FRICTION, 0.25, &mu, scale, ROOM);
     ss_script_write_tics(out, "ytics", ss_script_scaled_extent(extent_of_mu, scale), 5);
     ss_print(out, "set format x ''\nset key at graph 1, graph 0.99 top right horizontal samplen 1.5 noenhanced\n"
              "plot $step%zu using 1:2 with lines lw 0.6 lc rgb '" SKY_BLUE "' title 'measured'", number);
@@ -60,9 +56,9 @@ draw_step(script_stack *stack, const ss_step *s, size_t number)
         ss_print(out, ", '' using 1:%d with lines lw 1.2 lc rgb '%s' title '%s'", 3 + 2 * k, colour[k],
                  ss_step_law_names[k]);
     fputs("\nunset key; unset title\n", out);
-    ss_script_write_panel(stack, LEFT, AXIS, &of_left);
+    ss_script_write_panel(stack, LEFT, AXIS, &left, scale_left, LEFT_ROOM);
     ss_script_write_tics(out, "ytics", ss_script_scaled_extent(extent_of_left, scale_left), 4);
-    ss_script_write_x_label(out, &of_path, "0,0.4");
+    ss_script_write_x_label(out, &path, ss_script_power(0));
     ss_print(out, "set format x '%%g'\nplot 0 lc rgb '" ZERO_COLOUR "' lw 0.7");
     for (int k = SS_STEP_LAWS - 1; k >= 0; k--)
         ss_print(out, ", $step%zu using 1:%d with lines lw 0.6 lc rgb '%s'", number, 4 + 2 * k, colour[k]);

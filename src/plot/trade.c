@@ -60,7 +60,7 @@ write_axes(const scatter *s, const char *error, const char *of, int rows)
     ss_print(s->out, "set bmargin at screen 0.38; set tmargin at screen 0.93\n"
              "set logscale xy; set format x '%%g'; set grid ytics\n"
              "set xlabel 'CPU time / '.sprintf('%%.2g ms%s', 1000*unit).", of[0] != '\0' ? ", that of " : "");
-    ss_script_quote(s->out, of);
+    ss_script_quote(s->out, of, 0);
     ss_print(s->out, " noenhanced offset 0,0.3\nset ylabel '%s' noenhanced offset 0.5,0\n"
              "set key at screen 0.54,screen 0.265 center top vertical maxrows %d samplen 2 noenhanced\n",
              error, rows);
@@ -107,7 +107,7 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
             continue;
         ss_print(out, ", \\\n     $error using ($3 == %zu ? $1 : NaN):2 with linespoints lw 1 dt %d pt %d ps 0.7 "
                  "lc rgb '%s' title ", line, line < COLOURS ? 1 : 2, point[line % POINTS], colour[line % COLOURS]);
-        ss_script_quote(out, row->method);
+        ss_script_quote(out, row->method, 0);
     }
     putc('\n', out);
     return ss_script_end(out);
@@ -162,7 +162,7 @@ ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_
         if (models->row[i].status != SS_OK)
             continue;
         ss_print(out, ", \\\n     NaN with points pt 5 lc rgb '%s' title ", rgb);
-        ss_script_quote(out, models->row[i].name);
+        ss_script_quote(out, models->row[i].name, 0);
         for (size_t k = 0; k < KINDS; k++)
             ss_print(out, ", \\\n     $error using ($3 == %zu && $4 == %zu ? $1 : NaN):2 with points pt %d ps 1.2 "
                      "lc rgb '%s' notitle", i, k, point[k], rgb);

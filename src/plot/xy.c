@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/list.h"
 
-#define ROOM 17.0               /* for labels [ems] */
+#define ROOM 17.0               /* for the label of y [ems] */
 #define HEIGHT 6.5              /* [cm] */
 enum { CELLS = 2 * SCRIPT_COLUMNS };    /* along each axis */
 
@@ -144,16 +144,13 @@ write_paths(FILE *out, const ss_header *head, const path p[], const ss_plot_opts
 {
     const ss_column *second[SS_PLOT_OVER + 1];
     script_scale scale[2];
-    script_label label[2];
     ss_status st = ss_script_begin(out, opts, head, HEIGHT, NULL, err);
     if (st != SS_OK)
         return st;
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 2; k++)
         scale[k] = ss_script_scale(p->extent[k]);
-        ss_script_make_label(&label[k], p->column[k], scale[k], ROOM);
-    }
-    ss_script_write_x_label(out, &label[0], "0,0.3");
-    ss_script_write_side_label(out, 1, &label[1]);
+    ss_script_write_x_label(out, p->column[0], scale[0]);
+    ss_script_write_side_label(out, 1, p->column[1], scale[1], ROOM);
     ss_script_write_frame(out, 0.175, 0.965);
     ss_script_write_colours(out, opts);
     for (int k = 0; k < 2; k++) {

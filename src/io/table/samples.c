@@ -6,7 +6,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include "base/columns.h"
 #include "base/progress.h"
+#include "io/reader.h"
 #include "io/table/clock.h"
 #include "signal/gaps.h"
 #include "signal/resample.h"
@@ -140,10 +142,11 @@ choose_columns(struct samples *s, const struct sheet *t, int stamped, ss_error *
     return stamped ? ss_header_add_column(head, "t", "s", err) : SS_OK;
 }
 
+static const struct source_calls samples_calls = { give_samples, rewind_samples, NULL, free_samples };
+
 ss_status
 ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *err)
 {
-    static const struct source_calls samples = { give_samples, rewind_samples, NULL, free_samples };
     static const struct source_calls live = { give_samples, NULL, samples_wait, free_samples };
     static const struct source_calls rows = { give_rows, rewind_samples, NULL, free_samples };
     struct timing timing = { .usual = 0 };
@@ -151,7 +154,8 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     if (st != SS_OK)
         return st;
     int resampled = timing.longest > 0, stamped = resampled || (t->opts->stamps && timing.time.column != NONE);
-    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : t->later != NULL ? &live : &samples, t->name, err);
+    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : t->later != NULL ? &live : &samples_calls, t->name,
+                                       err);
     if (s == NULL)
         return SS_ENOMEM;
     *out = &s->base;
@@ -170,4 +174,35 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     if (st == SS_OK && resampled)
         st = ss_source_resample(out, t->names->rate, 1, timing.longest, err);
     return st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE ? ss_source_fill_gaps(out, t->opts->gaps, err) : st;
+}
+
+/* --- of a source that cannot go back ------------------------------------------------------- */
+
+ss_status
+ss_source_keep(ss_source **out, const char *folder, ss_error *err)
+{
+    ss_source *from = *out;
+    struct samples *s = from->rewinds ? NULL : ss_source_wrap(out, sizeof *s, &samples_calls, err);
+    if (s == NULL)
+        return from->rewinds ? SS_OK : SS_ENOMEM;
+    size_t columns = from->head->n_columns, piece = ss_source_piece(from), n = 1;
+    double **column = ss_columns_new(columns + 1, piece), *row = column != NULL ? column[columns] : NULL;
+    s->base.rewinds = 1;
+    s->rows = &s->own;
+    s->timing.time.column = NONE;
+    s->of = malloc((columns + 1) * sizeof *s->of);
+    ss_kept_begin(&s->own, s->base.name, folder, columns);
+    ss_status st = column != NULL && s->of != NULL ? SS_OK : ss_fail_memory(err, from->name);
+    for (; st == SS_OK && s->n < columns; s->n++)
+        s->of[s->n] = s->n;
+    while (st == SS_OK && n > 0) {
+        st = ss_source_rows(from, column, piece, &n, err);
+        for (size_t i = 0; st == SS_OK && i < n; i++) {
+            for (size_t c = 0; c < columns; c++)
+                row[c] = column[c][i];
+            st = ss_kept_add(&s->own, row, err);
+        }
+    }
+    free(column);
+    return st == SS_OK ? ss_kept_end(&s->own, err) : st;
 }

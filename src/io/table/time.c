@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <time.h>
 #include "base/error.h"
 #include "signal/resample.h"
 #include "io/table/clock.h"
@@ -189,11 +190,9 @@ static ss_status
 note_date(struct sheet *t, double day)
 {
     char text[80];
-    long n = (long)day + 719468, era = (n >= 0 ? n : n - 146096) / 146097, of_era = n - era * 146097;
-    long year = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
-    long of_year = of_era - (365 * year + year / 4 - year / 100), month = (5 * of_year + 2) / 153;
-    snprintf(text, sizeof text, "%04ld-%02ld-%02ld", year + 400 * era + (month > 9),
-             month > 9 ? month - 9 : month + 3, of_year - (153 * month + 2) / 5 + 1);
+    time_t seconds = (time_t)(day * SECONDS_A_DAY);
+    struct tm date;
+    strftime(text, sizeof text, "%Y-%m-%d", gmtime_r(&seconds, &date));
     return ss_header_note(t->names, "date", text, NULL);
 }
 
