@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <stickslip/scene.h>
 #include "base/error.h"
+#include "io/reader.h"
 #include "scene/model.h"
 #include "scene/scene.h"
 
@@ -19,20 +20,12 @@ crc_further(unsigned long crc, unsigned long byte)
     return crc;
 }
 
-/* The file of a path, which may go on behind the file's name with ":/" and a place; to be freed. */
-static char *
-file_of(const char *path)
-{
-    struct stat st;
-    const char *colon = stat(path, &st) == 0 ? NULL : strstr(path, ":/");
-    return strndup(path, colon != NULL ? (size_t)(colon - path) : strlen(path));
-}
-
 /* Write the checksum of a file to text. */
 static ss_status
 sum_file(char text[48], const char *path, ss_error *err)
 {
-    char *file = file_of(path);
+    const char *place;
+    char *file = ss_file_of(path, &place);
     if (file == NULL)
         return ss_fail_memory(err, path);
     FILE *in = fopen(file, "rb");
@@ -70,7 +63,8 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
     if (base == NULL || path == NULL)
         return SS_FAIL_NULL(err);
     struct stat is;
-    char *file = file_of(path);
+    const char *place;
+    char *file = ss_file_of(path, &place);
     if (file == NULL)
         return ss_fail_memory(err, path);
     int regular = stat(file, &is) != 0 || S_ISREG(is.st_mode) || S_ISDIR(is.st_mode); /* these fail when opened */

@@ -61,22 +61,31 @@ resample(ss_source **s, const ss_read_opts *opts, ss_error *err)
     return st == SS_OK ? ss_source_resample(s, rate, 0, INFINITY, err) : st;
 }
 
+char *
+ss_file_of(const char *path, const char **place)
+{
+    struct stat is;
+    const char *colon = stat(path, &is) != 0 ? strstr(path, ":/") : NULL;
+    *place = colon != NULL ? colon + 1 : NULL;
+    return strndup(path, colon != NULL ? (size_t)(colon - path) : strlen(path));
+}
+
 /* Open the file at a path: a stream becomes reader->file, what only its path opens, with or without ":/" and a
  * place in it, the reader's source. */
 static ss_status
 open_path(ss_reader *reader, const char *path, const ss_read_opts *opts, ss_error *err)
 {
     struct stat is;
-    const char *colon = stat(path, &is) != 0 ? strstr(path, ":/") : NULL;
-    char *file = strndup(path, colon != NULL ? (size_t)(colon - path) : strlen(path));
+    const char *place;
+    char *file = ss_file_of(path, &place);
     if (file == NULL)
         return ss_fail_memory(err, path);
     const struct format *format = ss_format_of_file(file);
     ss_status st = SS_OK;
     if (format != NULL)
-        st = format->open_file(&reader->source, file, colon != NULL ? colon + 1 : NULL, opts, err);
-    else if (colon != NULL && stat(file, &is) == 0)
-        st = ss_fail(err, SS_EDATA, "%s: not an HDF5 file, so '%s' is not in it", file, colon + 1);
+        st = format->open_file(&reader->source, file, place, opts, err);
+    else if (place != NULL && stat(file, &is) == 0)
+        st = ss_fail(err, SS_EDATA, "%s: not an HDF5 file, so '%s' is not in it", file, place);
     else if ((reader->file = fopen(file, "rb")) == NULL)
         st = ss_fail_errno(err, file, errno);
     else if (fstat(fileno(reader->file), &is) == 0 && S_ISDIR(is.st_mode))

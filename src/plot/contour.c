@@ -33,41 +33,23 @@ decimals_of(double f)
     return (int)fmax(6, 5 - floor(log10(f)));
 }
 
-/* Write one side of a shaded area: for the frequencies of band, the times that are sqrt(2) a after
- * t, or before t if the sign is -1, but not beyond stop. */
-static void
-write_side(FILE *out, const script_span *span, double t, int sign, double stop, double center,
-           const double band[2])
-{
-    enum { POINTS = 100 };
-    int decimals = ss_script_decimals(span->to - span->from);
-    for (int i = 0; i <= POINTS; i++) {
-        double part = (double)(sign > 0 ? i : POINTS - i) / POINTS;
-        double f = band[0] * pow(band[1] / band[0], part);
-        double edge = t + sign * wavelet_cone(center / (2 * M_PI * f));
-        edge = sign > 0 ? fmin(edge, stop) : fmax(edge, stop);
-        ss_script_write(out, fmin(fmax(edge, span->from), span->to), decimals, " ");
-        ss_script_write(out, f, decimals_of(f), "\n");
-    }
-}
-
-/* Write the cone of influence, within sqrt(2) a of an end of the record, and the same around gaps,
- * as closed curves with two blank lines between them.  Each has its own plot command, since
- * gnuplot 5.2 draws a line from one curve to the next. */
+/* Write the cone of influence, within sqrt(2) a of an end of the record or of a gap, as a closed curve: at each time the
+ * frequency below which coefficients are influenced. */
 static void
 write_cone(FILE *out, const ss_coefficients *c, const script_span *span, const double band[2])
 {
-    double start = c->head->start, end = start + (double)(c->n - 1) / c->head->rate;
+    double start = c->head->start, end = start + (double)(c->n - 1) / c->head->rate, range = span->to - span->from;
+    double half = range / CONTOUR_COLUMNS / 2, reach = wavelet_cone(c->center / (2 * M_PI));
     fputs("$cone << EOD\n", out);
-    write_side(out, span, start, 1, start + (end - start) / 2, c->center, band);
-    write_side(out, span, -INFINITY, -1, start, c->center, band);
-    fputs("\n\n", out);
-    write_side(out, span, end, -1, end - (end - start) / 2, c->center, band);
-    write_side(out, span, INFINITY, 1, end, c->center, band);
-    for (size_t i = 0; i < c->n_gaps; i++) {
-        fputs("\n\n", out);
-        write_side(out, span, c->gap[i].to, 1, end, c->center, band);
-        write_side(out, span, c->gap[i].from, -1, start, c->center, band);
+    for (int i = -1; i <= CONTOUR_COLUMNS + 1; i++) {
+        double t = span->from + fmin(fmax(i, 0), CONTOUR_COLUMNS) / CONTOUR_COLUMNS * range, f = band[0];
+        double away = fmin(t - start, end - t);
+        for (size_t k = 0; k < c->n_gaps; k++)
+            away = fmin(away, fmax(fmax(c->gap[k].from - t, t - c->gap[k].to) - half, 0));
+        if (i >= 0 && i <= CONTOUR_COLUMNS)
+            f = away > 0 ? fmin(fmax(reach / away, band[0]), band[1]) : band[1];
+        ss_script_write(out, t, ss_script_decimals(range), " ");
+        ss_script_write(out, f, decimals_of(f), "\n");
     }
     fputs("EOD\n", out);
 }
@@ -313,9 +295,8 @@ write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_
               out);
     if (contour->fill)
         st = ss_contour_write_fill(out, map, contour->levels);
-    ss_print(out, "plot for [i=0:%zu] $cone index i using 1:2 with filledcurves closed "
-            "fs %s noborder lc rgb cone_colour", c->n_gaps + 1,
-            contour->fill ? "transparent solid 0.6" : "solid 1");
+    ss_print(out, "plot $cone using 1:2 with filledcurves closed fs %s noborder lc rgb cone_colour",
+             contour->fill ? "transparent solid 0.6" : "solid 1");
     if (n.events > 0)
         fputs(", \\\n    $events using 1:($2 > 0 ? fmax : fmin) with lines lw 0.5 lc rgb event_colour", out);
     if (lines)

@@ -36,12 +36,6 @@ close_file(H5FD_t *file)
     return 0;
 }
 
-static int
-compare_files(const H5FD_t *a, const H5FD_t *b)
-{
-    return (a > b) - (a < b);
-}
-
 static herr_t
 query(const H5FD_t *file, unsigned long *flags)
 {
@@ -149,7 +143,6 @@ static const H5FD_class_t driver = {
     .fapl_size = sizeof(driver_info),
     .open = open_file,
     .close = close_file,
-    .cmp = compare_files,
     .query = query,
     .get_eoa = get_eoa,
     .set_eoa = set_eoa,

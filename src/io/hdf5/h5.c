@@ -139,11 +139,10 @@ most_from_byte(hid_t how)
     return n < 0 || deflated > 1 ? 0 : deflated == 1 ? 1032 : 1;
 }
 
-/* The reason why the values of a dataset must not be read, or NULL; *bytes: so many of the file they need.
- * How they are stored is asked before their extent: for that of a virtual dataset, HDF5 opens the files that it
+/* How they are stored is asked before their extent: for that of a virtual dataset, HDF5 opens the files that it
  * refers to. */
-static const char *
-refuse_values(hid_t dataset, double *bytes)
+const char *
+ss_h5_refuse_values(hid_t dataset, double *bytes)
 {
     hsize_t chunk[H5S_MAX_RANK];
     hid_t how = H5Dget_create_plist(dataset);
@@ -168,13 +167,6 @@ refuse_values(hid_t dataset, double *bytes)
         return "has more values than can be read at once";
     return fmax(values, in_chunk) * width > file_size(dataset)
         ? "claims more values than a file of this size can hold" : NULL;
-}
-
-const char *
-ss_h5_refuse_values(hid_t dataset)
-{
-    double bytes;
-    return refuse_values(dataset, &bytes);
 }
 
 /* If HDF5_PLUGIN_PRELOAD has forbidden plugins for good, HDF5 gives no mask, and 0 is returned. */
@@ -277,7 +269,8 @@ ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, 
     hid_t id = ss_h5_open_dataset(group, name, 1);
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
-    const char *wrong = ss_h5_refuse_values(id);
+    double bytes;
+    const char *wrong = ss_h5_refuse_values(id, &bytes);
     hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
     hssize_t points = H5Sget_simple_extent_npoints(space);
     ss_status status = SS_OK;
@@ -372,7 +365,7 @@ ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n)
     if (id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
     double bytes = 0;
-    const char *wrong = refuse_values(id, &bytes);
+    const char *wrong = ss_h5_refuse_values(id, &bytes);
     hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
     *n = space >= 0 ? (size_t)H5Sget_simple_extent_npoints(space) : 0;
     H5Sclose(space);

@@ -50,8 +50,8 @@ void ss_h5_close(h5_file *file);
 hid_t ss_h5_open_dataset(hid_t group, const char *name, int in_pieces);
 hid_t ss_h5_open_group(hid_t group, const char *name);
 /* The reason why the values of a dataset must not be read, or NULL: they are not plain real numbers of
- * this file, or more than the file can hold. */
-const char *ss_h5_refuse_values(hid_t dataset);
+ * this file, or more than the file can hold; *bytes: so many of the file they need. */
+const char *ss_h5_refuse_values(hid_t dataset, double *bytes);
 
 /* Load no plugin from here on, for any filter of a file; returns the value that restores it. */
 unsigned ss_h5_forbid_plugins(void);

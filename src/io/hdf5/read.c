@@ -28,6 +28,7 @@ typedef struct rows {
     char *path;                 /* of the file */
     hid_t *dataset;             /* one for all columns, or one for each */
     size_t n_datasets, room;
+    ss_status status;           /* of the last one that was opened */
     int by_columns;             /* what is read at a time from a dataset is column after column */
     hid_t times;                /* of the rows, or 0 */
     int times_by_columns;
@@ -52,6 +53,7 @@ static const char *
 refuse_array(hid_t id, int is_char, array *shape)
 {
     hsize_t dims[H5S_MAX_RANK] = { 0, 1 };
+    double bytes;
     hid_t type = H5Dget_type(id);
     H5T_class_t class = H5Tget_class(type);
     int pair = class == H5T_COMPOUND && H5Tget_nmembers(type) == 2
@@ -59,7 +61,7 @@ refuse_array(hid_t id, int is_char, array *shape)
     H5Tclose(type);
     if (is_char || class == H5T_STRING)
         return "holds text, not numbers";
-    const char *wrong = pair ? "holds complex numbers; a signal is real" : ss_h5_refuse_values(id);
+    const char *wrong = pair ? "holds complex numbers; a signal is real" : ss_h5_refuse_values(id, &bytes);
     if (wrong != NULL)
         return wrong;
     hid_t space = H5Dget_space(id);
@@ -264,19 +266,14 @@ add_column(rows *s, hid_t group, const char *link)
     return status;
 }
 
-struct links {
-    rows *s;
-    ss_status status;
-};
-
 static herr_t
 add_link(hid_t group, const char *name, const H5L_info_t *info, void *user)
 {
-    struct links *links = user;
+    rows *s = user;
     (void)info;
     if (strcmp(name, "t") != 0)
-        links->status = add_column(links->s, group, name);
-    return links->status != SS_OK;
+        s->status = add_column(s, group, name);
+    return s->status != SS_OK;
 }
 
 /* Open all columns of a group, in the order of writing if the file has it, else in that of their names.  Asked
@@ -286,16 +283,15 @@ add_link(hid_t group, const char *name, const H5L_info_t *info, void *user)
 static ss_status
 find_columns(rows *s, hid_t group)
 {
-    struct links links = { s, SS_OK };
     unsigned tracked = 0;
     hid_t how = H5Gget_create_plist(group);
     H5Pget_link_creation_order(how, &tracked);
     H5Pclose(how);
     H5_index_t order = tracked & H5P_CRT_ORDER_TRACKED ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
-    if (H5Literate(group, order, H5_ITER_INC, NULL, add_link, &links) < 0)
+    if (H5Literate(group, order, H5_ITER_INC, NULL, add_link, s) < 0)
         return ss_h5_fail(&s->file, SS_EIO, group, "", "cannot be read");
     s->by_columns = s->n_datasets > 1;
-    return links.status;
+    return s->status;
 }
 
 static ss_status

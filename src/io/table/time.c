@@ -192,7 +192,8 @@ note_date(struct sheet *t, double day)
     char text[80];
     time_t seconds = (time_t)(day * SECONDS_A_DAY);
     struct tm date;
-    strftime(text, sizeof text, "%Y-%m-%d", gmtime_r(&seconds, &date));
+    gmtime_r(&seconds, &date);
+    snprintf(text, sizeof text, "%04d-%02d-%02d", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
     return ss_header_note(t->names, "date", text, NULL);
 }
 
