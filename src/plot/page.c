@@ -27,7 +27,9 @@ ss_plot_opts_init(ss_plot_opts *opts, size_t size)
 ss_status
 ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err)
 {
-    return ss_options_take(own, sizeof *own, &defaults, opts, err);
+    ss_status st = ss_options_take(own, sizeof *own, &defaults, opts, err);
+    return st != SS_OK || own->n_over <= SS_PLOT_OVER ? st
+        : ss_fail(err, SS_EINVAL, "one picture has at most %d signals, not %zu", SS_PLOT_OVER + 1, own->n_over + 1);
 }
 
 /* What each format has: gnuplot's points do not grow with the resolution of a picture as letters do. */
@@ -128,13 +130,6 @@ ss_script_write_key(FILE *out)
 
 const char *const ss_script_number[] = { "", "2", "3", "4", "5", "6" };
 
-ss_status
-ss_script_check_over(const ss_plot_opts *opts, ss_error *err)
-{
-    return opts->n_over <= SS_PLOT_OVER ? SS_OK
-        : ss_fail(err, SS_EINVAL, "one picture has at most %d signals, not %zu", SS_PLOT_OVER + 1, opts->n_over + 1);
-}
-
 void
 ss_script_write_colours(FILE *out, const ss_plot_opts *opts)
 {
@@ -187,7 +182,8 @@ ss_status
 ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_opts *opts, const ss_header *head,
                       double height, ss_error *err)
 {
-    *stack = (script_stack){ out, height + (title_of(opts, head)[0] != '\0' ? TITLE : NO_TITLE), height, 0 };
+    double above = title_of(opts, head)[0] != '\0' ? TITLE : NO_TITLE;
+    *stack = (script_stack){ out, ss_script_legend(opts) + height + above, height, 0 };
     return ss_script_begin(out, opts, head, stack->height, NULL, err);
 }
 

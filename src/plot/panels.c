@@ -87,13 +87,11 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     FILE *out = d->out;
     const ss_plot_opts *opts = d->opts;
     const ss_column *first[SS_PLOT_OVER + 1] = { d->t[0].column };
-    double legend = ss_script_legend(opts);
     size_t panels = d->n + (opts->difference != 0);
     script_stack stack;
-    ss_status st = ss_script_begin_stack(&stack, out, opts, head, legend + TIME + PANEL * (double)panels, err);
+    ss_status st = ss_script_begin_stack(&stack, out, opts, head, TIME + PANEL * (double)panels, err);
     if (st != SS_OK)
         return st;
-    stack.top -= legend;
     int letters = ss_script_write_span(out, d->span);
     ss_script_write_colours(out, opts);
     if (opts->features != NULL && (d->bands = ss_contour_write_spans(out, d->span, opts->features)) > 0)
@@ -214,8 +212,6 @@ ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n, co
     if (out == NULL || reader == NULL || (column == NULL && n > 0))
         return SS_FAIL_NULL(err);
     ss_status st = ss_script_take(&own, opts, err);
-    if (st == SS_OK)
-        st = ss_script_check_over(&own, err);
     if (st != SS_OK)
         return st;
     const ss_header *head = ss_reader_header(reader);

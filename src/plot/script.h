@@ -10,7 +10,7 @@
 
 #define SCRIPT_COLUMNS 1000     /* pixel columns of a line over time, after thinning */
 
-/* Take a caller's options.  SS_EINVAL: they were not initialised. */
+/* Take a caller's options.  SS_EINVAL: they were not initialised, or there are too many signals over one. */
 ss_status ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err);
 
 /* What is drawn of a value: (x - offset)/unit.  offset is 0 unless labels would be long without. */
@@ -38,8 +38,6 @@ void ss_script_write_frame(FILE *out, double from, double to);
 void ss_script_write_key(FILE *out);
 /* What a signal over another has behind the names of its variables: "", "2", "3", ... */
 extern const char *const ss_script_number[SS_PLOT_OVER];
-/* SS_EINVAL: there are too many over one. */
-ss_status ss_script_check_over(const ss_plot_opts *opts, ss_error *err);
 /* The variables colour, over, over2, ... */
 void ss_script_write_colours(FILE *out, const ss_plot_opts *opts);
 /* The height of the legend of opts->over [cm]; 0: none are drawn. */
@@ -56,7 +54,8 @@ typedef struct script_stack {
     double height, top;         /* [cm] of the picture; where the next panel begins */
     size_t n;                   /* panels so far */
 } script_stack;
-/* Begin a picture whose panels and axis are so high [cm] in all, below a title as above. */
+/* Begin a picture whose panels and axis are so high [cm] in all, below a title as above and the legend of
+ * opts->over. */
 ss_status ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_opts *opts,
                                 const ss_header *head, double height, ss_error *err);
 /* Let what follows be drawn in a panel of this height, with a gap below it [cm], and a label that has so much

@@ -117,15 +117,14 @@ static ss_status
 write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, ss_spectrum *const spectrum[],
              const layer layers[], ss_spectrum **const over_them[], const ss_plot_opts *opts, ss_error *err)
 {
-    double legend = ss_script_legend(opts), from = spectrum[0]->step, to = 0;
+    double from = spectrum[0]->step, to = 0;
     char name[40], unit[DENSITY_UNIT];
     script_stack stack;
     const ss_column *first[SS_PLOT_OVER + 1] = { &head->column[column[0]] };
     const ss_spectrum *s = spectrum[0], *over;
-    ss_status st = ss_script_begin_stack(&stack, out, opts, head, legend + BELOW + PANEL * (double)n, err);
+    ss_status st = ss_script_begin_stack(&stack, out, opts, head, BELOW + PANEL * (double)n, err);
     if (st != SS_OK)
         return st;
-    stack.top -= legend;
     to = (double)(s->n - 1) * s->step;
     for (size_t k = 0; k < opts->n_over; k++) {
         over = over_them[k][0];
@@ -184,8 +183,6 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
     if (out == NULL || head == NULL || column == NULL || spectrum == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_script_take(&own, given, err);
-    if (st == SS_OK)
-        st = ss_script_check_over(&own, err);
     if (st == SS_OK && n == 0)
         st = ss_fail(err, SS_EINVAL, "no columns to draw");
     if (st == SS_OK)

@@ -191,8 +191,6 @@ ss_plot_xy(FILE *out, ss_reader *reader, size_t x, size_t y, const ss_plot_opts 
     const ss_header *head = ss_reader_header(reader);
     ss_status st = ss_script_take(&own, opts, err);
     if (st == SS_OK)
-        st = ss_script_check_over(&own, err);
-    if (st == SS_OK)
         st = read_path(p, reader, column, NAN, &own, err);
     for (size_t k = 0; st == SS_OK && k < own.n_over; k++) {
         /* the columns with the names of x and y, or else the first two */

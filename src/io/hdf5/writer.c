@@ -369,22 +369,6 @@ split(double *restrict re, double *restrict im, const double *restrict x, size_t
     }
 }
 
-/* Find which of n coefficients, from `first` on, are in a cone of influence.  Without gaps, all that are not
- * follow each other. */
-static void
-find_edges(h5_writer *w, const ss_scale *scale, size_t first, size_t n, size_t samples)
-{
-    unsigned char *edge = w->edge;
-    size_t from = 0, to = n;
-    memset(edge, 0, n);
-    while (from < to && ss_scale_edge(scale, first + from, samples, w->rate))
-        edge[from++] = 1;
-    while (to > from && ss_scale_edge(scale, first + to - 1, samples, w->rate))
-        edge[--to] = 1;
-    for (size_t k = from; w->n_gaps > 0 && k < to; k++)
-        edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, w->rate, w->start, w->gap, w->n_gaps);
-}
-
 /* Write re or im of n coefficients.  Were HDF5 to make 32-bit floats of them, it would zero 1 MB in each call. */
 static int
 write_part(h5_writer *w, hid_t id, int single, int rank, const hsize_t at[], size_t n, const double *x)
@@ -405,7 +389,8 @@ write_piece(h5_writer *w, size_t i, size_t n, const double *x, size_t samples)
     int rank = w->dense ? 2 : 1;
     const hsize_t where[2] = { i, first }, *at = where + 2 - rank;
     split(w->value[0], w->value[1], x, n, rounding_of(w->tolerance, w->datasets[i].most));
-    find_edges(w, scale, first, n, samples);
+    for (size_t k = 0; k < n; k++)
+        w->edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, w->rate, w->start, w->gap, w->n_gaps);
     return write_part(w, d->re, d->single, rank, at, n, w->value[0])
         && write_part(w, d->im, d->single, rank, at, n, w->value[1])
         && ss_h5_write_piece(d->edge, rank, at, n, H5T_NATIVE_UCHAR, w->edge)

@@ -134,34 +134,35 @@ bare_unit(char *cell)
     return ss_cell_trim(cell + 1);
 }
 
+static ss_status
+set_unit(struct text *x, size_t column, const char *unit)
+{
+    char *clean = ss_clean_unit(unit), **of = &x->t.names->column[column].unit;
+    if (clean == NULL)
+        return SS_ENOMEM;
+    free(*of);
+    *of = clean;
+    return SS_OK;
+}
+
 /* Name the columns by one line and give them the units of another; either may be NULL. */
 static ss_status
 name_columns(struct text *x, const char *names, const char *units)
 {
-    char number[32], **unit_cell = NULL, *copy = NULL;
-    size_t n = 0;
-    if (units != NULL && (n = ss_text_split(x, units, x->separator)) != NONE) {
-        unit_cell = x->cell;                    /* the cells of the names get room of their own */
-        copy = x->copy;
-        x->cell = NULL;
-        x->copy = NULL;
-    }
-    if (n != NONE && names != NULL)
-        n = ss_text_split(x, names, x->separator);
-    ss_status st = n != NONE ? SS_OK : SS_ENOMEM;
+    char number[32];
+    ss_status st = names == NULL || ss_text_split(x, names, x->separator) != NONE ? SS_OK : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && i < x->t.n_columns; i++) {
         char *name = "", *unit = "";
         snprintf(number, sizeof number, "ch%zu", i + 1);
         if (names != NULL)
             split_name(x->cell[i], &name, &unit);
-        if (units != NULL)
-            unit = bare_unit(unit_cell[i]);
-        else if (*unit == '\0')
-            unit = (char *)ss_unit_of_name(name, NULL);
-        st = ss_header_add_column(x->t.names, *name != '\0' ? name : number, unit, NULL);
+        st = ss_header_add_column(x->t.names, *name != '\0' ? name : number,
+                                  *unit != '\0' ? unit : ss_unit_of_name(name, NULL), NULL);
     }
-    free(unit_cell);
-    free(copy);
+    if (st == SS_OK && units != NULL && ss_text_split(x, units, x->separator) == NONE)
+        st = SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && units != NULL && i < x->t.n_columns; i++)
+        st = set_unit(x, i, bare_unit(x->cell[i]));
     return st;
 }
 
@@ -312,19 +313,18 @@ static ss_status
 label_columns(struct text *x, const char *const *word, size_t first, size_t step, int is_unit_row)
 {
     size_t n = find_line(x, word);
-    ss_header *head = NULL;
-    ss_header_new(&head, 0, 0, NULL);
-    ss_status st = n != NONE && head != NULL ? SS_OK : SS_ENOMEM;
+    ss_header *head = NULL, *old = x->t.names;
+    ss_status st = n == NONE ? SS_ENOMEM : is_unit_row ? SS_OK : ss_header_new(&head, 0, 0, NULL);
     for (size_t c = 0; st == SS_OK && c < x->t.n_columns; c++) {
-        const ss_column *old = &x->t.names->column[c];
         size_t i = (c - first) / step + 1;
         const char *cell = c >= first && (c - first) % step == 0 && i <= n ? x->cell[i] : "";
-        st = ss_header_add_column(head, *cell != '\0' && !is_unit_row ? cell : old->name,
-                                  *cell != '\0' && is_unit_row ? cell : old->unit, NULL);
+        if (is_unit_row)
+            st = *cell != '\0' ? set_unit(x, c, cell) : SS_OK;
+        else
+            st = ss_header_add_column(head, *cell != '\0' ? cell : old->column[c].name, old->column[c].unit, NULL);
     }
-    ss_header *other = st == SS_OK && n > 0 ? x->t.names : head;
-    x->t.names = other == head ? x->t.names : head;
-    ss_header_free(other);
+    x->t.names = st == SS_OK && head != NULL ? head : old;
+    ss_header_free(x->t.names == head ? old : head);
     return st;
 }
 
@@ -379,18 +379,14 @@ ss_text_read_names(struct text *x, ss_error *err)
 
 /* Column 0 becomes the column of times, in seconds. */
 static ss_status
-name_first_time(struct sheet *t)
+name_first_time(struct text *x)
 {
-    char *name = strdup("X_Value"), *unit = strdup("s");
-    if (name == NULL || unit == NULL) {
-        free(name);
-        free(unit);
+    char *name = strdup("X_Value");
+    if (name == NULL)
         return SS_ENOMEM;
-    }
-    free(t->names->column[0].name);
-    free(t->names->column[0].unit);
-    t->names->column[0] = (ss_column){ name, unit };
-    return SS_OK;
+    free(x->t.names->column[0].name);
+    x->t.names->column[0].name = name;
+    return set_unit(x, 0, "s");
 }
 
 /* The first column may repeat the times that the header gives, or hold the rows' numbers.  Where each channel has
@@ -426,7 +422,7 @@ ss_text_check_times(struct text *x, ss_error *err)
         t->counted.origin = first;
     } else if (from_numbers > 1e-6) {           /* nor does it number the rows */
         t->counted.increment = 0;
-        return name_first_time(t);
+        return name_first_time(x);
     }
     t->column[0].kind = COLUMN_TEXT;
     return SS_OK;

@@ -88,7 +88,7 @@ count_cells(const struct text *x, const char *line, const char *shape, size_t nu
     return numbers > 0 && n > first && strcspn(shape + first, wrong) >= full - first ? n : 0;
 }
 
-/* *yes becomes 1 if this is the first line of data; then separator and columns are set.  Empty cells at its end
+/* *yes becomes 1 if this is the first line of data; then next_separator and next_columns are set.  Empty cells at its end
  * count if each has a name in the line above.  Blanks are separators of thousands, and not of cells, where other
  * separators leave as many cells as there are names. */
 static ss_status
@@ -117,36 +117,31 @@ is_data(struct text *x, const char *line, int *yes)
         free(shape);
         if (n == 0 || (n == 1 && separator != ';' && separator != ' '))
             continue;
-        x->separator = n > 1 || separator == ';' ? separator : '\0';
-        x->t.n_columns = n;
+        x->next_separator = n > 1 || separator == ';' ? separator : '\0';
+        x->next_columns = n;
         *yes = 1;
     }
     return SS_OK;
 }
 
-/* Keep the lines above the first row of data.  *row becomes this row; NULL: there is none. */
+/* Keep the lines up to the first row of data; *found becomes 0 if there is none. */
 static ss_status
-keep_header(struct text *x, char **row, ss_error *err)
+keep_header(struct text *x, int *found, ss_error *err)
 {
-    int comment = 0, found = 0;
+    int comment = 0;
     char *line;
-    *row = NULL;
-    while (x->n_head < HEADER_LINES) {
-        ss_status st = next_line(x, &line, &comment, err);
+    ss_status st = SS_OK;
+    for (*found = 0; st == SS_OK && !*found && x->n_head < HEADER_LINES;) {
+        st = next_line(x, &line, &comment, err);
         if (st != SS_OK || line == NULL)
             return st;
         x->labview |= x->in->line == 1 && strncmp(line, "LabVIEW Measurement", 19) == 0;
-        if (!comment && (st = is_data(x, line, &found)) != SS_OK)
-            return st;
-        if (found) {
-            *row = line;
-            return SS_OK;
-        }
-        st = keep_line(x, line + (comment ? strspn(line, "# ") : 0), comment);
-        if (st != SS_OK)
-            return st;
+        if (!comment)
+            st = is_data(x, line, found);
+        if (st == SS_OK)
+            st = keep_line(x, line + (comment ? strspn(line, "# ") : 0), comment);
     }
-    return SS_OK;
+    return st;
 }
 
 /* 1 if two rows have cells of the same kinds.  The second may lack its empty cells at the end. */
@@ -182,7 +177,7 @@ find_like(const struct text *x, char *const *shape)
 }
 
 /* Find the first of the kept lines that is a row of data with words in it, as the lines below it are too, or
- * n_head; then separator and columns are set. */
+ * n_head; then next_separator and next_columns are set. */
 static ss_status
 find_mixed(struct text *x, size_t *found)
 {
@@ -195,8 +190,8 @@ find_mixed(struct text *x, size_t *found)
             if (!x->head[k].comment && (shape[k] = ss_text_shape(x, x->head[k].text, candidate[i], &numbers)) == NULL)
                 st = SS_ENOMEM;
         if (st == SS_OK && (*found = find_like(x, shape)) < x->n_head) {
-            x->separator = candidate[i];
-            x->t.n_columns = strlen(shape[*found]);
+            x->next_separator = candidate[i];
+            x->next_columns = strlen(shape[*found]);
         }
         for (size_t k = 0; k < x->n_head; k++) {
             free(shape[k]);
@@ -334,11 +329,13 @@ find_kinds(struct text *x, const char *row)
     return st;
 }
 
-/* Begin a table with this row, below the lines that were kept. */
+/* Find the columns of a table, whose first row is the line behind the kept ones. */
 static ss_status
-begin_table(struct text *x, const char *row, ss_error *err)
+begin_columns(struct text *x, ss_error *err)
 {
     struct sheet *t = &x->t;
+    const char *row = x->head[x->n_head].text;
+    x->in->line = x->head[x->n_head].number;
     if (t->n_columns > MAX_COLUMNS)
         return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->name, x->in->line);
     ss_status st = find_kinds(x, row);
@@ -360,19 +357,21 @@ begin_table(struct text *x, const char *row, ss_error *err)
             ss_sheet_warn(t, SS_OK, "%s:%lu: column %zu (\"%s\") %s; it was skipped", t->name, x->in->line, i + 1,
                           t->names->column[i].name, t->column[i].begins_empty ? "is empty" : "holds text");
     ss_sheet_begin_rows(t);
-    return append_row(x, row, err);
+    return SS_OK;
 }
 
 /* Begin a table with a kept line as its first row, and the kept lines below it as further rows. */
 static ss_status
-begin_kept(struct text *x, size_t first, ss_error *err)
+begin_table(struct text *x, size_t first, ss_error *err)
 {
     size_t n = x->n_head;
     unsigned long line = x->in->line;
+    x->separator = x->next_separator;
+    x->t.n_columns = x->next_columns;
     x->n_head = first;                          /* names are sought above this line */
-    x->in->line = x->head[first].number;
-    ss_status st = begin_table(x, x->head[first].text, err);
-    for (size_t i = first + 1; st == SS_OK && i < n; i++) {
+    x->ended = x->another = 0;
+    ss_status st = begin_columns(x, err);
+    for (size_t i = first; st == SS_OK && i < n; i++) {
         x->in->line = x->head[i].number;
         st = x->head[i].comment ? SS_OK : append_row(x, x->head[i].text, err);
     }
@@ -382,36 +381,28 @@ begin_kept(struct text *x, size_t first, ss_error *err)
     return st;
 }
 
-/* Begin a table with the first row of numbers.  If there is none, or a line of words and numbers stands
- * above it, begin with the first line of words and numbers that is like those below it. */
+/* Begin with the first row of numbers, which is the last of the kept lines.  If there is none, or a line of words and
+ * numbers stands above it, begin with the first line of words and numbers that is like those below it. */
 static ss_status
-begin_first(struct text *x, const char *row, ss_error *err)
+begin_first(struct text *x, int found, ss_error *err)
 {
-    size_t columns = x->t.n_columns, first, numbers;
-    char separator = x->separator;
-    int mixed = row == NULL;
-    if (!mixed && x->n_head > 0 && !x->head[x->n_head - 1].comment) {
-        char *shape = ss_text_shape(x, x->head[x->n_head - 1].text, separator, &numbers);
+    size_t row = x->n_head - (found != 0), first = row, numbers;
+    int mixed = !found;
+    x->t.n_columns = x->next_columns;
+    if (found && row > 0 && !x->head[row - 1].comment) {
+        char *shape = ss_text_shape(x, x->head[row - 1].text, x->next_separator, &numbers);
         if (shape == NULL)
             return SS_ENOMEM;
         mixed = shape[0] == 'n' && strpbrk(shape, "te") != NULL;
         free(shape);
     }
-    if (!mixed)
-        return begin_table(x, row, err);
-    ss_status st = row != NULL ? keep_line(x, row, 0) : SS_OK;
-    if (st == SS_OK)
-        st = find_mixed(x, &first);
+    ss_status st = mixed ? find_mixed(x, &first) : SS_OK;
     if (st != SS_OK)
         return st;
-    if (first < x->n_head)
-        return begin_kept(x, first, err);
-    if (row == NULL)
+    if (first == x->n_head && !found)
         return ss_fail(err, SS_EDATA, "%s:%lu: no row of numbers up to here; a table has them "
                        "between commas, semicolons, tabs or blanks", x->t.name, x->in->line);
-    x->t.n_columns = columns;
-    x->separator = separator;
-    return begin_kept(x, x->n_head - 1, err);
+    return begin_table(x, first < row ? first : row, err);
 }
 
 /* --- several tables ------------------------------------------------------------------------ */
@@ -451,24 +442,18 @@ is_footer(struct text *x, int *yes)
     return SS_OK;
 }
 
-/* Keep the lines from a heading on, up to the first row of another table, which becomes *row.  If none
- * follows, the heading is a footer or a malformed row. */
+/* Keep the lines from a heading on, up to the first row of another table.  If none follows, the heading is a footer or a
+ * malformed row. */
 static ss_status
-read_heading(struct text *x, const char *heading, char **row, ss_error *err)
+read_heading(struct text *x, const char *heading, ss_error *err)
 {
     unsigned long number = x->in->line;
-    size_t columns = x->t.n_columns;
-    char separator = x->separator;
     int footer = 0;
     drop_lines(x);
     ss_status st = keep_line(x, heading, 0);
     if (st == SS_OK)
-        st = keep_header(x, row, err);
-    x->next_columns = x->t.n_columns;
-    x->next_separator = x->separator;
-    x->t.n_columns = columns;
-    x->separator = separator;
-    if (st != SS_OK || *row != NULL)
+        st = keep_header(x, &x->another, err);
+    if (st != SS_OK || x->another)
         return st;
     x->in->line = number;
     if ((st = is_footer(x, &footer)) != SS_OK)
@@ -479,21 +464,18 @@ read_heading(struct text *x, const char *heading, char **row, ss_error *err)
     return SS_OK;
 }
 
-/* Read a line below the first row.  *more becomes 0 at the end, and at the first row of another table, which
- * becomes *row. */
+/* Read a line below the first row. */
 static ss_status
-read_line(struct text *x, char **row, int *more, ss_error *err)
+read_line(struct text *x, ss_error *err)
 {
     char *line;
-    int comment, heading = 0;
+    int comment;
     ss_status st = next_line(x, &line, &comment, err);
-    *row = NULL;
-    *more = st == SS_OK && line != NULL;
-    if (!*more || comment)
+    x->ended = st != SS_OK || line == NULL;
+    if (x->ended || comment)
         return st;
-    st = is_heading(x, line, &heading);
-    *more = !heading;
-    return st != SS_OK ? st : heading ? read_heading(x, line, row, err) : append_row(x, line, err);
+    st = is_heading(x, line, &x->ended);
+    return st != SS_OK ? st : x->ended ? read_heading(x, line, err) : append_row(x, line, err);
 }
 
 /* Discard the columns of a table before the next one. */
@@ -507,10 +489,8 @@ clear_table(struct text *x)
     t->column = NULL;
     x->row = NULL;
     ss_header_new(&t->names, 0, 0, NULL);
-    t->n_columns = x->next_columns;
     t->counted.increment = 0;
     t->named = 0;
-    x->separator = x->next_separator;
     x->mark = '\0';
     x->comments = 0;
     return t->names != NULL ? SS_OK : SS_ENOMEM;
@@ -530,24 +510,23 @@ list_table(const struct text *x, size_t number, char *list, size_t size)
     }
 }
 
-/* Read the tables, up to the one that is wanted; row and more are what read_line gave last. */
+/* Read the tables, up to the one that is wanted. */
 static ss_status
-read_tables(struct text *x, char *row, int more, ss_error *err)
+read_tables(struct text *x, ss_error *err)
 {
     char list[300] = "";
-    size_t number = 1, wanted = x->t.opts->table;
-    for (;; number++, more = 1) {
+    for (size_t number = 1, wanted = x->t.opts->table;; number++) {
         ss_status st = SS_OK;
-        while (st == SS_OK && more)
-            st = read_line(x, &row, &more, err);
-        if (st != SS_OK || number == wanted || (row == NULL && number == 1 && wanted == 0))
+        while (st == SS_OK && !x->ended)
+            st = read_line(x, err);
+        if (st != SS_OK || number == wanted || (!x->another && number == 1 && wanted == 0))
             return st;
         list_table(x, number, list, sizeof list);
-        if (row == NULL)
+        if (!x->another)
             return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", x->t.name, number, PLURAL(number), list);
         st = clear_table(x);
         if (st == SS_OK)
-            st = begin_table(x, row, err);
+            st = begin_table(x, x->n_head - 1, err);
         if (st != SS_OK)
             return st;
     }
@@ -566,32 +545,29 @@ static ss_status
 next_rows(struct sheet *t, ss_error *err)
 {
     struct text *x = (struct text *)t;
-    char *row = NULL;
-    int more = 1;
     ss_status st = SS_OK;
     t->rows.first = t->rows.n;
     t->rows.held = 0;
-    while (st == SS_OK && more && (t->rows.held == 0 || ss_input_has_line(x->in)))
-        st = read_line(x, &row, &more, err);
-    return st == SS_OK && row != NULL ? ss_fail(err, SS_ETABLES, "%s:%lu: another table begins here", t->name,
-                                                x->in->line) : st;
+    while (st == SS_OK && !x->ended && (t->rows.held == 0 || ss_input_has_line(x->in)))
+        st = read_line(x, err);
+    return st == SS_OK && x->another ? ss_fail(err, SS_ETABLES, "%s:%lu: another table begins here", t->name,
+                                               x->in->line) : st;
 }
 
 /* *live becomes 1 if the rows of a text from a pipe can be handed on as they come: if a rate is given, or if the
- * first stamps show one that more of them would not change.  The rest is as read_line has it. */
+ * first stamps show one that more of them would not change. */
 static ss_status
-read_first(struct text *x, int *live, char **row, int *more, ss_error *err)
+read_first(struct text *x, int *live, ss_error *err)
 {
     enum { SHOWN = 16 };
     const ss_read_opts *opts = x->t.opts;
     struct kept *rows = &x->t.rows;
     ss_status st = SS_OK;
-    *more = 1;
     *live = ss_input_is_pipe(x->in) && opts->gaps == SS_GAPS_REFUSE && !(opts->resample > 0) && !opts->stamps
         && opts->table == 0 && !x->labview;
-    while (st == SS_OK && *live && *more && !(opts->rate > 0) && rows->n < SHOWN)
-        st = read_line(x, row, more, err);
-    *live = *live && *more && !rows->is_away;
+    while (st == SS_OK && *live && !x->ended && !(opts->rate > 0) && rows->n < SHOWN)
+        st = read_line(x, err);
+    *live = *live && !x->ended && !rows->is_away;
     return st == SS_OK && *live && !(opts->rate > 0) ? ss_sheet_is_plain(&x->t, live) : st;
 }
 
@@ -641,8 +617,7 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
 {
     static const struct sheet_calls as_they_come = { next_rows, text_waits, free_text };
     struct input *in = o->in;
-    char *row;
-    int live = 0, more;
+    int live = 0, found;
     struct text *x = calloc(1, sizeof *x);
     if (x == NULL)
         return ss_fail_memory(err, in->name);
@@ -656,15 +631,15 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
     if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
         in->lo += 3;                            /* skip the byte-order mark */
     if (st == SS_OK)
-        st = keep_header(x, &row, err);
+        st = keep_header(x, &found, err);
     if (st == SS_OK)
-        st = begin_first(x, row, err);
+        st = begin_first(x, found, err);
     if (st == SS_OK)
-        st = read_first(x, &live, &row, &more, err);
+        st = read_first(x, &live, err);
     if (st == SS_OK && live)
         x->t.later = &as_they_come;
     else if (st == SS_OK)
-        st = read_tables(x, row, more, err);
+        st = read_tables(x, err);
     if (st == SS_OK)
         st = ss_kept_end(&x->t.rows, err);
     if (st == SS_OK)

@@ -6,7 +6,7 @@
 
 enum cell_kind { CELL_TEXT, CELL_NUMBER, CELL_NOT_FINITE, CELL_STAMP };
 
-struct text_line {              /* above the data, to be freed */
+struct text_line {              /* above the data, and the first of these; to be freed */
     char *text;
     unsigned long number;
     int comment;
@@ -18,8 +18,9 @@ struct text {
     struct input *in;
     char mark;                  /* decimal point or comma, '\0': none seen */
     char separator;             /* '\t' ';' ',' or ' ' (any blanks); '\0': one column */
-    size_t next_columns;        /* columns and separator of the next table in the file */
+    size_t next_columns;        /* of the table that begins with the last of the kept lines */
     char next_separator;
+    int ended, another;         /* has the table ended, and does another one begin there? */
     unsigned long first;        /* the line of the first row */
     double *row;                /* that is read */
     char *copy, **cell;         /* of the line that was split last, and its cells */
