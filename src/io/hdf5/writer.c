@@ -122,10 +122,7 @@ link_name(char link[256], hid_t group, const char *name)
             length--;                   /* back to the start of a character */
         link[length] = '\0';
     }
-    for (char *c = link; *c != '\0'; c++)
-        if (*c == '/')
-            *c = '_';
-    if (link[0] == '\0' || strcmp(link, ".") == 0)
+    if (strcmp(link, ".") == 0)
         strcpy(link, "_");
     length = strlen(link);
     for (int i = 2; H5Lexists(group, link, H5P_DEFAULT) > 0; i++)

@@ -2,7 +2,7 @@
  *
  * A row is the sample that its stamp shows, and samples without a row are NaN; with opts->resample, a spline leads
  * from the rows to the samples. */
-#include "io/table/sheet.h"
+#include "io/table/text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 
 struct samples {
     ss_source base;
-    struct sheet *live;         /* the table whose rows come later, or NULL */
+    struct text *live;          /* whose rows come later, or NULL */
     struct kept own, *rows;     /* rows: of this table, or its own */
     struct timing timing;
     size_t *of, n;              /* the columns of the table that are given */
@@ -42,7 +42,7 @@ read_row(struct samples *s, int may_wait, ss_error *err)
     size_t time = s->timing.time.column;
     do {
         if (s->live != NULL && s->next == s->rows->n) {
-            ss_status st = may_wait ? s->live->later->next(s->live, err) : SS_OK;
+            ss_status st = may_wait ? ss_text_next_rows(s->live, err) : SS_OK;
             if (st != SS_OK || s->next == s->rows->n)
                 return st;
         }
@@ -105,7 +105,7 @@ static int
 samples_wait(const ss_source *base)
 {
     const struct samples *s = (const struct samples *)base;
-    return s->next == s->rows->n && s->live->later->waits(s->live);
+    return s->next == s->rows->n && ss_input_waits(s->live->in);
 }
 
 static void
@@ -113,7 +113,7 @@ free_samples(ss_source *base)
 {
     struct samples *s = (struct samples *)base;
     if (s->live != NULL)
-        s->live->later->free(s->live);
+        ss_text_free(s->live);
     ss_kept_free(&s->own);
     free(s->of);
 }
@@ -154,7 +154,7 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     if (st != SS_OK)
         return st;
     int resampled = timing.longest > 0, stamped = resampled || (t->opts->stamps && timing.time.column != NONE);
-    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : t->later != NULL ? &live : &samples_calls, t->name,
+    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : t->live ? &live : &samples_calls, t->name,
                                        err);
     if (s == NULL)
         return SS_ENOMEM;
@@ -162,7 +162,7 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     s->timing = timing;
     s->progress = progress;
     s->rows = &t->rows;
-    s->live = t->later != NULL ? t : NULL;
+    s->live = t->live ? (struct text *)t : NULL;
     if (s->live == NULL) {
         s->own = t->rows;
         s->own.name = s->base.name;
