@@ -858,6 +858,40 @@ slips(const ss_scene *s)
     return n >= 8;
 }
 
+/* A dashpot between mass and ground: its drag at the speed of the drive acts on the force of the spring as friction
+ * does; the rest of it damps the slip. */
+static void
+damping_of_the_rig_is_no_friction(void **state)
+{
+    enum { DRAWS = 30 };
+    coverage friction = { 0 }, k_over_m = { 0 }, damping = { 0 };
+    unsigned long long seed = 8001;
+    (void)state;
+    for (unsigned long i = 0; i < DRAWS; i++) {
+        ss_scene s = pull_draw(draw, &seed);
+        double ratio = between(&seed, .01, .15), w = sqrt(s.stiffness / s.mass);
+        ss_features *f = NULL;
+        s.damping = 2 * s.mass * w * ratio;
+        if (!slips(&s))
+            continue;
+        record t = record_of(&s, 60, i + 1, 1);
+        assert_int_equal(ss_features_find(&f, t.signal, 0, NULL, NULL), SS_OK);
+        const ss_number *of = f->number;
+        count(&friction, (ss_value){ of[SS_FRICTION].value, of[SS_FRICTION].error },
+              s.friction + s.damping * s.base_velocity);
+        count(&k_over_m, (ss_value){ of[SS_K_OVER_M].value, of[SS_K_OVER_M].error }, w * w);
+        count(&damping, (ss_value){ of[SS_SLIP_DAMPING].value, of[SS_SLIP_DAMPING].error }, ratio);
+        ss_features_free(f);
+        ss_signal_free(t.signal);
+    }
+    const coverage all[] = { friction, k_over_m, damping };
+    for (size_t i = 0; i < 3; i++) {
+        print_message("%g numbers, within 2 errors %.3g, beyond 5 %.3g\n", all[i].n, all[i].within_2 / all[i].n,
+                      all[i].beyond_5 / all[i].n);
+        assert_true(all[i].n >= .8 * DRAWS && all[i].within_2 >= .88 * all[i].n && all[i].beyond_5 == 0);
+    }
+}
+
 /* The numbers of the law are within five errors, and they are all that the fit says. */
 static size_t
 check_keys(const ss_signal *signal, const ss_scene *truth, const ss_scene *start, const char *own)
@@ -952,6 +986,7 @@ main(void)
         cmocka_unit_test(falling_friction_is_not_named),
         cmocka_unit_test(events_of_pulls_are_found_and_their_errors_cover),
         cmocka_unit_test(errors_cover_in_pink_noise),
+        cmocka_unit_test(damping_of_the_rig_is_no_friction),
         cmocka_unit_test(medians_behind_a_slow_sensor_cover),
         cmocka_unit_test(glitches_make_no_longer_period),
         cmocka_unit_test(a_bent_recovery_leaves_its_slope_open),

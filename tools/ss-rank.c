@@ -288,7 +288,10 @@ warn_of_pull(const ss_pull *p, double k_over_m, double loading, double spread)
         if (fabs(p->key[i].found.value / p->key[i].given - 1) > spread)
             tool_warn("%s of the slips is %.2g times that of the given scene", p->key[i].name,
                       p->key[i].found.value / p->key[i].given);
-    if (!p->explains && p->n_keys == 0)
+    const ss_number *damping = &p->features->number[SS_SLIP_DAMPING];
+    if (p->n_keys == 0 && damping->value > 3 * damping->error)
+        tool_warn("the slips show a damping ratio of %.3g +- %.2g: the scene has none", damping->value, damping->error);
+    else if (!p->explains && p->n_keys == 0)
         tool_warn("the slips leave %.3g times the noise: friction is not constant in slip, so k/m may be off by "
                   "more than its error", p->excess);
     else if (!p->explains)

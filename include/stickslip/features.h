@@ -75,7 +75,8 @@ typedef struct ss_loading {
  * the step from one to the next, and the loading stiffness is this step over the displacement.  The error of a
  * median is that of the scatter, or of the errors of the events if these are larger; that of k_over_m (stiffness
  * over mass) has the part of the scatter in it that these errors do not explain, too.  The errors of falls have in
- * them what the fits of all falls leave alike.  The error of slips, if known, counts those near the height that
+ * them what the fits of all falls leave alike.  slip_damping is the damping ratio of the slips: the rig's, and
+ * what friction does as speed grows.  The error of slips, if known, counts those near the height that
  * makes a fall.  transition_frequency_raw is the label of the local maxima, as the paper reads it, and
  * transition_frequency that of the damped oscillation, one for all transitions.  contact_stiffness needs mass and
  * stiffness, contact_damping the mass; contact_stiffness_slope is |df/dx| in the stick.
@@ -97,6 +98,7 @@ typedef struct ss_loading {
     number(SS_STATIC_FRICTION, "static_friction", NULL, "slips", OF_FALLS, by_search) \
     number(SS_FRICTION, "friction", NULL, "slips", OF_EVENTS, by_search) \
     number(SS_K_OVER_M, "k_over_m", "1/s^2", "slips", OF_FALLS, by_search) \
+    number(SS_SLIP_DAMPING, "slip_damping", "", "slips", OF_FALLS, by_search) \
     number(SS_REPETITION_FREQUENCY, "repetition_frequency", "Hz", "repetition", 0, by_search) \
     number(SS_TRANSITION_FREQUENCY_RAW, "transition_frequency_raw", "Hz", "ringing", 0, by_search) \
     number(SS_TRANSITION_FREQUENCY, "transition_frequency", "Hz", "ringing", 0, by_search) \

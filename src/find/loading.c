@@ -16,6 +16,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 #include "find/colour.h"
 #include "find/drops.h"
 #include "find/inertia.h"
@@ -26,6 +27,7 @@
 
 #define AWAY 4                  /* samples in a row that are farther away than SIGMAS standard deviations end the line */
 #define HIDDEN 2.0              /* see common_misfit */
+#define MOST_DAMPING 0.5        /* of either sign, as friction may fall with speed */
 
 /* A fall, and the rise before it, in samples. */
 typedef struct fall {
@@ -33,6 +35,7 @@ typedef struct fall {
     ss_window rise;             /* before the fall, without the part that is known to be slip */
     line line;                  /* through its middle half; slope NaN: it is too short */
     ss_slip slip;               /* n 0: it is none */
+    double shift[SLIP_NUMBERS]; /* of its numbers by damping */
     ss_window stick;            /* the samples of the rise that stay near the line; empty if there is none */
 } fall;
 
@@ -50,15 +53,25 @@ difference(ss_value a, ss_value b)
 
 /* --- lines and slips ------------------------------------------------------------------------- */
 
+/* Does friction fall with speed? */
+static int
+is_falling(const ss_number *damping)
+{
+    return damping->value < -SIGMAS * damping->error;
+}
+
 /* Fit lines to the rises and slips to the falls of y, which the drops give.  A line that contains a part of
  * a slip is too steep or too flat.  The slips that are fitted with such lines are wrong, too, but less: three
- * passes are enough.  Then forget the slips, unless they explain more of the falls better than relaxations do. */
+ * passes are enough.  The damping is one for all slips: the median of what each shows in the second pass.
+ * Friction that falls with speed hardly falls along a line: the slips are then fitted undamped.
+ * Then forget the slips, unless they explain more of the falls better than relaxations do. */
 static ss_status
 find_falls(fall *f, const search *s, const double *y, const ss_drop *drop, size_t n, ss_value *v,
-           double *scratch)
+           double *scratch, ss_number *damping)
 {
-    enum { PASSES = 3, JUDGED = 64 };   /* JUDGED: the most falls, evenly over the record */
+    enum { PASSES = 3, FREE = 1, JUDGED = 64 };     /* JUDGED: the most falls, evenly over the record */
     double loading = NAN;
+    ss_range used = { 0, 0 };           /* damping */
     int signs = 0, sign;
     ss_status st = SS_OK;
     for (size_t i = 0; i < n; i++) {
@@ -85,7 +98,16 @@ find_falls(fall *f, const search *s, const double *y, const ss_drop *drop, size_
         loading = ss_median_of(v, n, scratch).value;
         for (size_t i = 0; st == SS_OK && i < n; i++) {
             ss_window room = { f[i].rise.first, i + 1 < n ? f[i + 1].rise.end : s->n };
-            st = ss_slip_fit(&f[i].slip, y, room, f[i].high, f[i].low, loading);
+            st = ss_slip_fit(&f[i].slip, y, room, f[i].high, f[i].low, loading,
+                             pass == FREE ? (ss_range){ -MOST_DAMPING, MOST_DAMPING } : used);
+            if (pass == FREE) {
+                memcpy(f[i].shift, f[i].slip.shift, sizeof f[i].shift);
+                v[i] = f[i].slip.damping;
+            }
+        }
+        if (pass == FREE) {
+            *damping = ss_median_of(v, n, scratch);
+            used.from = used.to = isfinite(damping->value) && !is_falling(damping) ? damping->value : 0;
         }
     }
     for (size_t i = 0; st == SS_OK && i < n; i += n / JUDGED + 1) {
@@ -186,32 +208,36 @@ common_misfit(const fall *f, size_t n)
     return power > 0 ? HIDDEN * HIDDEN * power * samples / slips : 0;
 }
 
-/* Widen the errors of a slip by what its fit does not see.
+/* Widen the errors of a slip by what its fit does not see; add to shared and all, of each number, the variance that
+ * all slips share and the whole.
  *
- * What all slips share is `common` times the variance by noise.  A shift of all onsets does not change the times
- * between two of them, but it changes the sticks: there it is counted with the ends.
+ * What all slips share is `common` times the variance by noise, and the error of the damping, in which is a
+ * negative one that was not used.  A shift of all onsets
+ * does not change the times between two of them, but it changes the sticks: there it is counted with the ends.
  *
  * Noise of 1/f has as much in each octave.  What is slower than an event, down to the whole record of n
  * samples, is not in the residual of its fit, but in the levels of the force; in their difference is that of
  * an octave, with either sign at the two ends.  It moves the times, too, at which the force passes 10 and
  * 90 % of the fall at 0.6 D w. */
 static void
-widen_errors(ss_slip *slip, double common, double octave, size_t n)
+widen_errors(fall *f, double common, double damping_error, double octave, size_t n, double shared[], double all[])
 {
+    ss_slip *slip = &f->slip;
     double slower = octave * fmax(0, log2((double)n / slip->n)), k_over_m = slip->k_over_m.value;
     double speed = 0.3 * slip->drop.value * sqrt(k_over_m), time = 2 * octave / (speed * speed);
-    double onset = slip->onset.error;
-    const struct { ss_value *of; double shared, more; } v[] = {
-        { &slip->onset, 0, time },
-        { &slip->end, common, common * onset * onset + time },
-        { &slip->drop, common, 4 * octave },
-        { &slip->duration, common, time },
-        { &slip->top, common, slower },
-        { &slip->middle, common, slower },
-        { &slip->k_over_m, common, time * pow(2 * k_over_m / slip->duration.value, 2) },
-    };
-    for (size_t i = 0; i < sizeof v / sizeof *v; i++)
-        v[i].of->error = sqrt(v[i].of->error * v[i].of->error * (1 + v[i].shared) + v[i].more);
+    double onset = pow(slip->onset.error, 2);
+    ss_value *const of[SLIP_NUMBERS] = { &slip->onset, &slip->end, &slip->drop, &slip->duration, &slip->top,
+                                         &slip->middle, &slip->k_over_m };
+    const double more[SLIP_NUMBERS] = { time, time, 4 * octave, time, slower, slower,
+                                        time * pow(2 * k_over_m / slip->duration.value, 2) };
+    for (size_t i = 0; i < SLIP_NUMBERS; i++) {
+        double shift = i == SLIP_END ? f->shift[i] - f->shift[SLIP_ONSET] : f->shift[i];
+        double noise = pow(of[i]->error, 2), alike = i == SLIP_ONSET ? 0
+            : common * (noise + (i == SLIP_END ? onset : 0)) + pow(shift * damping_error, 2);
+        of[i]->error = sqrt(noise + alike + more[i]);
+        shared[i] += alike;
+        all[i] += noise + alike;
+    }
 }
 
 /* --- all of it ------------------------------------------------------------------------------- */
@@ -270,11 +296,12 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
     ss_value *v = calloc(n + 1, sizeof *v);
     fall *f = calloc(n + 1, sizeof *f);
     out->loading = calloc(n + 1, sizeof *out->loading);
+    ss_number damping = no_number;
     ss_status st = out->loading != NULL && y != NULL && v != NULL && f != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
         st = ss_drops_without_glitches(y, x, s->n, drop, n);
     if (st == SS_OK)
-        st = find_falls(f, s, y, drop, n, v, scratch);
+        st = find_falls(f, s, y, drop, n, v, scratch, &damping);
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         const ss_window rise = f[i].rise;
         size_t quarter = ss_window_length(rise) / 4;
@@ -284,16 +311,19 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
     }
     if (st == SS_OK) {
         shape rises = shape_of(y, f, n);
-        double common = common_misfit(f, n);
+        double common = common_misfit(f, n), shared[SLIP_NUMBERS] = { 0 }, all[SLIP_NUMBERS] = { 0 };
+        double damping_error = isfinite(damping.error) ? hypot(damping.error, is_falling(&damping) ? damping.value : 0) : 0;
         for (size_t i = 0; i < n; i++) {
             if (f[i].slip.n > 0) {
-                widen_errors(&f[i].slip, common, rises.octave, s->n);
+                widen_errors(&f[i], common, damping_error, rises.octave, s->n, shared, all);
                 out->transition[i].onset = f[i].slip.onset.value / s->rate;
                 out->transition[i].end = f[i].slip.end.value / s->rate;
             }
             out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0, rises);
         }
-        ss_loading_medians(out, drop, common / (1 + common), v, scratch);
+        for (size_t i = 0; i < SLIP_NUMBERS; i++)
+            shared[i] = all[i] > 0 ? shared[i] / all[i] : 0;
+        ss_loading_medians(out, drop, shared, &damping, v, scratch);
     }
     free(f);
     free(v);

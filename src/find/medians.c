@@ -10,6 +10,7 @@
 #include <string.h>
 #include "base/gauss.h"
 #include "find/judgement.h"
+#include "find/slip.h"
 
 #define DEVIATION_SD 1.17       /* relative error of a median deviation, times the root of the number of
                                    values */
@@ -71,7 +72,8 @@ add_misfit(ss_number *k_over_m, double common, const ss_value *v, size_t n, doub
 }
 
 void
-ss_loading_medians(ss_features *out, const ss_drop *drop, double common, ss_value *v, double *scratch)
+ss_loading_medians(ss_features *out, const ss_drop *drop, const double *shared, const ss_number *damping,
+                   ss_value *v, double *scratch)
 {
     size_t slips = 0;
     double falling = 0;
@@ -87,16 +89,17 @@ ss_loading_medians(ss_features *out, const ss_drop *drop, double common, ss_valu
     }
     if (!is_typical)
         return;
+    out->number[SS_SLIP_DAMPING] = *damping;
     const struct { ss_number *to; size_t offset; double common; } of_slips[] = {
-        { &out->number[SS_DROP], offsetof(ss_loading, drop), common },
-        { &out->number[SS_DROP_DURATION], offsetof(ss_loading, duration), common },
+        { &out->number[SS_DROP], offsetof(ss_loading, drop), shared[SLIP_DROP] },
+        { &out->number[SS_DROP_DURATION], offsetof(ss_loading, duration), shared[SLIP_DURATION] },
         { &out->number[SS_RECURRENCE_TIME], offsetof(ss_loading, recurrence), 0 },
-        { &out->number[SS_STICK_TIME], offsetof(ss_loading, stick), common },
-        { &out->number[SS_STATIC_FRICTION], offsetof(ss_loading, static_friction), common },
-        { &out->number[SS_FRICTION], offsetof(ss_loading, friction), common },
-        { &out->number[SS_K_OVER_M], offsetof(ss_loading, k_over_m), common },
+        { &out->number[SS_STICK_TIME], offsetof(ss_loading, stick), shared[SLIP_END] },
+        { &out->number[SS_STATIC_FRICTION], offsetof(ss_loading, static_friction), shared[SLIP_TOP] },
+        { &out->number[SS_FRICTION], offsetof(ss_loading, friction), shared[SLIP_MIDDLE] },
+        { &out->number[SS_K_OVER_M], offsetof(ss_loading, k_over_m), shared[SLIP_K_OVER_M] },
     };
     for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
         *of_slips[i].to = median_over(out, of_slips[i].offset, of_slips[i].common, v, scratch);
-    add_misfit(&out->number[SS_K_OVER_M], common, v, out->n, scratch);     /* v still holds the errors of k/m */
+    add_misfit(&out->number[SS_K_OVER_M], shared[SLIP_K_OVER_M], v, out->n, scratch); /* v still holds the errors of k/m */
 }

@@ -8,10 +8,12 @@
 /* The median of those of n values that are numbers; scratch holds n. */
 ss_number ss_median_of(const ss_value *v, size_t n, double *scratch);
 
-/* Find the medians of the numbers of out->loading that are typical; `common` is the part of the
- * variance that all slips share.  If fewer than half of the falls are slips of a pulled slider, these may
+/* Find the medians of the numbers of out->loading that are typical; shared: by the order of
+ * a slip's numbers, the part of the variance of each that all slips share; damping:
+ * their common one.  If fewer than half of the falls are slips of a pulled slider, these may
  * differ from the others; and if falls take long, too, the mass may slide before and behind them.  v and
  * scratch have room for all loadings. */
-void ss_loading_medians(ss_features *out, const ss_drop *drop, double common, ss_value *v, double *scratch);
+void ss_loading_medians(ss_features *out, const ss_drop *drop, const double *shared, const ss_number *damping,
+                        ss_value *v, double *scratch);
 
 #endif

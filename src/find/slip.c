@@ -2,18 +2,17 @@
  *
  * A slider of mass m is held by friction up to f_s and braked by f_k while it slips.  A spring of
  * stiffness k, whose end moves at U, pulls it.  The force s of the spring rises at s' = k U in the
- * stick.  In the slip, at time u after its onset, it is
- *
- *     s = f_k + D cos(w u) + (k U / w) sin(w u),    D = f_s - f_k, w = sqrt(k/m), q = D w / (k U).
- *
- * The slip ends when s' is k U again, at u = 2 (pi - atan q) / w, where s = f_k - D.  The slip and the
- * loadings on either side of it are fitted to the samples by least squares.  The fit varies the onset,
- * f_s, f_k and w.  Simpler readings err: noise and the momentum of the drive raise the largest sample
- * above f_s, and a line that is followed to within the noise goes on into the slip.
+ * stick.  In the slip, with w = sqrt(k/m), s'' + 2 z w s' + w^2 (s - f_k) = 0, where z is the rig's damping
+ * ratio, or the share of friction that grows with speed.  It begins at s = f_s with s' = k U, and ends when
+ * s' is k U again.  The slip and the loadings on either side of it are fitted to the samples by least
+ * squares.  The fit varies the onset, f_s, f_k, w and z.  Simpler readings err: noise and the momentum of
+ * the drive raise the largest sample above f_s, a line that is followed to within the noise goes on into
+ * the slip, and without damping f_k is the middle between the ends of the slip.
  *
  * The residual of a measured slip is not white, so errors count fewer samples (colour.c). */
 #include "find/slip.h"
 
+#include <float.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
@@ -22,11 +21,12 @@
 #include "find/colour.h"
 #include "find/judgement.h"
 
-enum { ONSET, TOP, MIDDLE, SPEED, FITTED };     /* onset behind the first sample used; SPEED: of the phase, w */
+enum { ONSET, TOP, MIDDLE, SPEED, DAMPING, FITTED };    /* onset behind the first sample used; SPEED: w */
 enum { STEPS = 60 };                            /* most iterations */
 #define EXPLAINED 0.98          /* part of the sum of squares about the mean: a fit that explains less is
                                    another shape */
 #define DEEP 0.8                /* part of D: 10 and 90 % of the fall lie at f_k +- so much */
+#define SMALL 1e-6              /* part of a parameter, of 1 for damping: a step for slopes */
 
 typedef struct fall {
     const double *x;            /* n samples */
@@ -34,44 +34,73 @@ typedef struct fall {
     double loading;
 } fall;
 
+/* In the slip the force is middle + exp(-decay u) (D cos(speed u) + B sin(speed u)), and its slope is
+ * exp(-decay u) (loading cos(speed u) - C sin(speed u)). */
+typedef struct motion {
+    double top, middle, loading, speed, decay, D, B, C;
+    double length, low;         /* of the slip; the force at its end */
+} motion;
+
 static double
-length_of(const double p[FITTED], double loading)
+force_at(const motion *m, double u)
 {
-    double w = p[SPEED], q = (p[TOP] - p[MIDDLE]) * w / loading;
-    return 2 * (M_PI - atan(q)) / w;
+    if (u < 0)
+        return m->top + m->loading * u;
+    if (u > m->length)
+        return m->low + m->loading * (u - m->length);
+    return m->middle + exp(-m->decay * u) * (m->D * cos(m->speed * u) + m->B * sin(m->speed * u));
 }
 
-/* The force of the model less the samples, and its slopes by the parameters. */
+static double
+slope_at(const motion *m, double u)
+{
+    return exp(-m->decay * u) * (m->loading * cos(m->speed * u) - m->C * sin(m->speed * u));
+}
+
+/* The time between `from` and `to` at which f of the motion passes a level. */
+static double
+passes(double (*f)(const motion *m, double u), const motion *m, double level, double from, double to)
+{
+    int rises = f(m, to) > f(m, from);
+    while (to - from > 4 * DBL_EPSILON * to) {
+        double mid = 0.5 * (from + to);
+        if ((f(m, mid) < level) == rises)
+            from = mid;
+        else
+            to = mid;
+    }
+    return to;
+}
+
+/* Returns 0 if a slip with these parameters never ends: the slider goes on at the speed of the drive. */
+static int
+motion_of(motion *m, const double p[FITTED], double loading)
+{
+    double w = p[SPEED], D = p[TOP] - p[MIDDLE], decay = p[DAMPING] * w, speed = w * sqrt(1 - pow(p[DAMPING], 2));
+    double B = (loading + decay * D) / speed, C = D * speed + decay * B;
+    *m = (motion){ p[TOP], p[MIDDLE], loading, speed, decay, D, B, C, INFINITY, 0 };
+    if (!(w > 0 && D > 0))
+        return 0;
+    double steep = (2 * M_PI - atan(decay / speed) - atan2(C, loading)) / speed, turn = M_PI / speed;
+    if (!(steep > turn && slope_at(m, steep) > loading))
+        return 0;
+    double length = passes(slope_at, m, loading, turn, steep);
+    m->low = force_at(m, length);
+    m->length = length;
+    return 1;
+}
+
+/* The force of the model less the samples. */
 static ss_status
 model(const double *p, double *residual, double *slopes, void *user)
 {
     const fall *f = user;
-    double w = p[SPEED], D = p[TOP] - p[MIDDLE], a = f->loading, r = a / w, q = D / r;
-    double length = length_of(p, a), by_D = -2 / (1 + q * q) / a, by_w = (by_D * D - length) / w;
-    if (!(w > 0))
+    motion m;
+    (void)slopes;
+    if (!motion_of(&m, p, f->loading))
         return SS_EDATA;
-    for (size_t i = 0; i < f->n; i++) {
-        double u = (double)i - p[ONSET], c = cos(w * u), s = sin(w * u), force;
-        double d[FITTED] = { -a, 1, 0, 0 };
-        if (u < 0) {
-            force = p[TOP] + a * u;
-        } else if (u < length) {
-            force = p[MIDDLE] + D * c + r * s;
-            d[ONSET] = D * w * s - a * c;
-            d[TOP] = c;
-            d[MIDDLE] = 1 - c;
-            d[SPEED] = -D * u * s - r * s / w + r * u * c;
-        } else {
-            force = p[MIDDLE] - D + a * (u - length);
-            d[TOP] = -1 - a * by_D;
-            d[MIDDLE] = 2 + a * by_D;
-            d[SPEED] = -a * by_w;
-        }
-        if (residual != NULL)
-            residual[i] = force - f->x[i];
-        if (slopes != NULL)
-            memcpy(slopes + i * FITTED, d, sizeof d);
-    }
+    for (size_t i = 0; i < f->n; i++)
+        residual[i] = force_at(&m, (double)i - p[ONSET]) - f->x[i];
     return SS_OK;
 }
 
@@ -100,49 +129,57 @@ start(double p[FITTED], const double *x, ss_window room, size_t high, size_t low
     double w = (acos(-DEEP) - acos(DEEP)) / (to - from), reach = 1.5 * M_PI / w;
     ss_window used = { (size_t)fmax((double)room.first, centre - reach),
                        (size_t)fmin((double)room.end, centre + reach + 1) };
-    memcpy(p, (double[FITTED]){ centre - M_PI / 2 / w - (double)used.first, middle + half, middle, w },
+    memcpy(p, (double[FITTED]){ centre - M_PI / 2 / w - (double)used.first, middle + half, middle, w, p[DAMPING] },
            FITTED * sizeof *p);
     return used;
 }
 
 /* --- the numbers ----------------------------------------------------------------------------- */
 
-enum { NUMBERS = 7 };
-
 static void
-numbers_of(const double p[FITTED], double loading, double number[NUMBERS])
+numbers_of(const double p[FITTED], double loading, double number[SLIP_NUMBERS])
 {
-    double D = p[TOP] - p[MIDDLE], w = p[SPEED], length = length_of(p, loading);
-    double peak = hypot(D, loading / w);        /* amplitude of the oscillation, whose phase is 0 there */
-    double duration = (acos(-DEEP * D / peak) - acos(DEEP * D / peak)) / w;
-    memcpy(number, (double[NUMBERS]){ p[ONSET], p[ONSET] + length, 2 * D, duration, p[TOP], p[MIDDLE],
-                                      w * w }, NUMBERS * sizeof *number);
+    motion m;
+    if (!motion_of(&m, p, loading)) {
+        for (size_t k = 0; k < SLIP_NUMBERS; k++)
+            number[k] = NAN;
+        return;
+    }
+    double highest = atan2(loading, m.C) / m.speed, lowest = highest + M_PI / m.speed;
+    double middle = 0.5 * (m.top + m.low), reach = DEEP * (m.top - middle);
+    double duration = passes(force_at, &m, middle - reach, highest, lowest)
+        - passes(force_at, &m, middle + reach, highest, lowest);
+    memcpy(number, (double[SLIP_NUMBERS]){ p[ONSET], p[ONSET] + m.length, m.top - m.low, duration, p[TOP], p[MIDDLE],
+                                           p[SPEED] * p[SPEED] }, SLIP_NUMBERS * sizeof *number);
 }
 
-/* Fill in the numbers, and their errors by the covariance of the parameters for samples of variance 1. */
+/* Fill in the numbers, their errors by the covariance of the parameters for samples of variance 1, and, where
+ * damping is free, how they change with it. */
 static void
-fill(ss_slip *s, const fall *f, const double p[FITTED], const double *covariance)
+fill(ss_slip *s, const fall *f, const double p[FITTED], const double step[FITTED], const double *covariance)
 {
-    const double D = p[TOP] - p[MIDDLE], step[FITTED] = { 1e-4 / p[SPEED], 1e-4 * D, 1e-4 * D, 1e-4 * p[SPEED] };
-    ss_value *const to[NUMBERS] = { &s->onset, &s->end, &s->drop, &s->duration, &s->top, &s->middle,
-                                    &s->k_over_m };
-    double value[NUMBERS], above[FITTED][NUMBERS], below[FITTED][NUMBERS], moved[FITTED];
+    ss_value *const to[SLIP_NUMBERS] = { &s->onset, &s->end, &s->drop, &s->duration, &s->top, &s->middle,
+                                         &s->k_over_m };
+    const double *with = covariance + DAMPING * FITTED, of_damping = with[DAMPING];
+    double value[SLIP_NUMBERS], moved[FITTED][SLIP_NUMBERS], other[FITTED];
     numbers_of(p, f->loading, value);
     for (size_t k = 0; k < FITTED; k++) {
-        memcpy(moved, p, sizeof moved);
-        moved[k] = p[k] + step[k];
-        numbers_of(moved, f->loading, above[k]);
-        moved[k] = p[k] - step[k];
-        numbers_of(moved, f->loading, below[k]);
+        memcpy(other, p, sizeof other);
+        other[k] += step[k];
+        numbers_of(other, f->loading, moved[k]);
     }
-    for (size_t i = 0; i < NUMBERS; i++) {
-        double variance = 0;
-        for (size_t k = 0; k < FITTED; k++)
+    for (size_t i = 0; i < SLIP_NUMBERS; i++) {
+        double variance = 0, shift = 0;
+        for (size_t k = 0; k < FITTED; k++) {
+            double slope = (moved[k][i] - value[i]) / step[k];
+            shift += slope * with[k];
             for (size_t l = 0; l < FITTED; l++)
-                variance += covariance[k * FITTED + l] * (above[k][i] - below[k][i]) / (2 * step[k])
-                    * (above[l][i] - below[l][i]) / (2 * step[l]);
+                variance += covariance[k * FITTED + l] * slope * (moved[l][i] - value[i]) / step[l];
+        }
         *to[i] = (ss_value){ value[i], sqrt(s->variance * fmax(variance, 0)) };
+        s->shift[i] = of_damping > 0 ? shift / of_damping : 0;
     }
+    s->damping = (ss_value){ p[DAMPING], sqrt(s->variance * of_damping) };
 }
 
 /* left: model less sample. */
@@ -162,28 +199,32 @@ fill_residual(ss_slip *s, const double *left, size_t n)
 }
 
 ss_status
-ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t low, double loading)
+ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t low, double loading,
+            ss_range damping)
 {
     const ss_value none = { NAN, NAN };
-    double p[FITTED], covariance[FITTED * FITTED];
-    *out = (ss_slip){ none, none, none, none, none, none, none, NAN, NAN, 0, NAN, { 0 } };
+    const ss_range free_one = { -INFINITY, INFINITY }, range[] = { free_one, free_one, free_one, free_one, damping };
+    double p[FITTED] = { [DAMPING] = 0.5 * (damping.from + damping.to) }, covariance[FITTED * FITTED];
+    *out = (ss_slip){ none, none, none, none, none, none, none, none, { 0 }, NAN, NAN, 0, NAN, { 0 } };
     if (!(loading > 0) || low < high + FEWEST)
         return SS_OK;
     ss_window used = start(p, x, room, high, low);
     fall f = { x + used.first, ss_window_length(used), loading };
     if (f.n < FEWEST)
         return SS_OK;
+    const double D = p[TOP] - p[MIDDLE], w = p[SPEED];
+    const double step[FITTED] = { SMALL / w, SMALL * D, SMALL * D, SMALL * w, SMALL };
     double *left = malloc(f.n * sizeof *left);
     if (left == NULL)
         return SS_ENOMEM;
     least_end end;
     ss_slip s = { .power = gsl_stats_tss(f.x, 1, f.n), .n = (double)f.n };
     ss_status st = ss_least_fit(&end, &(least){ .rows = f.n, .unknowns = FITTED, .model = model, .user = &f,
-                                                .steps = STEPS, .tol = 1e-8 }, p, left, covariance);
+                                                .range = range, .difference = step, .steps = STEPS, .tol = 1e-8 }, p, left, covariance);
     if (st == SS_OK && end.converged && end.squares <= (1 - EXPLAINED) * s.power) {
         s.left = end.squares;
         s.variance = end.squares / (double)(f.n - FITTED) * ss_colour(left, NULL, f.n, 0);
-        fill(&s, &f, p, covariance);
+        fill(&s, &f, p, step, covariance);
         fill_residual(&s, left, f.n);
         if (s.onset.value >= 0 && s.end.value > s.onset.value && s.end.value <= (double)f.n
             && SIGMAS * s.drop.error <= s.drop.value && SIGMAS * s.k_over_m.error <= s.k_over_m.value) {

@@ -4,7 +4,8 @@
  * itself, and no single motion fits it.
  *
  * Without damping, each slip is the motion of the Coulomb slider (src/find/slip.c), with its
- * own static and kinetic friction and its own k/m; each stick has the slope k (U - S).  The fitted
+ * own static and kinetic friction and its own k/m; each stick has the slope k (U - S).  Slips that
+ * show a damping, or friction that falls with speed, are not explained.  The fitted
  * scene has the medians.  Its stiffness is that given: the force shows only k U and k/m, so mass
  * and speed follow from it and can be compared with those given.  With damping, or with another
  * model, slips have no closed form, or none with so few unknowns.  The scene is then simulated and
@@ -17,6 +18,7 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "base/progress.h"
+#include "find/judgement.h"
 #include "scene/model.h"
 
 enum { FITTED = 4 };            /* parameters of a slip */
@@ -114,7 +116,9 @@ fit_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *st
         return SS_OK;
     ss_status st = ss_record_noise(&record, 0);
     const residue of_slips = { left / (n - FITTED * (double)p->n_slips), power / n, record.noise, n };
+    const ss_number *damping = &f->number[SS_SLIP_DAMPING];
     fill_left(p, &of_slips, record.noise, ss_record_power(&record));
+    p->explains = p->explains && !(fabs(damping->value) > SIGMAS * damping->error);
     p->left = left / power;
     return st;
 }
