@@ -3,7 +3,9 @@
  * Friction has the sign of the slip.  So a force that never changes its sign belongs to motion in one
  * direction: each stick loads it, and each slip is a fall.  A force that changes its sign in every
  * cycle, whose second half mirrors the first, belongs to motion to and fro: it breaks away once after
- * each reversal, and whatever chatters until the next one is of the same slip.
+ * each reversal, and whatever chatters until the next one is of the same slip.  Any other force of both signs
+ * has an offset, or dips below zero in its slips: it is read by its falls, if they are clearly quicker than its
+ * rises.
  *
  * Falls need a height (drops.c) that separates them from the noise.  Reversals are counted with a
  * hysteresis of half the level at which the force stays, so that ramps in which nothing breaks away
@@ -41,17 +43,17 @@ passage(const double *x, size_t from, size_t to)
     return sum;
 }
 
-/* 1: falls are quicker than the rises between them, so they are slips; -1: they are slower; 0: neither.  The
- * sign test decides at three standard deviations; if there are few, all must be quicker by a factor. */
+/* 1: falls are quicker than the rises between them, by a factor, so they are slips; -1: they are slower; 0: neither.
+ * The sign test decides at three standard deviations; if there are few, all must be quicker by QUICK. */
 static int
-compare_falls(const double *x, double rate, const ss_drop *drop, size_t n)
+compare_falls(const double *x, double rate, const ss_drop *drop, size_t n, double factor)
 {
     double signs = 0, clear = 0, all = 0;
     for (size_t i = 1; i < n; i++, all++) {
         size_t before = (size_t)(drop[i - 1].end * rate + 0.5), low = (size_t)(drop[i].end * rate + 0.5);
         size_t high = (size_t)(drop[i].t * rate + 0.5);
         double fall = passage(x, high, low), rise = passage(x, before, high);
-        signs += (SLOWER * fall < rise) - (fall > SLOWER * rise);
+        signs += (factor * fall < rise) - (fall > factor * rise);
         clear += (QUICK * fall < rise) - (fall > QUICK * rise);
     }
     if (all <= FEW_RISES)
@@ -90,7 +92,7 @@ set_falls(search *s, const double *x, const ss_drop *drop, size_t n)
 
 /* Find the falls of x, which is the signal or its negative: those by the height that is asked for, or else by the
  * height that falls have.  Where they are slower than the rises, x is upside down, as its sign is that of an
- * offset: then it is turned, once.  A column of unknown quantity is a force only if its falls are quicker. */
+ * offset: then it is turned, once.  So is a force of both signs.  A column of unknown quantity is a force only if its falls are quicker. */
 static ss_status
 find_falls(search *s, double *x, int *decided)
 {
@@ -100,7 +102,8 @@ find_falls(search *s, double *x, int *decided)
     ss_drop *drop = NULL;
     ss_typical typical = { asked, 0, 0 };
     size_t n = 0;
-    int quicker = 1;
+    const int has_both = s->has_offset;
+    int quicker = !has_both, is_turned = 0;
     ss_status st = y != NULL ? SS_OK : SS_ENOMEM;
     for (;;) {
         if (st == SS_OK && asked == 0)
@@ -115,15 +118,19 @@ find_falls(search *s, double *x, int *decided)
         if (st == SS_OK)
             st = ss_drops_without_glitches(y, x, s->n, drop, n);
         if (st == SS_OK && asked == 0)
-            quicker = compare_falls(y, s->rate, drop, n);
-        if (st != SS_OK || quicker >= 0 || !named || s->has_offset)
+            quicker = compare_falls(y, s->rate, drop, n, has_both ? QUICK : SLOWER);
+        if (st != SS_OK || quicker >= 0 || !named || is_turned)
             break;
-        s->has_offset = 1;
+        is_turned = 1;
+        s->has_offset = -1;
         for (size_t i = 0; i < s->n; i++)
             x[i] = -x[i];
     }
     *decided = st == SS_OK && (named || (typical.height > 0 && quicker > 0));
-    if (*decided && typical.height == 0)
+    if (*decided && has_both && quicker <= 0)
+        say(s->out, SS_SLIPS, "the force changes its sign, but neither in mirrored half-cycles that repeat nor in quick "
+            "falls");
+    else if (*decided && typical.height == 0)
         say(s->out, SS_SLIPS, "the falls of the force have no typical height above its noise");
     else if (*decided) {
         if (asked == 0 && is_clipped(x, s->n))
@@ -163,16 +170,14 @@ ss_force_find(search *s, int *decided)
     ss_status st = SS_OK;
     for (size_t i = 0; i < s->n; i++)
         x[i] = sign != 0 ? sign * s->x[i] : s->x[i] - 0.5 * (low + high);
-    if (sign != 0)
+    int is_force = s->quantity == QUANTITY_FORCE, is_mirrored = isfinite(s->cycles.period.value)
+        && s->cycles.likeness >= CYCLES_LIKE && s->cycles.symmetry <= -CYCLES_ALIKE;
+    *decided = sign == 0 && is_force && is_mirrored;
+    s->has_offset = sign == 0;
+    if (*decided)
+        st = ss_reversals_find(s, x);
+    else if (sign != 0 || is_force)
         st = find_falls(s, x, decided);
-    else if (s->quantity == QUANTITY_FORCE) {
-        *decided = 1;
-        if (isnan(s->cycles.period.value)
-            || s->cycles.likeness < CYCLES_LIKE || s->cycles.symmetry > -CYCLES_ALIKE)
-            say(s->out, SS_SLIPS, "the force changes its sign, but not in mirrored half-cycles that repeat");
-        else
-            st = ss_reversals_find(s, x);
-    }
     free(x);
     return st;
 }

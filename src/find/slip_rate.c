@@ -218,7 +218,9 @@ count_falls(search *s, times fall)
     else if (out->n > 0 && isnan(out->number[SS_LOADING_SLOPE].value))
         say(out, SS_SLIPS, "the force rises along no lines: it has no slope, and its sticks no length");
     else if (s->has_offset)
-        say(out, SS_SLIPS, "they are rises: the zero of the force is not that of friction, which is not known");
+        say(out, SS_SLIPS, s->has_offset < 0
+            ? "they are rises: the zero of the force is not that of friction, which is not known"
+            : "the force changes its sign as it falls: if its zero is that of friction is not known");
 }
 
 /* So many slips in a cycle. */
