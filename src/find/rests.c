@@ -65,7 +65,10 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
             if (fabs(x[i] - level) <= BAND * deviation)
                 in = (ss_window){ in.first < i ? in.first : i, i + 1 };
         size_t length = ss_window_length(in), beside = i - from - length;
-        if (length >= 3 * beside + 2)
+        ss_window *last = out->n > 0 ? &out->rest[out->n - 1] : NULL;
+        if (length >= 3 * beside + 2 && last != NULL && in.first <= last->end + 1)
+            last->end = in.end;                 /* a glitch lies between */
+        else if (length >= 3 * beside + 2)
             out->rest[out->n++] = in;
         else
             out->is_doubtful |= length >= beside + 2;

@@ -102,6 +102,18 @@ keep_ringing(search *s)
     out->n = kept;
 }
 
+/* Keep the transitions with a jump or a kink, if the record is one in which these are seen: a swell without any is
+ * what a resonance leaves. */
+static void
+keep_sharp(ss_features *out)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < out->n && out->spikes->conclusive; i++)
+        if (out->transition[i].spikes > 0)
+            out->transition[kept++] = out->transition[i];
+    out->n = kept > 0 ? kept : out->n;
+}
+
 /* May some of the events be no slips, but ends of sticks, or micro-slips, or may slips be missing?  Events at
  * equal distances are all of one kind.  Where nothing rings anew with each, weak slips hide in noise or a hum. */
 static int
@@ -223,12 +235,18 @@ count_falls(search *s, times fall)
             : "the force changes its sign as it falls: if its zero is that of friction is not known");
 }
 
-/* So many slips in a cycle. */
+/* So many slips in a cycle.  Their number is known only if all are seen, but for some at the ends, or beside a gap. */
 static void
-repeat_slips(ss_features *out, size_t each)
+repeat_slips(search *s, size_t each)
 {
+    ss_features *out = s->out;
     ss_value rate = known(out, SS_REPETITION_FREQUENCY);
+    double all = (double)(each * s->cycles.n), ends = (double)(each + 1) * (1 + (double)s->n_gaps);
     know(out, SS_SLIP_RATE, (ss_value){ (double)each * rate.value, (double)each * rate.error });
+    if (fabs(all - out->number[SS_SLIPS].value) > ends) {
+        out->number[SS_SLIPS].value = NAN;
+        say(out, SS_SLIPS, "slips repeat with the cycle, but some are not seen");
+    }
 }
 
 /* Count the onsets of motion behind rests. */
@@ -240,7 +258,7 @@ count_motions(search *s, times motion)
     out->number[SS_SLIPS].value = (double)motion.n;
     know(out, SS_SLIP_RATE, mean_rate(s, motion));
     if (each > 0)
-        repeat_slips(out, each);
+        repeat_slips(s, each);
     else if (!isnan(out->number[SS_REPETITION_FREQUENCY].value))
         forget_slips(out, "the motions between rests do not repeat with the cycle");
 }
@@ -251,8 +269,11 @@ count_events(search *s, double *t)
 {
     ss_features *out = s->out;
     size_t each = slips_in_cycle(s, onsets(s, t));
-    if (each > least_in_cycle(s) && !isnan(out->number[SS_TRANSITION_FREQUENCY].value)) {
-        keep_ringing(s);
+    if (each > least_in_cycle(s)) {
+        if (isnan(out->number[SS_TRANSITION_FREQUENCY].value))
+            keep_sharp(out);
+        else
+            keep_ringing(s);
         out->number[SS_SLIPS].value = (double)out->n;
         each = slips_in_cycle(s, onsets(s, t));
     }
@@ -261,7 +282,7 @@ count_events(search *s, double *t)
     else if (is_doubtful(s, onsets(s, t), each))
         forget_slips(out, "of several sharp events a cycle some may be no slips of their own, or some hide");
     else
-        repeat_slips(out, each);
+        repeat_slips(s, each);
 }
 
 ss_status
@@ -298,8 +319,8 @@ ss_slip_rate_find(search *s)
     else if (repeats)
         count_events(s, t);
     else if (out->n == 0)
-        say(out, SS_SLIPS, "nothing stands out: slips that are smooth or weak are not seen");
-    else if (out->n == 1 || rings)
+        forget_slips(out, "nothing stands out: slips that are smooth or weak are not seen");
+    else if (rings || (out->n == 1 && out->transition[0].end > out->transition[0].onset))
         say(out, SS_SLIPS, "counted by what stands out, as nothing repeats that would confirm it");
     else
         forget_slips(out, "events stand out, but they neither repeat nor ring nor lie between rests");
