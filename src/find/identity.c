@@ -278,15 +278,15 @@ is_sensor(const search *s, const ringdown *r, int *is)
 
 /* Behind the reversals of a force each window is fitted by itself: there are no slips between to be compared. */
 ss_status
-ss_identity_of(const search *s, const ringdown *r, const char **why)
+ss_identity_of(search *s, const ringdown *r, const char **why)
 {
-    int of_sensor = 0, at_edge = 0;
+    int at_edge = 0;
     *why = r->all[1].value > BARELY * r->all[0].value ? "what recurs is damped so much that a filter may make it"
         : !(r->all[1].value > 0) ? "what recurs does not decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
     const int is_known = *why != NULL || s->out->reverses || s->part->is_contact;
-    ss_status st = is_known ? SS_OK : is_sensor(s, r, &of_sensor);
-    if (of_sensor)
+    ss_status st = is_known ? SS_OK : is_sensor(s, r, &s->of_sensor);
+    if (s->of_sensor)
         *why = "it rings on where slips begin, as a sensor, a filter or a hum does";
     if (st == SS_OK && *why == NULL && !is_known)
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);

@@ -7,6 +7,6 @@
 
 /* The tests that one damped oscillation, fitted to windows, passes before its numbers are printed.  *why becomes
  * the reason why it is not the contact's, or NULL. */
-ss_status ss_identity_of(const search *s, const ringdown *r, const char **why);
+ss_status ss_identity_of(search *s, const ringdown *r, const char **why);
 
 #endif

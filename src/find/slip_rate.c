@@ -10,6 +10,7 @@
 #include "signal/gaps.h"
 
 #define JITTER 0.125            /* relative difference of a time or period from that at which transitions recur */
+#define EVEN 0.03               /* the same between events of one kind: begins and ends of slips may nearly be even */
 #define MOST 0.75               /* the least part of the transitions that must recur */
 #define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
 #define OVERTONES 0.1           /* part of the power: a cycle with less is a sinusoid */
@@ -41,9 +42,9 @@ mean_rate(const search *s, times slip)
     return (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
 }
 
-/* Do MOST of the slips come so long before those `step` slips later, to within JITTER? */
+/* Do MOST of the slips come so long before those `step` slips later, to within a part of it? */
 static int
-recur(const search *s, times slip, size_t step, double time)
+recur(const search *s, times slip, size_t step, double time, double within)
 {
     size_t good = 0, all = 0;
     for (size_t i = 0; i + step < slip.n; i++) {
@@ -51,7 +52,7 @@ recur(const search *s, times slip, size_t step, double time)
         if (ss_gaps_near(s->gap, s->n_gaps, slip.t[i] + passed / 2, passed / 2))
             continue;
         all++;
-        good += fabs(passed / time - 1) <= JITTER;
+        good += fabs(passed / time - 1) <= within;
     }
     return all >= 2 && (double)good >= MOST * (double)all;
 }
@@ -62,7 +63,7 @@ slips_in_cycle(const search *s, times slip)
 {
     double period = 1 / s->out->number[SS_REPETITION_FREQUENCY].value,
         each = round(mean_rate(s, slip).value * period);
-    return each >= 1 && each < (double)slip.n && recur(s, slip, (size_t)each, period) ? (size_t)each : 0;
+    return each >= 1 && each < (double)slip.n && recur(s, slip, (size_t)each, period, JITTER) ? (size_t)each : 0;
 }
 
 /* The onsets of the transitions, in memory that is there. */
@@ -114,17 +115,28 @@ keep_sharp(ss_features *out)
     out->n = kept > 0 ? kept : out->n;
 }
 
+/* Do most of the events last longer than a period of what they are?  Then short sticks may hide in them. */
+static int
+are_long(const ss_features *out)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < out->n; i++)
+        n += (out->transition[i].end - out->transition[i].onset) * out->transition[i].maximum.f > 1;
+    return 2 * n > out->n;
+}
+
 /* May some of the events be no slips, but ends of sticks, or micro-slips, or may slips be missing?  Events at
- * equal distances are all of one kind.  Where nothing rings anew with each, weak slips hide in noise or a hum. */
+ * equal distances are all of one kind.  Where nothing rings anew with each, weak slips hide in noise or a hum, or
+ * within an event. */
 static int
 is_doubtful(const search *s, times event, size_t each)
 {
     size_t least = least_in_cycle(s);
     return each % least != 0
         || (each > least
-            && !recur(s, event, 1, 1 / ((double)each * s->out->number[SS_REPETITION_FREQUENCY].value)))
+            && !recur(s, event, 1, 1 / ((double)each * s->out->number[SS_REPETITION_FREQUENCY].value), EVEN))
         || (isnan(s->out->number[SS_TRANSITION_FREQUENCY].value) && !s->out->reverses
-            && !(s->cycles.likeness >= BARE));
+            && (!(s->cycles.likeness >= BARE) || are_long(s->out)));
 }
 
 void
@@ -194,7 +206,7 @@ static void
 doubt_repetition(search *s, times fall)
 {
     ss_features *out = s->out;
-    if (slips_in_cycle(s, fall) < 2 || !recur(s, fall, 1, 1 / out->number[SS_SLIP_RATE].value)
+    if (slips_in_cycle(s, fall) < 2 || !recur(s, fall, 1, 1 / out->number[SS_SLIP_RATE].value, JITTER)
         || !(out->number[SS_DROP].scatter <= ALIKE * out->number[SS_DROP].value))
         return;
     know(out, SS_REPETITION_FREQUENCY, unknown);
@@ -235,15 +247,18 @@ count_falls(search *s, times fall)
             : "the force changes its sign as it falls: if its zero is that of friction is not known");
 }
 
-/* So many slips in a cycle.  Their number is known only if all are seen, but for some at the ends, or beside a gap. */
+/* So many slips in a cycle.  Their number is known only if as many as the rate says lie between the first and the
+ * last, but for one at either end and beside each gap. */
 static void
-repeat_slips(search *s, size_t each)
+repeat_slips(search *s, times slip, size_t each)
 {
     ss_features *out = s->out;
     ss_value rate = known(out, SS_REPETITION_FREQUENCY);
-    double all = (double)(each * s->cycles.n), ends = (double)(each + 1) * (1 + (double)s->n_gaps);
-    know(out, SS_SLIP_RATE, (ss_value){ (double)each * rate.value, (double)each * rate.error });
-    if (fabs(all - out->number[SS_SLIPS].value) > ends) {
+    double all = (double)each * rate.value, time = slip.t[slip.n - 1] - slip.t[0];
+    for (size_t k = 0; k < s->n_gaps; k++)
+        time -= fmax(0, fmin(s->gap[k].to, slip.t[slip.n - 1]) - fmax(s->gap[k].from, slip.t[0]));
+    know(out, SS_SLIP_RATE, (ss_value){ all, (double)each * rate.error });
+    if (fabs(all * time + 1 - (double)slip.n) > 2 * (1 + (double)s->n_gaps)) {
         out->number[SS_SLIPS].value = NAN;
         say(out, SS_SLIPS, "slips repeat with the cycle, but some are not seen");
     }
@@ -258,7 +273,7 @@ count_motions(search *s, times motion)
     out->number[SS_SLIPS].value = (double)motion.n;
     know(out, SS_SLIP_RATE, mean_rate(s, motion));
     if (each > 0)
-        repeat_slips(s, each);
+        repeat_slips(s, motion, each);
     else if (!isnan(out->number[SS_REPETITION_FREQUENCY].value))
         forget_slips(out, "the motions between rests do not repeat with the cycle");
 }
@@ -282,7 +297,7 @@ count_events(search *s, double *t)
     else if (is_doubtful(s, onsets(s, t), each))
         forget_slips(out, "of several sharp events a cycle some may be no slips of their own, or some hide");
     else
-        repeat_slips(s, each);
+        repeat_slips(s, onsets(s, t), each);
 }
 
 ss_status
@@ -312,6 +327,8 @@ ss_slip_rate_find(search *s)
     know(out, SS_SLIP_RATE, mean_rate(s, event));
     if (out->loading != NULL)
         count_falls(s, event);
+    else if (s->of_sensor)
+        forget_slips(out, "what rings is a sensor's: short sticks may hide in it");
     else if (motion.n >= FEW && !rests.is_doubtful)
         count_motions(s, motion);
     else if (motion.n >= FEW && out->n > 0)
