@@ -156,6 +156,12 @@ finds_the_truth_of_simulated_rocks(void **state)
     answers("changes between rows half a Dc apart", &r, 12, 2, 0);
     r.until[2] = 0, r.n = 7000;
     answers("means of rows", &r, 13, 1, 0);
+    r = (rock){ .a = .0126, .b = .00668, .Dc = 1.7e-6, .k = 6210, .drift = 2.7, .speed = { 7.485e-6, 74.85e-6, 7.485e-6 },
+                .until = { 7.34, 8.423, 19.25 }, .noise = 1.85e-4, .n = 300 };
+    answers("laws of one noise", &r, 260, 2, 0);
+    r = (rock){ .a = .003, .b = .0019, .Dc = 12.5e-6, .k = 4800, .drift = -4, .speed = { 1e-6, 13.3e-6 },
+                .until = { 283.7, 326.2 }, .ramp = .85, .noise = 1e-4, .memory = .6, .n = 827 };
+    answers("a ramp of two rows", &r, 15, 1, 0);
     r = (rock){ .a = .016, .b = .0175, .Dc = 2.5e-6, .k = 1600, .speed = { 3e-6, 30e-6, 3e-6, 30e-6 },
                 .until = { 30, 34, 76, 80 }, .noise = 3e-5, .n = 6000, .digits = 9 };
     answers("slides too short for a soft spring", &r, 14, 3, 0);

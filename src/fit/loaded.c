@@ -2,8 +2,9 @@
  *
  * mu = m0 + c x + a g: g is the quasi-static slider's, pulled along the recorded path, and depends on b/a, Dc and
  * k/a only.  These are tried on a grid, at few times, which lie close where the speed changes; the best go on by
- * least squares, and the best of them to all rows.  There, what the law leaves shows the noise, with its memory;
- * rows are then whitened by it, fitted, and so once more.  Errors are those of the whitened rows. */
+ * least squares, and the best of them to all rows.  There, what the better law leaves shows the noise, with its
+ * memory; rows are then whitened by it, fitted by both laws, and so once more.  Errors are those of the whitened
+ * rows.  If few rows show the change, other numbers may do as well: then errors reach as far as these. */
 #include "fit/loaded.h"
 
 #include <gsl/gsl_statistics_double.h>
@@ -23,14 +24,19 @@ enum { STARTS = 4, NEAR = 12 };    /* NEAR: rows about a change that are not thi
 #define COARSE 1e-5             /* the slider's tolerance on the grid, and in fits */
 #define FINE 1e-10
 #define DIFFERENCE 1e-5         /* of an unknown, for slopes */
+#define APART 0.1               /* of an unknown, that makes two fits of one */
+#define AS_LIKELY 5             /* difference of logarithms of likelihood that does not tell two fits */
 
 typedef struct law {
     const track *record;
     int is_slip;
     wander noise;
+    double u[UNKNOWNS], rival[UNKNOWNS];        /* the best, and others that may do as well; rival[0] NaN: none */
+    double squares;                             /* that u leaves of whitened rows; infinite: there is no fit */
+    double covariance[UNKNOWNS * UNKNOWNS];
     double *g, *moved;          /* friction of the unknowns, and if one is a little larger [n] */
     double *rows;               /* [n][UNKNOWNS + 1] */
-    ss_range range[UNKNOWNS];
+    const ss_range *range;      /* of the unknowns */
     double *t, *load, *places;  /* the path, and friction along it */
 } law;
 
@@ -174,11 +180,14 @@ search(start best[STARTS], law *l, double stiffness)
 /* --- fits ---------------------------------------------------------------------------------- */
 
 static ss_status
-fit(least_end *end, law *l, double u[UNKNOWNS], size_t steps, double noise, double *covariance)
+fit(law *l, double u[UNKNOWNS], double noise, double *squares, double *covariance)
 {
     const least how = { .rows = l->record->n, .unknowns = UNKNOWNS, .model = whitened, .user = l,
-                        .range = l->range, .steps = steps, .tol = 1e-7, .noise = noise, .farthest = 1.5 };
-    return ss_least_fit(end, &how, u, NULL, covariance);
+                        .range = l->range, .steps = 50, .tol = 1e-7, .noise = noise, .farthest = 1.5 };
+    least_end end = { 0 };
+    ss_status st = ss_least_fit(&end, &how, u, NULL, covariance);
+    *squares = end.squares;
+    return st;
 }
 
 /* A record at few times: means of more rows the farther these are from a change.  SS_ENOMEM. */
@@ -215,9 +224,10 @@ thin(track *few, const track *r)
 }
 
 static ss_status
-make_room(law *l, const track *r, int is_slip)
+make_room(law *l, const track *r, int is_slip, const ss_range range[UNKNOWNS])
 {
-    *l = (law){ .record = r, .is_slip = is_slip, .noise = { 0, 1, 0 } };
+    *l = (law){ .record = r, .is_slip = is_slip, .noise = { 0, 1, 0 }, .range = range, .squares = INFINITY,
+                .rival = { NAN } };
     l->g = malloc(((2 + UNKNOWNS + 1) * r->n + 3 * r->places) * sizeof *l->g);
     if (l->g == NULL)
         return SS_ENOMEM;
@@ -233,43 +243,59 @@ make_room(law *l, const track *r, int is_slip)
     return SS_OK;
 }
 
-/* Find where the fit to all rows starts. */
-static ss_status
-begin(start *best, const track *record, int is_slip, double stiffness, const ss_range range[UNKNOWNS])
+static int
+are_apart(const double u[UNKNOWNS], const double v[UNKNOWNS])
 {
+    double most = 0;
+    for (int k = DIRECT; k < UNKNOWNS; k++)
+        most = fmax(most, fabs(u[k] - v[k]));
+    return most > APART;
+}
+
+/* Find where the fit to all rows starts, and a rival. */
+static ss_status
+begin(law *all, double stiffness)
+{
+    const ss_range *range = all->range;
     track few;
     law l = { 0 };
     start s[STARTS];
-    least_end end;
-    ss_status st = thin(&few, record);
+    double squares, second = INFINITY;
+    ss_status st = thin(&few, all->record);
     if (st == SS_OK)
-        st = make_room(&l, &few, is_slip);
-    if (st == SS_OK)
-        memcpy(l.range, range, sizeof l.range);
+        st = make_room(&l, &few, all->is_slip, range);
     if (st == SS_OK)
         st = search(s, &l, stiffness);
-    best->squares = INFINITY;
     for (int i = 0; st == SS_OK && i < STARTS && isfinite(s[i].squares); i++) {
         for (int k = 0; k < UNKNOWNS; k++)
             s[i].u[k] = fmax(range[k].from, fmin(s[i].u[k], range[k].to));
-        st = fit(&end, &l, s[i].u, 50, s[i].squares / (double)few.n, NULL);
-        if (st == SS_OK && end.squares < best->squares) {
-            memcpy(best->u, s[i].u, sizeof best->u);
-            best->squares = end.squares;
+        st = fit(&l, s[i].u, s[i].squares / (double)few.n, &squares, NULL);
+        if (st == SS_OK && squares < all->squares) {
+            if (isfinite(all->squares) && are_apart(all->u, s[i].u)) {
+                memcpy(all->rival, all->u, sizeof all->u);
+                second = all->squares;
+            }
+            memcpy(all->u, s[i].u, sizeof all->u);
+            all->squares = squares;
+        } else if (st == SS_OK && squares < second && are_apart(all->u, s[i].u)) {
+            memcpy(all->rival, s[i].u, sizeof all->u);
+            second = squares;
         }
     }
+    if (second > all->squares * exp(2 * AS_LIKELY / (double)few.n))
+        all->rival[0] = NAN;
     free(few.t);
     free(few.place);
     free(l.g);
     return st;
 }
 
-/* Find the noise of what u leaves. */
+/* Find the noise of what a law leaves. */
 static ss_status
-find_noise(law *l, const double *u, double *residual, double *slopes)
+find_noise(law *l, double *residual, double *slopes)
 {
     const size_t n = l->record->n, m = UNKNOWNS + 1;
-    ss_status st = leave(l, u, residual, slopes);
+    ss_status st = leave(l, l->u, residual, slopes);
     size_t columns = 0;
     for (int k = 0; k < UNKNOWNS; k++) {
         if (!(l->range[k].to > l->range[k].from))
@@ -286,39 +312,124 @@ find_noise(law *l, const double *u, double *residual, double *slopes)
     return st == SS_OK ? ss_wander_find(&l->noise, l->record->t, l->rows, n, columns + 1) : st;
 }
 
-/* A number whose slopes by the unknowns are these. */
+/* A number whose slopes by the unknowns are these.  noise: its variance, for which the covariance is 1. */
 static ss_value
-value_of(double value, const double slope[UNKNOWNS], const double *covariance)
+value_of(double value, const double slope[UNKNOWNS], const double *covariance, double noise)
 {
     double variance = 0;
     for (int i = 0; i < UNKNOWNS; i++)
         for (int k = 0; k < UNKNOWNS; k++)
             if (slope[i] * slope[k] != 0)
                 variance += slope[i] * slope[k] * covariance[i * UNKNOWNS + k];
-    return (ss_value){ value, sqrt(variance) };
+    return (ss_value){ value, sqrt(variance * noise) };
 }
 
 static void
-report(ss_step_law *out, const law *l, const double *u, const double *covariance)
+report(ss_step_law *out, const law *l, const double *u, const double *covariance, double noise)
 {
     const double a = exp(u[DIRECT]), k = exp(u[STIFFNESS]);
     const slider s = slider_of(l, u[CRITICAL], exp(u[RING]), k / a);
     const double more = a * (s.ratio - 1), K = s.stiffness * s.distance;
-    out->direct_effect = value_of(a, (double[]){ [DIRECT] = a, [STIFFNESS] = 0 }, covariance);
+    out->direct_effect = value_of(a, (double[]){ [DIRECT] = a, [STIFFNESS] = 0 }, covariance, noise);
     out->evolution_effect = value_of(a + more, (double[]){ [DIRECT] = a - more, [CRITICAL] = a * K, [RING] = -more,
-                                     [STIFFNESS] = 2 * more }, covariance);
+                                     [STIFFNESS] = 2 * more }, covariance, noise);
     out->critical_slip_distance = value_of(s.distance, (double[]){ [DIRECT] = -s.distance, [RING] = -s.distance,
-                                           [STIFFNESS] = s.distance }, covariance);
-    out->stiffness = value_of(k, (double[]){ [STIFFNESS] = k }, covariance);
+                                           [STIFFNESS] = s.distance }, covariance, noise);
+    out->stiffness = value_of(k, (double[]){ [STIFFNESS] = k }, covariance, noise);
     out->drift = value_of(u[DRIFT] / way_of(l->record), (double[]){ [DRIFT] = 1 / way_of(l->record), [STIFFNESS] = 0 },
-                          covariance);
+                          covariance, noise);
+}
+
+static void
+reach(ss_value *v, ss_value other)
+{
+    v->error = hypot(v->error, other.value - v->value);
+}
+
+static void
+swap(double *u, double *v, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double kept = u[i];
+        u[i] = v[i];
+        v[i] = kept;
+    }
+}
+
+/* Report the best numbers.  If a rival does better, it is the best; if it does as well, errors reach as far. */
+static ss_status
+conclude(ss_step_law *out, law *l, double free_rows)
+{
+    double squares = INFINITY, covariance[UNKNOWNS * UNKNOWNS];
+    ss_step_law other = { 0 };
+    ss_status st = isnan(l->rival[0]) ? SS_OK : fit(l, l->rival, l->squares / free_rows, &squares, covariance);
+    if (st == SS_OK && squares < l->squares) {
+        swap(l->u, l->rival, UNKNOWNS);
+        swap(l->covariance, covariance, UNKNOWNS * UNKNOWNS);
+        swap(&l->squares, &squares, 1);
+    }
+    report(out, l, l->u, l->covariance, l->squares / free_rows);
+    if (st != SS_OK || isinf(squares) || !are_apart(l->u, l->rival)
+        || (double)l->record->n * log(squares / l->squares) > 2 * AS_LIKELY)
+        return st;
+    report(&other, l, l->rival, covariance, squares / free_rows);
+    reach(&out->direct_effect, other.direct_effect);
+    reach(&out->evolution_effect, other.evolution_effect);
+    reach(&out->critical_slip_distance, other.critical_slip_distance);
+    reach(&out->stiffness, other.stiffness);
+    reach(&out->drift, other.drift);
+    return SS_OK;
+}
+
+/* The squares that a straight line along the path leaves of whitened rows; *logarithms: those of their variances. */
+static ss_status
+fit_line(law *l, double *room, double *squares, double *logarithms)
+{
+    const track *r = l->record;
+    double c[2];
+    for (size_t i = 0; i < r->n; i++) {
+        l->rows[3 * i] = 1;
+        l->rows[3 * i + 1] = r->load[i] / way_of(r);
+        l->rows[3 * i + 2] = r->mu[i];
+    }
+    *logarithms = ss_wander_whiten(l->rows, &l->noise, r->t, l->rows, r->n, 3);
+    for (size_t i = 0; i < r->n; i++) {
+        room[i] = l->rows[3 * i + 2];
+        l->rows[2 * i] = l->rows[3 * i];
+        l->rows[2 * i + 1] = l->rows[3 * i + 1];
+    }
+    return ss_least_linear(l->rows, room, r->n, 2, c, squares, NULL);
+}
+
+/* Fit both laws, and again, to rows that are whitened by what the better one leaves. */
+static ss_status
+fit_both(law both[SS_STEP_LAWS], double free_rows, double *room)
+{
+    const size_t n = both->record->n;
+    for (int pass = 0; pass < 3; pass++) {
+        law *better = both;
+        for (law *l = both; l < both + SS_STEP_LAWS; l++) {
+            if (isinf(l->squares))
+                continue;
+            l->noise = both->noise;
+            ss_status st = fit(l, l->u, l->squares / (pass == 0 ? (double)n : free_rows), &l->squares, l->covariance);
+            if (st != SS_OK)
+                return st;
+            better = l->squares < better->squares ? l : better;
+        }
+        ss_status st = pass < 2 && isfinite(better->squares) ? find_noise(better, room, room + n) : SS_OK;
+        if (st != SS_OK)
+            return st;
+        both->noise = better->noise;
+    }
+    return SS_OK;
 }
 
 ss_status
-ss_loaded_fit(ss_step_law *out, double *model, const track *record, int is_slip, double stiffness)
+ss_loaded_fit(ss_step_law out[SS_STEP_LAWS], double *model, const track *record, double stiffness)
 {
     const size_t n = record->n;
-    const double way = way_of(record), held = log(stiffness);
+    const double way = way_of(record), held = log(stiffness), free_rows = (double)(n - UNKNOWNS + (stiffness > 0));
     double most = 1;                /* friction may be in percent, or a stress */
     for (size_t i = 0; i < n; i++)
         most = fmax(most, fabs(record->mu[i]));
@@ -326,54 +437,38 @@ ss_loaded_fit(ss_step_law *out, double *model, const track *record, int is_slip,
         : (ss_range){ log(1e-5 / way), log(1e4 * most / way) };
     const ss_range range[UNKNOWNS] = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), log(most) }, { -1000, 1.5 },
         { log(0.01 / (way * way)), log(1e9 / (way * way)) }, of_stiffness };
-    double covariance[UNKNOWNS * UNKNOWNS], *room = malloc(n * (1 + UNKNOWNS) * sizeof *room);
-    law l = { 0 };
-    start s;
-    least_end end = { 0 };
-    ss_status st = room != NULL ? make_room(&l, record, is_slip) : SS_ENOMEM;
+    double line = NAN, logarithms = NAN, *room = malloc(n * (1 + UNKNOWNS) * sizeof *room);
+    law both[SS_STEP_LAWS] = { { 0 } };
+    ss_status st = room != NULL ? SS_OK : SS_ENOMEM;
+    for (int k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
+        st = make_room(&both[k], record, k == SS_STEP_SLIP, range);
+        if (st == SS_OK)
+            st = begin(&both[k], stiffness);
+    }
     if (st == SS_OK)
-        st = begin(&s, record, is_slip, stiffness, range);
-    if (st == SS_OK && !isfinite(s.squares))
-        st = SS_EDATA;
-    memcpy(l.range, range, sizeof range);
-    const double free_rows = (double)(n - UNKNOWNS + (stiffness > 0));
-    double noise = s.squares / (double)n;
-    for (int pass = 0; st == SS_OK && pass < 3; pass++) {
-        st = fit(&end, &l, s.u, 50, pass == 0 ? noise : end.squares / free_rows, covariance);
-        if (st == SS_OK && pass < 2)
-            st = find_noise(&l, s.u, room, room + n);
-    }
-    double c[2], line;                          /* the squares that a line leaves of rows as white as these */
-    for (size_t i = 0; st == SS_OK && i < n; i++) {
-        l.rows[3 * i] = 1;
-        l.rows[3 * i + 1] = record->load[i] / way;
-        l.rows[3 * i + 2] = record->mu[i];
-    }
-    if (st == SS_OK) {
-        ss_wander_whiten(l.rows, &l.noise, record->t, l.rows, n, 3);
-        for (size_t i = 0; i < n; i++) {
-            room[n + 2 * i] = l.rows[3 * i];
-            room[n + 2 * i + 1] = l.rows[3 * i + 1];
-            room[i] = l.rows[3 * i + 2];
+        st = fit_both(both, free_rows, room);
+    if (st == SS_OK)
+        st = fit_line(both, room, &line, &logarithms);
+    for (int k = 0; st == SS_OK && k < SS_STEP_LAWS; k++, model += n) {
+        law *l = &both[k];
+        out[k] = (ss_step_law){ NAN, NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN,
+                                model };
+        if (isinf(l->squares)) {
+            for (size_t i = 0; i < n; i++)
+                model[i] = NAN;
+            continue;
         }
-        st = ss_least_linear(room + n, room, n, 2, c, &line, NULL);
-    }
-    if (st == SS_OK)
-        st = leave(&l, s.u, room, NULL);
-    if (st == SS_OK) {
-        for (int i = 0; i < UNKNOWNS * UNKNOWNS; i++)
-            covariance[i] *= end.squares / free_rows;
-        report(out, &l, s.u, covariance);
+        st = conclude(&out[k], l, free_rows);
+        if (st == SS_OK)
+            st = leave(l, l->u, room, NULL);
         for (size_t i = 0; i < n; i++)
             model[i] = record->mu[i] - room[i];
-        double logarithms = ss_wander_whiten(room, &l.noise, record->t, room, n, 1), squares = 0;
-        for (size_t i = 0; i < n; i++)
-            squares += room[i] * room[i];
-        out->log_likelihood = -0.5 * (logarithms + (double)n * (log(2 * acos(-1) * squares / (double)n) + 1));
-        out->gain = 0.5 * (double)n * log(line / squares);
-        out->noise = sqrt(squares / (double)n);
+        out[k].log_likelihood = -0.5 * (logarithms + (double)n * (log(2 * acos(-1) * l->squares / (double)n) + 1));
+        out[k].gain = 0.5 * (double)n * log(line / l->squares);
+        out[k].noise = sqrt(l->squares / (double)n);
     }
     free(room);
-    free(l.g);
+    for (int k = 0; k < SS_STEP_LAWS; k++)
+        free(both[k].g);
     return st;
 }

@@ -22,7 +22,8 @@ typedef struct track {
     double speed;               /* before them [m/s] > 0 */
 } track;
 
-/* Fit one law.  stiffness [1/m]; 0: it is found.  model[n] becomes the law's friction.  SS_ENOMEM. */
-ss_status ss_loaded_fit(ss_step_law *out, double *model, const track *record, int is_slip, double stiffness);
+/* Fit both laws under one noise.  stiffness [1/m]; 0: it is found.  model[n] of one, then the other, becomes their
+ * friction; numbers of a law that has no fit are NaN.  SS_ENOMEM. */
+ss_status ss_loaded_fit(ss_step_law out[SS_STEP_LAWS], double *model, const track *record, double stiffness);
 
 #endif

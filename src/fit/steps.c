@@ -26,6 +26,7 @@
 #include "signal/header.h"
 
 enum { FEWEST = 4, MOST = 4096, CLOSE = 1024 };   /* rows of a line, of a step, and behind a corner that are no means */
+enum { BETWEEN = 4 };           /* parts of the way from one row to the next, where it bends */
 enum { ROOM = 8 };              /* columns of a step: time, friction, two paths, two laws along either */
 #define CHANGE 0.2              /* the least relative change of speed */
 #define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
@@ -63,7 +64,7 @@ typedef struct path {
     double start;               /* x of the first row, as recorded */
     line *line;
     size_t lines, room;
-    corner *corner[2];          /* of either chain, where noise explains the links beside it */
+    corner *corner[2];          /* of either chain, and places between rows where the path stays as recorded */
     size_t corners[2];
 } path;
 
@@ -214,14 +215,32 @@ off_neighbours(const path *p, size_t i)
     return by * by / (1 + w * w + (1 - w) * (1 - w));
 }
 
-/* The variance of the path's noise along a line, which that of its stamps makes larger the faster it is. */
+/* The power of ten of which all of these numbers are multiples, as rounding makes them; 0: there is none. */
+static double
+grain(const double *x, size_t n)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(x[i]));
+    for (double q = pow(10, ceil(log10(most))); q > 1e-12 * most; q /= 10) {
+        size_t i = 0;
+        while (i < n && fabs(x[i] / q - rint(x[i] / q)) < 0.01)
+            i++;
+        if (i == n)
+            return q;
+    }
+    return 0;
+}
+
+/* The variance of the path's noise along a line: the faster it is, the more that of its stamps makes. */
 static double
 noise_along(const path *p, const line *l)
 {
+    const double x = grain(p->x + l->first, l->end - l->first), t = grain(p->t + l->first, l->end - l->first);
     double sum = 0, n = 0;
     for (size_t i = l->first + FEWEST; i + FEWEST < l->end; i++, n++)
         sum += off_neighbours(p, i);
-    return fmax(p->noise, n > 2 * FEWEST ? sum / n : 0);
+    return fmax(fmax(p->noise, n > 2 * FEWEST ? sum / n : 0), (x * x + l->speed * t * l->speed * t) / 12);
 }
 
 /* The time at which a line meets the next, if that is near, else that of the next one's first row. */
@@ -240,6 +259,36 @@ static double
 end_of(const path *p, size_t k)
 {
     return k + 1 < p->lines ? p->line[k + 1].of.meets : p->t[p->n - 1];
+}
+
+/* The speed between a row and the next, and at a row by Akima (1970), who keeps a line straight up to its last row. */
+static double
+chord(const path *p, size_t i)
+{
+    return (p->x[i + 1] - p->x[i]) / (p->t[i + 1] - p->t[i]);
+}
+
+static double
+speed_at(const path *p, size_t i)
+{
+    if (i < 2 || i + 2 >= p->n)
+        return chord(p, i < 2 ? i : i - 1);
+    const double before = chord(p, i - 1), behind = chord(p, i);
+    const double bend = fabs(before - chord(p, i - 2)), next = fabs(chord(p, i + 1) - behind);
+    return bend + next > 0 ? (next * before + bend * behind) / (bend + next) : (before + behind) / 2;
+}
+
+/* Add places between a row, as recorded, and the next. */
+static void
+add_between(path *p, size_t i)
+{
+    const double long_for = p->t[i + 1] - p->t[i], by = p->x[i + 1] - p->x[i];
+    const double bend = speed_at(p, i) * long_for - by, next = by - speed_at(p, i + 1) * long_for;
+    for (int k = 1; k < BETWEEN; k++) {
+        const double u = k / (double)BETWEEN, left = 1 - u;
+        p->corner[0][p->corners[0]++] = (corner){ p->t[i] + u * long_for,
+            p->x[i] + u * by + u * left * (left * bend + u * next) };
+    }
 }
 
 /* Move the path onto the chain of straight links between such joints that is nearest to it, but where noise does
@@ -273,9 +322,14 @@ chain(path *p)
             fits = squares < NOISY * noise_along(p, &p->line[k]) * (double)(end - i) + p->rounding;
             if (fits && fitted)
                 p->corner[0][p->corners[0]++] = (corner){ from, p->start + at[k] };
-            for (size_t j = i; fits && j < end; j++) {
+            else if (i > 0)
+                add_between(p, i - 1);
+            for (size_t j = i; j < end; j++) {
                 double u = (p->t[j] - from) / (to - from);
-                p->moved[0][j] = p->start + (1 - u) * at[k] + u * at[k + 1];
+                if (fits)
+                    p->moved[0][j] = p->start + (1 - u) * at[k] + u * at[k + 1];
+                else if (j + 1 < end)
+                    add_between(p, j);
             }
         }
         gsl_vector_view d = gsl_vector_view_array(on, joints), e = gsl_vector_view_array(beside, joints - 1);
@@ -332,10 +386,10 @@ find_lines(path *p)
         const double lasts = p->t[l->end - 1] - p->t[l->first];
         l->of = (slide){ k > 0 ? joint(p, l - 1) : p->t[0], l->speed, (double)(l->end - l->first) * lasts * lasts };
     }
-    p->corner[0] = st == SS_OK ? malloc(2 * p->lines * sizeof *p->corner[0]) : NULL;
+    p->corner[0] = st == SS_OK ? malloc((BETWEEN * p->n + 2 * p->lines) * sizeof *p->corner[0]) : NULL;
     if (p->corner[0] == NULL)
         return SS_ENOMEM;
-    p->corner[1] = p->corner[0] + p->lines;
+    p->corner[1] = p->corner[0] + BETWEEN * p->n + p->lines;
     st = chain(p);
     if (st == SS_OK) {
         join(p);
@@ -451,15 +505,8 @@ static ss_status
 fit_laws(ss_step_law law[SS_STEP_LAWS], double *model, const track *r, double stiffness, double *likely)
 {
     *likely = -INFINITY;
-    for (int i = 0; i < SS_STEP_LAWS; i++, model += r->n) {
-        ss_step_law *l = &law[i];
-        ss_status st = ss_loaded_fit(l, model, r, i == SS_STEP_SLIP, stiffness);
-        l->model = model;
-        if (st == SS_EDATA)
-            *l = (ss_step_law){ NAN, NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN },
-                                NAN, model };
-        else if (st != SS_OK)
-            return st;
+    ss_status st = ss_loaded_fit(law, model, r, stiffness);
+    for (ss_step_law *l = law; st == SS_OK && l < law + SS_STEP_LAWS; l++) {
         forget(&l->direct_effect);
         forget(&l->critical_slip_distance);
         forget(&l->stiffness);
@@ -467,7 +514,7 @@ fit_laws(ss_step_law law[SS_STEP_LAWS], double *model, const track *r, double st
             l->stiffness = (ss_value){ stiffness, 0 };
         *likely = fmax(*likely, l->log_likelihood);
     }
-    return SS_OK;
+    return st;
 }
 
 /* Fit a step along the first track, or the other one if that is likelier, and say which law it is.  Tracks whose
