@@ -24,6 +24,7 @@ typedef struct rock {
     int uneven;                 /* 1: rows at random times; 2: a row in ten before the first change */
     double mean;                /* of the friction; 0: .6 */
     int digits;                 /* of path and time in a file; 0: all */
+    double step[2];             /* of what a converter gives, of path [um] and friction; 0: none */
 } rock;
 
 static inline double
@@ -79,9 +80,10 @@ rock_carry(const rock *r, double u[2], double from, double to)
 }
 
 static inline double
-rock_rounded(const rock *r, double x)
+rock_rounded(const rock *r, double x, double step)
 {
     char text[32];
+    x = step > 0 ? step * rint(x / step) : x;
     snprintf(text, sizeof text, "%.*g", r->digits > 0 ? r->digits : 17, x);
     return atof(text);
 }
@@ -124,8 +126,9 @@ rock_signal(const rock *r, uint64_t *seed)
         double off = t > 0.9 * end ? r->jump : 0;
         s->values[r->n + i] = (r->mean > 0 ? r->mean : 0.6) + r->drift * x + r->a * u[0] + r->b * u[1] + r->noise * noise;
         x += off + (r->path_noise > 0 ? r->path_noise * rock_gauss(seed) : 0);
-        s->values[i] = rock_rounded(r, 1e6 * x);
-        s->values[2 * r->n + i] = rock_rounded(r, t);
+        s->values[i] = rock_rounded(r, 1e6 * x, r->step[0]);
+        s->values[r->n + i] = r->step[1] > 0 ? r->step[1] * rint(s->values[r->n + i] / r->step[1]) : s->values[r->n + i];
+        s->values[2 * r->n + i] = rock_rounded(r, t, 0);
     }
     return s;
 }

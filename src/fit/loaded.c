@@ -356,9 +356,56 @@ swap(double *u, double *v, size_t n)
     }
 }
 
+/* Add to a covariance what comes of an error that changes whitened rows by so much. */
+static void
+add_error(double *out, const law *l, const double *slopes, const double *changed, double noise)
+{
+    double by[UNKNOWNS] = { 0 }, moves[UNKNOWNS] = { 0 };
+    for (size_t i = 0; i < l->record->n; i++)
+        for (int k = 0; k < UNKNOWNS; k++)
+            by[k] += slopes[i * UNKNOWNS + (size_t)k] * changed[i];
+    for (int i = 0; i < UNKNOWNS * UNKNOWNS; i++)
+        if (isfinite(l->covariance[i]))
+            moves[i / UNKNOWNS] += l->covariance[i] * by[i % UNKNOWNS];
+    for (int i = 0; i < UNKNOWNS * UNKNOWNS; i++)
+        out[i] += moves[i / UNKNOWNS] * moves[i % UNKNOWNS] / noise;
+}
+
+/* Add the errors of the load point's place at its first change, and of friction wherever it stands still at one of
+ * its digits, if noise does not move it from one to another. */
+static ss_status
+blur(law *l, double noise, double *changed)
+{
+    const track *r = l->record;
+    double sum[UNKNOWNS * UNKNOWNS], *slopes = changed + r->n, *left = l->rows;
+    memcpy(sum, l->covariance, sizeof sum);
+    ss_status st = whitened(l->u, left, NULL, l);
+    for (int back = 0; back < 2; back++) {
+        for (size_t i = 0; i < r->places; i++)
+            l->load[i] += r->place[i].row < r->change[0] ? 0 : back ? -r->blur : r->blur;
+        if (st == SS_OK)
+            st = back ? whitened(l->u, NULL, slopes, l) : whitened(l->u, changed, NULL, l);
+    }
+    if (st != SS_OK)
+        return st == SS_EDATA ? SS_OK : st;
+    for (size_t i = 0; i < r->n; i++)
+        changed[i] -= left[i];
+    add_error(sum, l, slopes, changed, noise);
+    for (size_t from = 0, to = 0; r->digit > 2 * sqrt(noise) && from < r->n; from = to) {
+        while (to < r->n && fabs(r->mu[to] - r->mu[from]) < r->digit / 2)
+            to++;
+        for (size_t i = 0; i < r->n; i++)
+            changed[i] = i >= from && i < to ? r->digit / sqrt(12) : 0;
+        ss_wander_whiten(changed, &l->noise, r->t, changed, r->n, 1);
+        add_error(sum, l, slopes, changed, noise);
+    }
+    memcpy(l->covariance, sum, sizeof sum);
+    return SS_OK;
+}
+
 /* Report the best numbers.  If a rival does better, it is the best; if it does as well, errors reach as far. */
 static ss_status
-conclude(ss_step_law *out, law *l, double free_rows)
+conclude(ss_step_law *out, law *l, double free_rows, double *room)
 {
     double squares = INFINITY, covariance[UNKNOWNS * UNKNOWNS];
     ss_step_law other = { 0 };
@@ -368,6 +415,8 @@ conclude(ss_step_law *out, law *l, double free_rows)
         swap(l->covariance, covariance, UNKNOWNS * UNKNOWNS);
         swap(&l->squares, &squares, 1);
     }
+    if (st == SS_OK)
+        st = blur(l, l->squares / free_rows, room);
     report(out, l, l->u, l->covariance, l->squares / free_rows);
     if (st != SS_OK || isinf(squares) || !are_apart(l->u, l->rival)
         || (double)l->record->n * log(squares / l->squares) > 2 * AS_LIKELY)
@@ -458,7 +507,7 @@ ss_loaded_fit(ss_step_law out[SS_STEP_LAWS], double *model, const track *record,
                 model[i] = NAN;
             continue;
         }
-        st = conclude(&out[k], l, free_rows);
+        st = conclude(&out[k], l, free_rows, room);
         if (st == SS_OK)
             st = leave(l, l->u, room, NULL);
         for (size_t i = 0; i < n; i++)

@@ -20,6 +20,8 @@ typedef struct track {
     place *place;               /* in the order of time */
     size_t places;
     double speed;               /* before them [m/s] > 0 */
+    double digit;               /* of friction, or 0 */
+    double blur;                /* standard error of where the load point is then [m] */
 } track;
 
 /* Fit both laws under one noise.  stiffness [1/m]; 0: it is found.  model[n] of one, then the other, becomes their

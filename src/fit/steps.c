@@ -61,6 +61,7 @@ typedef struct path {
     size_t n;
     long double (*sum)[5];      /* of t, x, t t, t x, x x of the rows before */
     double rounding, saved, noise;      /* of the sums of squares; squares that a cut must save; of the path */
+    double digit;               /* of a sensor, between two of which it stands still, or 0 */
     double start;               /* x of the first row, as recorded */
     line *line;
     size_t lines, room;
@@ -215,6 +216,26 @@ off_neighbours(const path *p, size_t i)
     return by * by / (1 + w * w + (1 - w) * (1 - w));
 }
 
+/* What all changes of a column are multiples of, if there is such a digit, and for how many rows it stands still. */
+static double
+digit_of(const double *x, size_t n, size_t *longest)
+{
+    double digit = INFINITY;
+    *longest = 1;
+    for (size_t i = 1, run = 1; i < n; i++) {
+        const double by = fabs(x[i] - x[i - 1]);
+        run = by > 0 ? 1 : run + 1;
+        *longest = run > *longest ? run : *longest;
+        digit = by > 0 ? fmin(digit, by) : digit;
+    }
+    for (size_t i = 1; i < n; i++) {
+        const double digits = (x[i] - x[i - 1]) / digit;
+        if (!(fabs(digits - rint(digits)) < 0.02))
+            return 0;
+    }
+    return digit;
+}
+
 /* The power of ten of which all of these numbers are multiples, as rounding makes them; 0: there is none. */
 static double
 grain(const double *x, size_t n)
@@ -236,11 +257,11 @@ grain(const double *x, size_t n)
 static double
 noise_along(const path *p, const line *l)
 {
-    const double x = grain(p->x + l->first, l->end - l->first), t = grain(p->t + l->first, l->end - l->first);
+    const double by_stamps = l->speed * grain(p->t + l->first, l->end - l->first);
     double sum = 0, n = 0;
     for (size_t i = l->first + FEWEST; i + FEWEST < l->end; i++, n++)
         sum += off_neighbours(p, i);
-    return fmax(fmax(p->noise, n > 2 * FEWEST ? sum / n : 0), (x * x + l->speed * t * l->speed * t) / 12);
+    return fmax(fmax(p->noise, n > 2 * FEWEST ? sum / n : 0), by_stamps * by_stamps / 12);
 }
 
 /* The time at which a line meets the next, if that is near, else that of the next one's first row. */
@@ -369,7 +390,10 @@ find_lines(path *p)
     const double from = p->start = p->x[0], way = p->x[p->n - 1] - from;
     for (size_t i = 1; i + 1 < p->n; i++)
         p->moved[0][i] = off_neighbours(p, i);
-    p->noise = ss_wander_variance(p->moved[0] + 1, p->n - 2);
+    size_t still;
+    p->digit = digit_of(p->x, p->n, &still);
+    const double noise = ss_wander_variance(p->moved[0] + 1, p->n - 2), by_digits = p->digit * p->digit / 12;
+    p->noise = fmax(noise, by_digits);
     memset(p->sum[0], 0, sizeof p->sum[0]);
     for (size_t i = 0; i < p->n; i++) {
         long double t = p->t[i] - p->t[0], x = p->x[i] - from, of[5] = { t, x, t * t, t * x, x * x };
@@ -377,10 +401,15 @@ find_lines(path *p)
             p->sum[i + 1][k] = p->sum[i][k] + of[k];
     }
     p->rounding = 10 * DBL_EPSILON * way * way;
-    p->saved = fmax(SIGNIFICANT * p->noise, p->rounding);
+    p->saved = fmax(SIGNIFICANT * p->noise * (double)still, p->rounding);
     ss_status st = cut(p, 0, p->n);
     if (st == SS_OK)
         prune(p);
+    int is_digit = 0;                           /* an even path passes a digit a row, and shows no step */
+    for (size_t k = 0; k < p->lines; k++)
+        is_digit |= p->line[k].squares > by_digits / 2 * (double)(p->line[k].end - p->line[k].first);
+    p->digit = is_digit ? p->digit : 0;
+    p->noise = is_digit ? p->noise : noise;
     for (size_t k = 0; st == SS_OK && k < p->lines; k++) {
         line *l = &p->line[k];
         const double lasts = p->t[l->end - 1] - p->t[l->first];
@@ -459,12 +488,23 @@ lay(track *r, const path *p, int which, size_t at, size_t apart)
     return SS_OK;
 }
 
+/* The variance of the end of a line.  Rows tell of it by noise, or if they pass the digits of a sensor in turn. */
+static double
+end_variance(const path *p, const line *l)
+{
+    const double n = (double)(l->end - l->first);
+    const double turns = p->digit > 0 ? l->speed * (p->t[l->end - 1] - p->t[l->first]) / (n - 1) / p->digit : 0;
+    return 4 * p->noise / (p->digit > 0 ? fmax(n * fabs(turns - rint(turns)), 1) : n);
+}
+
 /* Take the rows of a step, whose slide begins with line `at`; the next `lines` belong to it. */
 static ss_status
 take(ss_step *s, track r[2], const path *p, const double *mu, size_t at, size_t lines)
 {
     const line *l = &p->line[at];
     const size_t first = middle(p, at), all = l[lines - 1].end - first, apart = all / MOST + 1, n = all / apart;
+    size_t still;
+    const double digit = digit_of(mu + first, all, &still);
     double *room = calloc(ROOM * n, sizeof *room);
     if (room == NULL)
         return SS_ENOMEM;
@@ -480,7 +520,8 @@ take(ss_step *s, track r[2], const path *p, const double *mu, size_t at, size_t 
     ss_status st = SS_OK;
     for (int k = 0; st == SS_OK && k < 2; k++) {
         r[k] = (track){ .n = n, .t = s->t, .mu = s->friction, .load = room + (2 + (size_t)k) * n,
-                        .changes = lines - 1 };
+                        .changes = lines - 1, .digit = digit,
+                        .blur = sqrt(end_variance(p, l) + end_variance(p, l + 1)) };
         for (size_t j = 1; j < lines; j++)
             r[k].change[j - 1] = (l[j].first - first) / apart;
         st = lay(&r[k], p, k, at, apart);
