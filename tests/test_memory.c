@@ -628,6 +628,30 @@ decays(int variant)
     return st;
 }
 
+/* A step of a load point; as a path in steps, beside which one at the speeds of the slides is tried. */
+static ss_status
+steps(int variant)
+{
+    enum { ROWS = 60 };
+    static double values[3 * ROWS];
+    static ss_column column[] = { { (char *)"x", (char *)"um" }, { (char *)"mu", (char *)"" }, { (char *)"t", (char *)"s" } };
+    static ss_header head = { .rate = 1, .n_columns = 3, .column = column };
+    const ss_signal record = { &head, ROWS, values };
+    ss_steps *made = NULL;
+    for (int i = 0; i < ROWS; i++) {
+        const double x = i < 30 ? i : 30 + 10 * (i - 30), slid = x > 30 ? x - 30 : 0;
+        values[i] = variant == 0 ? x : 5 * floor(x / 5);
+        values[ROWS + i] = 0.6 + 0.006 * (exp(-slid / 20) - exp(-slid / 8)) - 0.002 * (1 - exp(-slid / 20))
+            + 1e-5 * sin(i * i);
+        values[2 * ROWS + i] = i;
+    }
+    ss_status st = ss_steps_new(&made, &record, 0, 1, -1, 0, &err);
+    if (st == SS_OK && made->n != 1)
+        fail_msg("%zu steps", made->n);
+    ss_steps_free(made);
+    return st;
+}
+
 static ss_status
 fits(int variant)
 {
@@ -838,7 +862,8 @@ static const struct row {
     { "features", features, 2, 30 },
     { "streams of features", feature_streams, 2, 10 },
     { "searches", searches, 3, 20 }, { "transitions", transitions, 2, 10 },
-    { "rankings", rankings, 1, 4 }, { "motions", motions, 1, 10 }, { "decays", decays, 3, 20 }, { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
+    { "rankings", rankings, 1, 4 }, { "motions", motions, 1, 10 }, { "decays", decays, 3, 20 }, { "steps", steps, 2, 20 },
+    { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
     { "reading tables", read_tables, 2, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 6, 30 },
     { "reductions", reductions, 3, 100 },
     { "overviews", overviews, 2, 30 },

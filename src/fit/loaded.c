@@ -23,6 +23,7 @@ enum { LEVEL, DRIFT, DIRECT, CRITICAL, RING, STIFFNESS, UNKNOWNS };
 enum { STARTS = 4, NEAR = 12 };    /* NEAR: rows about a change that are not thinned */
 #define COARSE 1e-5             /* the slider's tolerance on the grid, and in fits */
 #define FINE 1e-10
+#define STIFF 5000              /* ways over a/k that are not tried on the grid: they take most of its time */
 #define DIFFERENCE 1e-5         /* of an unknown, for slopes */
 #define APART 0.1               /* of an unknown, that makes two fits of one */
 #define AS_LIKELY 5             /* difference of logarithms of likelihood that does not tell two fits */
@@ -165,7 +166,7 @@ search(start best[STARTS], law *l, double stiffness)
                 const double Dc = sqrt(K) / w, over = sqrt(K) * w;
                 start s = { .ratio = ratio[j], .u = { [CRITICAL] = (ratio[j] - 1) / K, [RING] = 2 * log(w),
                             [STIFFNESS] = log(over) } };
-                if (!(Dc > way / 300 && Dc < way && K > ratio[j] - 1))
+                if (!(Dc > way / 300 && Dc < way && K > ratio[j] - 1 && over * way < STIFF))
                     continue;
                 ss_status st = run(l, l->g, s.u, 0, 0, COARSE);
                 if (st == SS_OK) {
