@@ -47,7 +47,7 @@ int ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start
 void ss_block_leave(const block *b, const double *x, double *left);
 
 /* What is tracked through blocks: (y, rate, p) and constants. */
-enum { STATES = 10 };
+enum { STATES = 10, WALKS = 12 };       /* WALKS: strengths of the random walk */
 
 typedef struct place {          /* of a block */
     double see[3][STATES];      /* y, its rate and its bend, of the states */
@@ -57,7 +57,8 @@ typedef struct place {          /* of a block */
     double stir;
     double x[STATES], p[STATES][STATES];        /* mean and variance by what this place and those before tell */
     double h[2][STATES], gain[2][STATES], news[2], sure[2];     /* of the filter's steps */
-    double mean[3], square[3];  /* of y, its rate and its bend: mean and variance */
+    double of_walk[3][WALKS][2];        /* of y, its rate and its bend: mean and standard deviation */
+    double mean[3], error[3];   /* over all walks, by likelihood: mean, and 68 % lie within the error of it */
 } place;
 
 /* What a block tells of y and of its rate [unit/sample], each less what the states do not hold. */

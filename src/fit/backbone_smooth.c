@@ -2,7 +2,7 @@
  *
  * What is tracked is (y, rate, p) and constants: y is ln A or the phase, p is the slope of the rate over the
  * e-folds of A that are lost, and a random walk of variance q an e-fold.  Kalman's filter and smoother give mean
- * and variance for each q; they are averaged over q by likelihood, which is the band.
+ * and variance for each q; in their mixture, weighed by likelihood, 68 % lie in the band.
  *
  * With no mechanism in mind: friction makes damping a power of A, or a sum of such powers, viscous friction A^0,
  * Coulomb's A^-1, drag A^1.  So ln s grows by p, nearly constant; s may be 0 or less: ln s is asinh(s / small), in
@@ -14,10 +14,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WALKS = 12, PASSES = 4, MOST_PASSES = 20, PARTS = 4 };
+enum { PASSES = 4, MOST_PASSES = 20, PARTS = 4 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
 #define KNOWN 1e-14             /* variance of ln A and phase of a block, at least: rounding hides less */
 #define FAR 1.0                 /* the most by which ln s and p change in a pass */
+#define ONE_SIGMA .682689       /* of a normal distribution lie within its standard deviation */
 #define EXACT 3.0               /* times as likely as not a law is exact */
 #define SMALL .005              /* damping over its mean below which its logarithm is none */
 
@@ -81,12 +82,36 @@ take_in(place *at, size_t n)
     return likelihood;
 }
 
+/* Set mean and error of a mixture of normal distributions, by Newton's method: its variance would be that of the
+ * widest, which are not likely. */
+static void
+mix(double *mean, double *error, double of[WALKS][2], const double weight[WALKS])
+{
+    double h = 0, off = 1;
+    *mean = 0;
+    for (int w = 0; w < WALKS; w++)
+        *mean += weight[w] * of[w][0];
+    for (int w = 0; w < WALKS; w++)
+        h += weight[w] * hypot(of[w][1], of[w][0] - *mean);
+    *error = h;
+    for (int i = 0; i < 8 && h > 0 && fabs(off) > 1e-4; i++) {
+        double inside = 0, slope = 0;
+        for (int w = 0; w < WALKS; w++) {
+            double s = fmax(of[w][1], 1e-6 * h) * M_SQRT2, from = *mean - of[w][0];
+            double hi = (from + h) / s, lo = (from - h) / s;
+            inside += weight[w] * (erf(hi) - erf(lo)) / 2;
+            slope += weight[w] * (exp(-hi * hi) + exp(-lo * lo)) * M_2_SQRTPI / 2 / s;
+        }
+        off = (ONE_SIGMA - inside) / slope / h;
+        h *= fmax(fmin(1 + off, 2), .5);
+        *error = h;
+    }
+}
+
 double
 ss_blocks_track(place *at, size_t n, size_t states, const double x[], double start[STATES][STATES], place *end)
 {
-    double best = -INFINITY, whole = 0;
-    for (size_t i = 0; i < n; i++)
-        memset(at[i].mean, 0, sizeof at[i].mean + sizeof at[i].square);
+    double best = -INFINITY, whole = 0, weights[WALKS];
     memset(end, 0, sizeof *end);
     for (int w = 0; w < WALKS; w++) {
         double q = pow(10, -6.5 + .8 * w), likelihood = 0, r[STATES] = { 0 }, sure[STATES][STATES] = { { 0 } };
@@ -111,6 +136,9 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
         double ease = likelihood > best ? exp(best - likelihood) : 1;
         best = fmax(best, likelihood);
         double weight = exp(likelihood - best);
+        for (int k = 0; k < w; k++)
+            weights[k] *= ease;
+        weights[w] = weight;
         whole = whole * ease + weight;
         for (size_t i = 0; i < states; i++) {
             end->x[i] = end->x[i] * ease + weight * at[n - 1].x[i];
@@ -129,8 +157,8 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
                 }
                 for (size_t j = 0; j < states; j++)
                     square -= with[j] * dot(sure[j], with, states);
-                at[i].mean[o] = at[i].mean[o] * ease + weight * mean;
-                at[i].square[o] = at[i].square[o] * ease + weight * (fmax(square, 0) + mean * mean);
+                at[i].of_walk[o][w][0] = mean;
+                at[i].of_walk[o][w][1] = sqrt(fmax(square, 0));
             }
             for (int o = 2; o-- > 0;) {
                 const double *h = at[i].h[o], *gain = at[i].gain[o];
@@ -155,11 +183,11 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
             }
         }
     }
+    for (int w = 0; w < WALKS; w++)
+        weights[w] /= whole;
     for (size_t i = 0; i < n; i++)
-        for (int o = 0; o < 3; o++) {
-            at[i].mean[o] /= whole;
-            at[i].square[o] = fmax(at[i].square[o] / whole - at[i].mean[o] * at[i].mean[o], 0);
-        }
+        for (int o = 0; o < 3; o++)
+            mix(&at[i].mean[o], &at[i].error[o], at[i].of_walk[o], weights);
     for (size_t i = 0; i < states; i++)
         end->x[i] /= whole;
     for (size_t i = 0; i < states; i++)
@@ -245,13 +273,13 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
         to[1] += fmax(fmin(by, FAR), -FAR);
         to[2] += fmax(fmin(p[i].mean[2] - to[2], FAR), -FAR);
         b[i].at.s = small * sinh(to[1]);
-        b[i].error[LEVEL] = sqrt(p[i].square[1]) * hypot(b[i].at.s, small) / gain;
+        b[i].error[LEVEL] = p[i].error[1] * hypot(b[i].at.s, small) / gain;
         gain = hypot(b[i].at.s, small);
         b[i].at.ds = gain * gain * to[2];
         b[i].at.dds = 2 * b[i].at.s * pow(gain * to[2], 2);
         double half = fmax(b[i].at.ds, 0) + 2 * b[i].at.s * b[i].error[LEVEL];  /* friction acts by half periods */
         b[i].lag = b[i].at.s * b[i].at.s + b[i].at.ds - given_back(derivative, b[i].at.ds);
-        b[i].lag_error = hypot(gain * gain * sqrt(p[i].square[2]), half + not_known(derivative, b[i].at.ds));
+        b[i].lag_error = hypot(gain * gain * p[i].error[2], half + not_known(derivative, b[i].at.ds));
     }
     return is_far;
 }
@@ -276,7 +304,7 @@ smooth_phase(place *p, block *b, size_t n, double unit, double (*lost)[2])
         b[i].at.w = w + p[i].mean[1];
         b[i].at.dw = i + 1 < n ? unit * p[i].mean[2] * lost[i][0] / (b[i + 1].t - b[i].t) : 0;
         b[i].at.ddw = b[i].at.dw * b[i].at.ds / hypot(b[i].at.s, SMALL * unit);
-        b[i].error[PHASE] = sqrt(p[i].square[1]);
+        b[i].error[PHASE] = p[i].error[1];
     }
 }
 

@@ -106,9 +106,9 @@ losses(const trial *of, const double u[UNKNOWNS], double a)
     return u[S] + u[C] * of_jenkins * shape_of(of->kind, u[SHAPE], a);
 }
 
-/* The rates of ln A and of the phase, less of->w, at ln A; and what damping takes from the square of w, and how
- * far that is unknown: s^2 + s', less what harmonics give, which of Coulomb's friction take s' again, and of drag
- * s' + .183 s^2 (all of them). */
+/* The rates of ln A and of the phase, less of->w, at ln A; and what damping takes from the square of w: s^2 + s',
+ * less what harmonics give, which of Coulomb's friction take s' again, and of drag s' + .183 s^2 (all of them);
+ * and how far that is unknown: in its next order in s/w. */
 static void
 rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS], double lag[2])
 {
@@ -123,7 +123,7 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
     lag[0] = of->kind == SS_JENKINS || of->kind == SS_MICROSLIP ? s[1] * s[1] + s_dot
         : of->kind == SS_QUADRATIC ? .183 * s[1] * s[1] : u[S] * u[S] + 3 * (s[1] - u[S]) * s[1];
     lag[0] -= given_back(of->source->derivative, s_dot);
-    lag[1] = not_known(of->source->derivative, s_dot);
+    lag[1] = hypot(not_known(of->source->derivative, s_dot), (lag[0] - u[S] * u[S]) * s[1] / w[1]);
     rate[LEVEL] = -fmin(fall, 1e4);
     rate[PHASE] = sqrt(fmax(w[1] * w[1] - lag[0], 0)) - of->w;
 }
@@ -131,7 +131,7 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
 /* What a mechanism says of a block: ln A and phase, and their rates. */
 typedef struct told {
     double y[TRACKS], rate[TRACKS], lag[2];
-    double slip[TRACKS];        /* error of the rates */
+    double slip[TRACKS];        /* what the law does not know of the rates */
 } told;
 
 /* The same of two modes that beat: of s = u[S] and w = u[W], and of u[C] and u[SHAPE] beside it. */
@@ -506,9 +506,12 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
             ss_place_walk(to, lost);
             size_t from = i > 0 ? i - 1 : 0, next = i + 1 < n ? i + 1 : i;
             double change = fabs(at[next].rate[c] - at[from].rate[c]) / (of->p[next].t - of->p[from].t);
-            at[i].slip[c] = f->kind == SS_JENKINS ? SLIPPING * change * M_PI / (of->w + f->u[W]) : 0;
-            to->stir = pow(at[i].slip[c] * t, 2);
-            to->variance[1] += pow(at[i].slip[c], 2);
+            at[i].slip[c] = f->kind == SS_JENKINS ? SLIPPING * change * M_PI / (of->w + f->u[W])
+                : c == LEVEL ? (s - f->u[S]) * pow(s / (of->w + f->u[W]), 2) : 0;      /* the next order */
+            if (f->kind == SS_JENKINS) {
+                to->stir = pow(at[i].slip[c] * t, 2);
+                to->variance[1] += pow(at[i].slip[c], 2);
+            }
         }
     ss_status st = SS_OK;
     for (size_t k = 0; st == SS_OK && k < UNKNOWNS; k++) {
@@ -546,9 +549,9 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
         const place *level = &p[i], *phase = of->tracks > 1 ? &p[n + i] : level;
         double mean[3] = { at[i].rate[LEVEL] + level->mean[1], at[i].rate[PHASE] + phase->mean[1],
                            at[i].lag[0] + level->mean[2] };
-        double variance[3] = { level->square[1] + pow(at[i].slip[LEVEL], 2),
-                               phase->square[1] + pow(at[i].slip[PHASE], 2),
-                               level->square[2] + pow(at[i].lag[1], 2) };
+        double variance[3] = { pow(level->error[1], 2) + pow(at[i].slip[LEVEL], 2),
+                               pow(phase->error[1], 2) + pow(at[i].slip[PHASE], 2),
+                               pow(level->error[2], 2) + pow(at[i].lag[1], 2) };
         sum[i].level += weight * (at[i].y[LEVEL] + level->mean[0]);
         for (int k = 0; k < 3; k++) {
             sum[i].mean[k] += weight * mean[k];
