@@ -263,6 +263,25 @@ what_is_no_decay_has_no_rows(void **state)
     }
 }
 
+/* An offset of ten times the amplitude, of periods that are no whole number of samples. */
+static void
+an_offset_is_no_growth(void **state)
+{
+    ss_signal *signal = new_signal(4000, 400, 0, "x", "m");
+    (void)state;
+    seed = 25;
+    for (size_t i = 0; i < signal->n; i++) {
+        double t = (double)i / 400 - 1;
+        signal->values[i] = 10 + .01 * gauss() + (t > 0 ? exp(-2 * t) * sin(2 * PI * 22.3 * t) : 0);
+    }
+    ss_backbone *b = find(signal, NULL);
+    assert_string_not_equal(b->stop, "the amplitude grows");
+    assert_true(b->n_mechanisms > 0);
+    assert_int_equal(b->mechanism[0], SS_VISCOUS);
+    ss_backbone_free(b);
+    ss_signal_free(signal);
+}
+
 /* Two modes 2 % apart, and a decay whose amplitude is modulated. */
 static void
 what_is_no_mechanism_is_another(void **state)
@@ -484,7 +503,7 @@ main(void)
         cmocka_unit_test(long_decays_without_noise_have_their_damping),
         cmocka_unit_test(rows_are_smooth_where_the_amplitude_grows), cmocka_unit_test(bands_hold_and_mechanisms_are_named),
         cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
-        cmocka_unit_test(sliders_that_stop_soon_are_known),
+        cmocka_unit_test(sliders_that_stop_soon_are_known), cmocka_unit_test(an_offset_is_no_growth),
         cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),
         cmocka_unit_test(levels_give_the_damping), cmocka_unit_test(long_blocks_and_two_modes),
         cmocka_unit_test(velocity_and_acceleration_have_the_frequency),

@@ -152,21 +152,25 @@ take_record(decay *d, const double *x, size_t n)
     return SS_OK;
 }
 
-/* Set size, of the mean over a period turned by w, first, where it is largest, and end, where it is near its
+/* Set size, of the mean over a period, less its offset, turned by w, first, where it is largest, and end, where it is near its
  * least. */
 static ss_status
 find_extent(decay *d)
 {
     size_t width = (size_t)fmax(round(2 * M_PI / d->w), 1), n = d->n > width ? d->n - width + 1 : 0;
-    double complex *turned = malloc((d->n + 1) * sizeof *turned), sum = 0;
+    double complex *turned = malloc((d->n + 1) * sizeof *turned), sum = 0, of_one = 0;
     double re = 1, im = 0, was, c = cos(d->w), s = sin(d->w);
-    double *size = d->size = malloc((n + 1) * sizeof *size), least = INFINITY;
+    double *size = d->size = malloc((n + 1) * sizeof *size), least = INFINITY, plain = 0;
     if (turned == NULL || size == NULL) {
         free(turned);
         return SS_ENOMEM;
     }
+    for (size_t i = 0; i < width; i++)          /* of a constant 1, at the last sample of a period */
+        of_one += cexp(d->w * (double)i * I) / (double)width;
     for (size_t i = 0; i < d->n; i++) {
+        double complex one = of_one * (re - im * I);
         turned[i] = isnan(d->x[i]) ? 0 : d->x[i] * re - d->x[i] * im * I;
+        plain += (isnan(d->x[i]) ? 0 : d->x[i]) - (i >= width && !isnan(d->x[i - width]) ? d->x[i - width] : 0);
         was = re;
         re = re * c - im * s;
         im = was * s + im * c;
@@ -174,7 +178,7 @@ find_extent(decay *d)
         if (i + 1 < width)
             continue;
         size_t k = i + 1 - width;
-        size[k] = cabs(sum) * 2 / (double)width;
+        size[k] = cabs(sum - plain * one) * 2 / (double)width;
         if (size[k] > size[d->first]) {
             d->first = k;
             least = INFINITY;
