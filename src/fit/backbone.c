@@ -152,8 +152,8 @@ take_record(decay *d, const double *x, size_t n)
     return SS_OK;
 }
 
-/* Set size, of the mean over a period, less its offset, turned by w, first, where it is largest, and end, where it is near its
- * least. */
+/* Set size, of the mean over a period, less its offset, turned by w, first, where it is largest, and end, where it
+ * is near its least. */
 static ss_status
 find_extent(decay *d)
 {

@@ -23,7 +23,8 @@
 
 enum { LN_A, TURN, W, S, C, SHAPE, BEND, RATIO, UNKNOWNS };     /* at the start; w; viscous s; of the mechanism */
 enum { TAKEN = 64, EXACT_MOST = 1 << 15 };      /* samples of the smooth curve to begin from; of an exact motion */
-#define TWO_MODES SS_MECHANISMS                 /* no mechanism, but a rival of all */
+/* No mechanisms, but rivals of all; by geometry w changes as A^2, as of a pendulum, and s does not. */
+enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
 #define TRUST .05               /* of s: the error of what is said of it */
 #define SLIPPING .2             /* of what rates change by in half a period: the error of what a slider, which
                                    slips in a part of it, is said to do */
@@ -42,7 +43,7 @@ static const struct law {
     unsigned contains;          /* the mechanisms that are cases of it, as bits */
     double shape[5];            /* to start from, up to 0 */
     ss_range shapes;
-} laws[SS_MECHANISMS + 1] = {
+} laws[LAWS] = {
     [SS_VISCOUS] = { { 1, 1, 1, 1 }, 0, { 1 }, { 1, 1 } },
     [SS_COULOMB_DAMPING] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
     [SS_VISCOUS_AND_COULOMB] = { { 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING, { 1 }, { 1, 1 } },
@@ -52,6 +53,7 @@ static const struct law {
     [SS_MICROSLIP] = { { 1, 1, 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_QUADRATIC, { .25, .5, .8 }, { .1, 1 } },
     [SS_QUADRATIC] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
     [TWO_MODES] = { { 1, 1, 1, 1, 1, 1, 1, 1 }, 0, { 1 }, { -1e9, 1e9 } },
+    [GEOMETRY] = { { 1, 1, 1, 1, 0, 0, 1 }, 0, { 2 }, { 2, 2 } },
 };
 
 /* A block for the fit: in units of the start's amplitude and of the mean damping. */
@@ -62,7 +64,7 @@ typedef struct point {
 } point;
 
 typedef struct trial {
-    ss_mechanism kind;
+    int kind;                   /* an ss_mechanism or a rival */
     const point *p;
     size_t n, tracks;
     double w;                   /* about which w is counted, in units of the mean damping */
@@ -76,7 +78,7 @@ typedef struct trial {
 /* s = u[S] + u[C] g(A), with a factor near 1 for Jenkins, whose spring of stiffness u[C] of->w re the mass makes
  * both. */
 static double
-shape_of(ss_mechanism kind, double shape, double a)
+shape_of(int kind, double shape, double a)
 {
     switch (kind) {
     case SS_COULOMB_DAMPING: case SS_VISCOUS_AND_COULOMB: return 1 / a;
@@ -91,7 +93,7 @@ static double
 frequency(const trial *of, const double u[UNKNOWNS], double a)
 {
     double w = of->w + u[W];
-    if (of->kind == SS_MICROSLIP)
+    if (of->kind == SS_MICROSLIP || of->kind == GEOMETRY)
         return w - u[BEND] * pow(a, u[SHAPE]);
     if (of->kind != SS_JENKINS)
         return w;
@@ -309,8 +311,10 @@ begin(const trial *of, double u[UNKNOWNS])
     u[LN_A] = b->level - ln_a;
     u[TURN] = b->phase;
     u[W] = u[BEND] = 0;
+    if (law->free[BEND])
+        u[BEND] = (last->w - first->w) / unit / (1 - pow(a, u[SHAPE]));
     if (of->kind == SS_MICROSLIP)
-        u[BEND] = fmax((last->w - first->w) / unit / (1 - pow(a, u[SHAPE])), 0);
+        u[BEND] = fmax(u[BEND], 0);
     u[W] = last->w / unit - frequency(of, u, a);
     return left;
 }
@@ -358,7 +362,7 @@ begin_two(const point *p, const block *b, size_t n, double ln_a, double w, doubl
 }
 
 typedef struct fitted {
-    ss_mechanism kind;
+    int kind;
     double u[UNKNOWNS], covariance[UNKNOWNS * UNKNOWNS], squares, free, p, bic;
     int is_exact;               /* as of trials */
 } fitted;
@@ -374,7 +378,7 @@ fit(fitted *f, const trial *of)
     least_end end;
     for (int k = 0; k < UNKNOWNS; k++) {
         int is_free = law->free[k] && (of->tracks == TRACKS || (k != TURN && k != W && k != BEND));
-        int has_sign = k == LN_A || k == TURN || k == W || of->kind == TWO_MODES;
+        int has_sign = k == LN_A || k == TURN || k == W || of->kind >= TWO_MODES;
         range[k] = !is_free ? (ss_range){ f->u[k], f->u[k] } : k == SHAPE ? law->shapes
             : has_sign ? (ss_range){ -1e9, 1e9 } : (ss_range){ 0, 1e3 };
         unknowns += is_free;
@@ -392,7 +396,7 @@ fit(fitted *f, const trial *of)
 
 /* Fit from what the smooth curve tells. */
 static ss_status
-fit_first(fitted *f, trial *of, ss_mechanism kind)
+fit_first(fitted *f, trial *of, int kind)
 {
     const struct law *law = &laws[kind];
     double least_left = INFINITY;
@@ -576,7 +580,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     if (st == SS_OK)
         make_points(p, b, n, unit, ln_a, w);
     for (int k = 0; st == SS_OK && k < SS_MECHANISMS; k++)
-        st = fit_first(&f[k], &of, (ss_mechanism)k);
+        st = fit_first(&f[k], &of, k);
     if (st != SS_OK) {
         free(p), free(what);
         return st;
@@ -595,10 +599,10 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         best++;
     best = best->p < REJECT ? f : best;
     int is_other = best->p < REJECT || source->beats != NULL;
-    if (!is_other && source->has_phase) {
-        fitted two;
-        st = fit_first(&two, &of, TWO_MODES);
-        is_other = st == SS_OK && two.bic + NEARLY < best->bic;
+    for (int k = TWO_MODES; st != SS_ENOMEM && k < LAWS && !is_other && source->has_phase; k++) {
+        fitted rival;
+        st = fit_first(&rival, &of, k);
+        is_other = st == SS_OK && rival.bic + (rival.free > best->free ? 0 : NEARLY) < best->bic;
     }
     if (st == SS_ENOMEM) {
         free(p), free(what);
@@ -616,7 +620,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         if (x == best || is_near) {
             of.kind = x->kind;
             double weight = exp((best->bic - x->bic) / 2);
-            out->mechanism[out->n_mechanisms++] = x->kind;
+            out->mechanism[out->n_mechanisms++] = (ss_mechanism)x->kind;
             whole += weight;
             st = smooth_about(sum, &of, x, b, unit, weight);
         }
