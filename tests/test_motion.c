@@ -205,6 +205,8 @@ names_an_elastic_slider(void **unused)
     (void)unused;
     fill_jenkins(&r);
     add_noise(r.f, 0.03, 1);
+    for (int i = 0; i < ROWS; i++)          /* in 10 s */
+        r.f[i] += 3. * i / ROWS;
     for (int i = 1000; i < 1030; i++)       /* a gap of the recording, in which both are 0 */
         r.x[i] = r.f[i] = 0;
     assert_int_equal(ss_header_note(r.signal->head, "gaps", "3.3333333:3.4333333", NULL), SS_OK);
@@ -213,6 +215,7 @@ names_an_elastic_slider(void **unused)
     assert_number(k, "friction", 3, "kN");
     assert_number(k, "contact_stiffness", 6, "kN/mm");
     assert_number(k, "tilt", 0.2, "kN/mm");
+    assert_number(k, "drift", 0.3, "kN/s");
     assert_true(k->sign == 1 && ss_scene_get(&k->scene, "contact_stiffness") > 5.9e6
                 && ss_scene_get(&k->scene, "contact_stiffness") < 6.1e6);
     ss_motion_ranking_free(k);
@@ -280,16 +283,22 @@ names_rate_and_state_where_the_speed_varies(void **unused)
     }
 }
 
-/* Dahl's law: an exponential of the motion between turns. */
+/* Dahl's law: an exponential of the motion between turns, which lie between rows, 46 a cycle. */
 static void
 names_dahl(void **unused)
 {
+    enum { FINE = 50 };
+    const double w = 2 * M_PI / 46.1;
     recording r = record();
     double z = 0;
     (void)unused;
     for (int i = 0; i < ROWS; i++) {
-        double dx = i > 0 ? r.x[i] - r.x[i - 1] : 0, way = dx > 0 ? 1 : -1;
-        z = way + (z - way) * exp(-fabs(dx) / 0.4);
+        for (int k = FINE - 1; k >= 0 && i > 0; k--) {
+            double t = i - (double)k / FINE, dx = 2 * (sin(w * t) - sin(w * (t - 1. / FINE))), way = dx > 0 ? 1 : -1;
+            z = way + (z - way) * exp(-fabs(dx) / 0.4);
+        }
+        r.x[i] = 2 * sin(w * i);
+        r.v[i] = 2 * w * cos(w * i) * ROWS / 10;
         r.f[i] = 2 * z + 0.05 * r.v[i];
     }
     add_noise(r.f, 0.02, 3);
@@ -406,7 +415,11 @@ names_none_of_these(void **unused)
         r.f[i] = 80 * r.x[i] + 50 * cos(2 * M_PI * 7.3 * i / ROWS) + 6.7 * i / ROWS;
     }
     add_noise(r.f, 0.2, 8);
-    assert_answer(&r, SS_NONE_FITS, "its friction is not reached");
+    assert_answer(&r, SS_NONE_FITS, "null");
+    for (int i = 0; i < ROWS; i++)          /* a spring with two slopes: a slider behind a gap that hardly slips */
+        r.f[i] = (r.x[i] > 0 ? 140 : 70) * r.x[i] + 20 * cos(2 * M_PI * 7.3 * i / ROWS);
+    add_noise(r.f, 0.4, 9);
+    assert_answer(&r, SS_NONE_FITS, "friction is hardly reached");
     ss_signal_free(r.signal);
 }
 

@@ -200,7 +200,7 @@ void ss_motion_opts_init(ss_motion_opts *opts, size_t size);    /* a displacemen
 
 typedef struct ss_motion_row {
     const char *law;
-    double explained;           /* the share of the force's power about its mean that it explains where it was not
+    double explained;           /* the share of the force's power about a line that it explains where it was not
                                    fitted, */
     double explained_error;
     double gain;                /* and of what the null leaves */
@@ -211,7 +211,7 @@ typedef struct ss_motion_row {
 
 /* A number of the law that is named. */
 typedef struct ss_motion_number {
-    const char *name;           /* the key of a scene; or offset, tilt, inertia, sine, cosine, delay */
+    const char *name;           /* the key of a scene; or tilt, inertia, sine, cosine, offset, drift, delay */
     ss_value value;             /* in the recording's units; of the second direction in name_negative */
     char unit[64];              /* "" if the recording has none */
 } ss_motion_number;

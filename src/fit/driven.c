@@ -260,3 +260,22 @@ ss_driven_thin(driven *thin, const driven *d, size_t most)
     free(is_turn);
     return SS_OK;
 }
+
+double
+ss_driven_line(double line[2], const driven *d, const double x[])
+{
+    double n = 0, t = 0, tt = 0, sum = 0, product = 0, squares = 0;
+    for (size_t i = 0; i < d->n; i++)
+        if (d->used[i]) {
+            const double s = d->t[i] - d->t[d->n - 1] / 2;
+            n++;
+            t += s;
+            tt += s * s;
+            sum += x[i];
+            product += x[i] * s;
+            squares += x[i] * x[i];
+        }
+    line[1] = (n * product - t * sum) / (n * tt - t * t);
+    line[0] = (sum - line[1] * t) / n;
+    return (squares - line[0] * sum - line[1] * product) / n;
+}

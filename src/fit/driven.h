@@ -11,7 +11,7 @@
  * units of the rms speed, DELAY in rows; all but BETA and DELAY are logarithms. */
 enum { LENGTH, OTHER_LENGTH, GAP, EXPONENT, BETA, RISE, SPEED, SHAPE, DELAY, UNKNOWNS };
 /* The columns of the force, which is linear in them.  The law's parts and the viscous part are not negative. */
-enum { PART, VISCOUS = PART + DRIVEN_PARTS, OFFSET, TILT, INERTIA, SINE, COSINE, COLUMNS };
+enum { PART, VISCOUS = PART + DRIVEN_PARTS, TILT, INERTIA, SINE, COSINE, OFFSET, DRIFT, COLUMNS };
 enum { LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
 enum { DRIVEN_ROWS = 4000 };        /* rows that fits look at */
 #define DRIVEN_TURN 0.1             /* of the rms motion: a turn that a contact remembers */
@@ -59,6 +59,10 @@ void ss_driven_free(driven *d);
 /* Mark the rows at which the motion turns by more than so much.  Returns their number. */
 size_t ss_driven_turns(const driven *d, double least, char is_turn[]);
 
+/* The line over time that suits the used rows of x: its value at the middle and its slope.  Returns the mean square
+ * about it. */
+double ss_driven_line(double line[2], const driven *d, const double x[]);
+
 typedef struct driven_fit {
     double u[UNKNOWNS], c[COLUMNS];
     double loss;                    /* mean square of what it leaves of the rows fitted */
@@ -90,6 +94,10 @@ typedef struct driven_noise {
 /* driven_noise.c: for each row the row of another passage that is nearest to it, or the row itself if it is left
  * out; SS_ENOMEM. */
 ss_status ss_driven_partners(const driven *d, size_t *partner);
+/* What a free law leaves of blocks of time to which it was not fitted, and what the law itself leaves, whose own force
+ * this is; own NULL: a spring of any shape and a damper instead of a free law.  SS_ENOMEM. */
+ss_status ss_driven_free_law(double free_law[BLOCKS], double law[BLOCKS], const driven *d, const double *left,
+                             const double *own);
 /* The noise by what a law leaves; rows: the record d of `turns` turns, thinned, to which the law was fitted. */
 ss_status ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner,
                           const driven *d, const double *predicted, size_t turns);

@@ -1,7 +1,7 @@
 /* driven_fit.c -- fit a friction law, driven by a measured motion, to the force.
  *
- * * The force is linear in the amplitudes of the law's parts and in what stands beside the law: an offset, a tilt,
- * inertia, a viscous part.  Linear least squares finds these for each value of the other unknowns (variable
+ * * The force is linear in the amplitudes of the law's parts and in what stands beside the law: a tilt, inertia, a
+ * viscous part, an offset and its drift.  Linear least squares finds these for each value of the other unknowns (variable
  * projection), so that a search moves at most six.  It begins at points all over their ranges, of rows that were
  * thinned, and at the fits of the laws that the law contains.
  *
@@ -37,6 +37,7 @@ typedef struct problem {
     double *column[COLUMNS];        /* of each row; NULL: the law has no such column */
     double *room;
     double late, *x, *v, *a;        /* the motion, so much earlier */
+    double line[COLUMNS + 1][2];    /* of each column, and of the force, over all rows */
     size_t free[UNKNOWNS], n_free;
     const double *given;            /* the unknowns where the fit starts */
     driven_fit now;                 /* evaluated last */
@@ -50,13 +51,16 @@ problem_new(problem *p, const driven_law *law, const driven *d, const char *fold
     if (p->room == NULL)
         return SS_ENOMEM;
     for (int k = 0; k < COLUMNS; k++)
-        if (k < (int)law->parts || (k >= VISCOUS && (k < SINE || d->angle != 0)))
+        if (k < (int)law->parts || (k >= VISCOUS && ((k != SINE && k != COSINE) || d->angle != 0)))
             p->column[k] = p->room + (size_t)k * d->n;
     p->x = p->column[TILT];
     p->v = p->column[VISCOUS];
     p->a = p->column[INERTIA];
-    for (size_t i = 0; i < d->n; i++)
+    for (size_t i = 0; i < d->n; i++) {
         p->column[OFFSET][i] = 1;
+        p->column[DRIFT][i] = d->t[i] - d->t[d->n - 1] / 2;
+    }
+    ss_driven_line(p->line[COLUMNS], d, d->f);
     for (size_t k = 0; k < UNKNOWNS; k++)
         if (law->free >> k & 1 || (k == DELAY && d->most_delay > 0))
             p->free[p->n_free++] = k;
@@ -110,12 +114,22 @@ fill_columns(problem *p, const double u[UNKNOWNS])
     if (u[DELAY] * d->step != p->late)
         move_earlier(p, u[DELAY] * d->step);
     for (size_t i = 0; p->law->parts > 0 && i < d->n; i++) {
-        const piece q = { i > 0 ? p->x[i] - p->x[i - 1] : 0, i > 0 ? d->t[i] - d->t[i - 1] : 0, p->v[i], d->slow };
+        piece q = { i > 0 ? p->x[i] - p->x[i - 1] : 0, i > 0 ? d->t[i] - d->t[i - 1] : 0, p->v[i], d->slow };
+        const double before = i > 0 ? p->v[i - 1] : 0;
+        if (before * q.v < 0) {             /* it turns between the rows, and went farther */
+            const double h = q.h * before / (before - q.v), dx = h * before / 2;
+            scene.model->drive(&scene, &memory, &(piece){ dx, h, 0, d->slow }, part);
+            q.dx -= dx;
+            q.h -= h;
+        }
         scene.model->drive(&scene, &memory, &q, part);
         p->column[PART][i] = p->law->parts > 1 ? part[0] : part[0] + part[1];
         for (size_t k = 1; k < p->law->parts; k++)
             p->column[PART + k][i] = part[k];
     }
+    for (int k = 0; k < OFFSET; k++)
+        if (p->column[k] != NULL)
+            ss_driven_line(p->line[k], d, p->column[k]);
 }
 
 /* --- the amplitudes ------------------------------------------------------------------------ */
@@ -139,7 +153,8 @@ solve(double g[COLUMNS][COLUMNS], const double b[], const int of[], size_t m, do
         c[k] /= size[k];
 }
 
-/* Find the amplitudes of the columns: one that would be negative, and may not, is 0. */
+/* Find the amplitudes of the columns: one that would be negative, and may not, is 0.  Offset and drift are those of
+ * all rows: one fold does not tell those of the other. */
 static void
 find_amplitudes(problem *p)
 {
@@ -147,16 +162,19 @@ find_amplitudes(problem *p)
     double g[COLUMNS][COLUMNS] = { { 0 } }, b[COLUMNS] = { 0 }, c[COLUMNS];
     int of[COLUMNS], worst = 0;
     size_t m = 0;
-    for (int k = 0; k < COLUMNS; k++)
+    for (int k = 0; k < OFFSET; k++)
         if (p->column[k] != NULL)
             of[m++] = k;
-    for (size_t i = 0; i < d->n; i++)
+    for (size_t i = 0; i < d->n; i++) {
+        const double t = p->column[DRIFT][i], f = d->f[i] - p->line[COLUMNS][0] - p->line[COLUMNS][1] * t;
+        double x[COLUMNS];
         for (size_t k = 0; k < m && is_fitted(p, i); k++) {
-            const double x = p->column[of[k]][i];
-            b[of[k]] += x * d->f[i];
+            x[k] = p->column[of[k]][i] - p->line[of[k]][0] - p->line[of[k]][1] * t;
+            b[of[k]] += x[k] * f;
             for (size_t l = 0; l <= k; l++)
-                g[of[k]][of[l]] += x * p->column[of[l]][i];
+                g[of[k]][of[l]] += x[k] * x[l];
         }
+    }
     while (worst >= 0) {
         solve(g, b, of, m, c);
         worst = -1;
@@ -168,8 +186,13 @@ find_amplitudes(problem *p)
         m -= worst >= 0;
     }
     memset(p->now.c, 0, sizeof p->now.c);
-    for (size_t k = 0; k < m; k++)
+    p->now.c[OFFSET] = p->line[COLUMNS][0];
+    p->now.c[DRIFT] = p->line[COLUMNS][1];
+    for (size_t k = 0; k < m; k++) {
         p->now.c[of[k]] = c[k];
+        p->now.c[OFFSET] -= c[k] * p->line[of[k]][0];
+        p->now.c[DRIFT] -= c[k] * p->line[of[k]][1];
+    }
 }
 
 static double

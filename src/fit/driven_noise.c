@@ -11,6 +11,7 @@
 
 #include <float.h>
 #include <gsl/gsl_linalg.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,82 +63,88 @@ hat(double x, double k)
     return fmax(1 - fabs(x - k), 0);
 }
 
-/* The terms of a free law: sliders of many lengths; free functions of the speed, alone and times the law's own
- * force, of the place, and of this force in either direction; and its rate. */
-enum { SLIDERS = 8, SPEEDS = 6, PLACES = 8, FORCES = 8, TERMS = SLIDERS + 2 * SPEEDS + PLACES + 2 * FORCES + 1 };
+/* The terms of a free law: free functions of the place, speed, its square, and acceleration, as a spring of any shape
+ * and a damper have them; sliders of many lengths; free functions of the speed, alone and times the law's own force, and of this force
+ * in either direction; and its rate. */
+enum { PLACES = 8, SPRING = PLACES + 3, SLIDERS = 8, SPEEDS = 6, FORCES = 8 };
+enum { TERMS = SPRING + SLIDERS + 2 * SPEEDS + 2 * FORCES + 1 };
+
+static void
+find_range(double range[2], const double *x, size_t n)
+{
+    gsl_stats_minmax(&range[0], &range[1], x, 1, n);
+    range[1] -= range[0];
+}
 
 static void
 fill_terms(double (*term)[TERMS], const driven *d, const double *own)
 {
-    double slider[SLIDERS] = { 0 }, least = own[0], most = own[0];
-    for (size_t i = 0; i < d->n; i++) {
-        least = fmin(least, own[i]);
-        most = fmax(most, own[i]);
-    }
+    double slider[SLIDERS] = { 0 }, place[2], force[2];
+    find_range(place, d->x, d->n);
+    find_range(force, own, d->n);
     for (size_t i = 0; i < d->n; i++) {
         double length = 0.02, speed = asinh(fabs(d->v[i]) / 0.05) * SPEEDS / 5, *at = term[i];
+        for (int k = 0; k < PLACES; k++)
+            *at++ = hat((d->x[i] - place[0]) / place[1] * (PLACES - 1), k);
+        *at++ = d->v[i];
+        *at++ = d->v[i] * fabs(d->v[i]);
+        *at++ = d->a[i];
         for (int k = 0; k < SLIDERS; k++, length *= 2)
             *at++ = slider[k] = fmax(-1, fmin(slider[k] + (i > 0 ? d->x[i] - d->x[i - 1] : 0) / length, 1));
         for (int k = 0; k < SPEEDS; k++) {
             *at++ = copysign(hat(speed, k), d->v[i]);
             *at++ = own[i] * hat(speed, k);
         }
-        for (int k = 0; k < PLACES; k++)
-            *at++ = hat((d->x[i] + 2) * PLACES / 4, k + 0.5);
         for (int k = 0; k < 2 * FORCES; k++)
-            *at++ = (d->v[i] > 0) == k % 2 && most > least
-                ? hat((own[i] - least) / (most - least) * (FORCES - 1), k / 2) : 0;
+            *at++ = (d->v[i] > 0) == k % 2 && force[1] > 0
+                ? hat((own[i] - force[0]) / force[1] * (FORCES - 1), k / 2) : 0;
         *at++ = i > 0 ? (own[i] - own[i - 1]) / (d->t[i] - d->t[i - 1]) : 0;
     }
 }
 
-/* Add the products of the terms of some rows with each other and with what is left of these, times `by`. */
+/* Add the products of the first terms of some rows with each other and with what is left of these, times `by`. */
 static void
-add_products(double sum[TERMS + 1][TERMS], double (*term)[TERMS], const driven *d, const double *left, size_t from,
-             size_t end, double by)
+add_products(double sum[TERMS + 1][TERMS], double (*term)[TERMS], int terms, const driven *d, const double *left,
+             size_t from, size_t end, double by)
 {
     for (size_t i = from; i < end; i++)
-        for (int k = 0; k <= TERMS && d->used[i]; k++)
-            for (int l = 0; l <= k && l < TERMS; l++)
-                sum[k][l] += by * (k < TERMS ? term[i][k] : left[i]) * term[i][l];
+        for (int k = 0; k <= terms && d->used[i]; k++)
+            for (int l = 0; l <= k && l < terms; l++)
+                sum[k][l] += by * (k < terms ? term[i][k] : left[i]) * term[i][l];
 }
 
-/* The mean square that no law could explain: what such terms, fitted to other times, leave of each block; and by
- * how many errors this is less than what the law leaves. */
-static ss_status
-find_unexplained(const driven *d, const double *left, const double *own, double *noise, double *better)
+ss_status
+ss_driven_free_law(double free_law[BLOCKS], double law[BLOCKS], const driven *d, const double *left,
+                   const double *own)
 {
+    const int terms = own != NULL ? TERMS : SPRING;
     double (*term)[TERMS] = malloc(d->n * sizeof *term), sum[TERMS + 1][TERMS] = { { 0 } }, count = 0;
-    double of_law[BLOCKS] = { 0 }, of_free[BLOCKS] = { 0 };
     if (term == NULL)
         return SS_ENOMEM;
-    fill_terms(term, d, own);
-    add_products(sum, term, d, left, 0, d->n, 1);
-    *noise = *better = 0;
+    fill_terms(term, d, own != NULL ? own : d->x);
+    add_products(sum, term, terms, d, left, 0, d->n, 1);
+    for (size_t i = 0; i < d->n; i++)
+        count += d->used[i];
     for (size_t b = 0; b < BLOCKS; b++) {
         const size_t from = b * d->n / BLOCKS, end = (b + 1) * d->n / BLOCKS;
         double others[TERMS + 1][TERMS];
         memcpy(others, sum, sizeof sum);
-        add_products(others, term, d, left, from, end, -1);
-        for (int k = 0; k < TERMS; k++)
+        add_products(others, term, terms, d, left, from, end, -1);
+        for (int k = 0; k < terms; k++)
             others[k][k] += SHARED * sum[k][k] + DBL_MIN;
-        gsl_matrix_view A = gsl_matrix_view_array(others[0], TERMS, TERMS);
-        gsl_vector_view C = gsl_vector_view_array(others[TERMS], TERMS);
+        gsl_matrix_view A = gsl_matrix_view_array_with_tda(others[0], (size_t)terms, (size_t)terms, TERMS);
+        gsl_vector_view C = gsl_vector_view_array(others[terms], (size_t)terms);
         gsl_linalg_cholesky_decomp1(&A.matrix);
         gsl_linalg_cholesky_svx(&A.matrix, &C.vector);
+        free_law[b] = law[b] = 0;
         for (size_t i = from; i < end; i++) {
             double rest = left[i];
-            for (int k = 0; k < TERMS; k++)
-                rest -= others[TERMS][k] * term[i][k];
-            of_free[b] += d->used[i] * rest * rest;
-            of_law[b] += d->used[i] * left[i] * left[i];
-            count += d->used[i];
+            for (int k = 0; k < terms; k++)
+                rest -= others[terms][k] * term[i][k];
+            free_law[b] += d->used[i] * rest * rest / count;
+            law[b] += d->used[i] * left[i] * left[i] / count;
         }
-        *noise += of_free[b];
-        *better += of_law[b] - of_free[b];
     }
-    *noise /= count;
-    *better /= ss_verdict_error(of_law, of_free);
     free(term);
     return SS_OK;
 }
@@ -188,8 +195,13 @@ ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, c
                 const driven *d, const double *predicted, size_t turns)
 {
     double room[DRIVEN_ROWS];
-    ss_status st = find_unexplained(rows, r->left, r->own, &out->unexplained, &out->better);
+    double free_law[BLOCKS], law[BLOCKS];
+    ss_status st = ss_driven_free_law(free_law, law, rows, r->left, r->own);
+    if (st != SS_OK)
+        return st;
+    out->unexplained = ss_verdict_sum(free_law);
+    out->better = (ss_verdict_sum(law) - out->unexplained) / ss_verdict_error(law, free_law);
     out->repeat = find_repeat(rows, partner, r->left, &out->unshared);
     out->rough = find_rough(d, predicted, turns, room);
-    return st;
+    return SS_OK;
 }

@@ -104,26 +104,13 @@ find_doubt(char *why, size_t room, const driven *d, size_t turns)
         snprintf(why, room, "the motion is mostly rest");
 }
 
-static double
-power_of(const driven *d)
-{
-    double sum = 0, squares = 0, n = 0;
-    for (size_t i = 0; i < d->n; i++)
-        if (d->used[i]) {
-            sum += d->f[i];
-            squares += d->f[i] * d->f[i];
-            n++;
-        }
-    return (squares - sum * sum / n) / n;
-}
-
 /* --- the numbers of the law ----------------------------------------------------------------- */
 
 enum { AT = UNKNOWNS + COLUMNS, BESIDE = COLUMNS - VISCOUS, LATE = LAW_NUMBERS + BESIDE, NUMBERS };
 /* What stands beside each law, and the delay. */
 static const struct { const char *name, *unit; } beside[] = {
-    { "viscous_friction", "N s/m" }, { "offset", "N" }, { "tilt", "N/m" }, { "inertia", "N s^2/m" }, { "sine", "N" },
-    { "cosine", "N" }, { "delay", "s" } };
+    { "viscous_friction", "N s/m" }, { "tilt", "N/m" }, { "inertia", "N s^2/m" }, { "sine", "N" }, { "cosine", "N" },
+    { "offset", "N" }, { "drift", "N/s" }, { "delay", "s" } };
 
 /* The unit in which laws are fitted over that of the recording, of a number in this unit of scenes. */
 static double
@@ -190,7 +177,7 @@ find_numbers(ss_motion_ranking *out, const driven_result *r, const driven *d, co
                 variance += (moved[k][i] - number[i]) / h * (moved[l][i] - number[i]) / h * r->covariance[k][l];
         const double size = size_of_unit(d, unit);
         ss_motion_number *to = &out->number[out->n_numbers++];
-        *to = (ss_motion_number){ .name = name, .value = { size * number[i], size * sqrt(fmax(variance, 0)) } };
+        *to = (ss_motion_number){ .name = name, .value = { size * number[i], variance > 0 ? size * sqrt(variance) : NAN } };
         name_unit(to->unit, sizeof to->unit, unit, force, length);
         number[i] *= size * size_of_unit(&si, unit);
     }
@@ -246,19 +233,17 @@ order_rows(ss_motion_ranking *out, const driven_result *best)
         }
 }
 
-/* Does the law's force swing by less than half of what its friction, its first number, allows?  Then it is a spring
- * or a drift, and this no friction. */
-static int
-never_slips(const driven_result *r, size_t n)
+/* The work that the law's own force takes, as a part of what it takes and gives back. */
+static double
+work_of(const driven_result *r, const driven *d)
 {
-    double number[LAW_NUMBERS] = { 0 }, least = INFINITY, most = -INFINITY;
-    if (r->law->parts > 0)
-        r->law->numbers(number, r->fit[ALL].u, r->fit[ALL].c);
-    for (size_t i = 0; i < n; i++) {
-        least = fmin(least, r->own[i]);
-        most = fmax(most, r->own[i]);
+    double taken = 0, all = 0;
+    for (size_t i = 1; i < d->n; i++) {
+        const double work = (r->own[i - 1] + r->own[i]) / 2 * (d->x[i] - d->x[i - 1]);
+        taken += work;
+        all += fabs(work);
     }
-    return most - least < number[0];
+    return all > 0 ? taken / all : 1;
 }
 
 /* Rank by a record that can show a law. */
@@ -269,7 +254,9 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
     driven_result *r = calloc(LAWS_MOST, sizeof *r);
     candidate c[LAWS_MOST];
     size_t *partner = malloc(rows->n * sizeof *partner), n = 0, best = 0;
-    const double power = power_of(rows);
+    double spring[BLOCKS], linear[BLOCKS];
+    double line[2];
+    const double power = ss_driven_line(line, rows, rows->f);
     out->predicted = malloc(signal->n * sizeof *out->predicted);
     ss_status st = r != NULL && partner != NULL && out->predicted != NULL
         ? ss_driven_partners(rows, partner) : SS_ENOMEM;
@@ -289,7 +276,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
             break;
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
             .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power, .better = noise.better,
-            .never_slips = never_slips(&r[n], rows->n),
+            .work = work_of(&r[n], rows),
             .noise = fmin(noise.rough, fmin(noise.unshared, noise.unexplained)) / power };
         out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - c[n].left, .repeat = noise.repeat,
             .gain = 1 - r[n].loss / r[0].loss,
@@ -297,7 +284,10 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         n++;
     }
     out->n = n;
+    if (st == SS_OK)
+        st = ss_driven_free_law(spring, linear, rows, r[0].left, NULL);
     if (st == SS_OK) {
+        c[n] = (candidate){ .left = ss_verdict_sum(spring) / power, .block = spring };
         out->verdict = ss_verdict_find(out->answer, sizeof out->answer, c, n, power, &best);
         for (size_t i = 0; i < n; i++) {
             out->row[i].tied = c[i].tied;

@@ -20,6 +20,7 @@
 #define EXPLAINED 0.8               /* of the power, by a law that is named */
 #define BEYOND_NOISE 4              /* times the noise is left: three quarters are an error of the law */
 #define SIGNIFICANT 3               /* errors */
+#define TAKEN 0.1                   /* of its work a friction takes, unless it is hardly reached */
 #define QUIET 1e-5                  /* of the power: an error of what the motion does between rows */
 
 /* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
@@ -55,6 +56,15 @@ ss_residue_equals(const residue *r, const residue *other, double noise)
 /* --- laws ---------------------------------------------------------------------------------- */
 
 double
+ss_verdict_sum(const double a[BLOCKS])
+{
+    double sum = 0;
+    for (size_t k = 0; k < BLOCKS; k++)
+        sum += a[k];
+    return sum;
+}
+
+double
 ss_verdict_error(const double a[BLOCKS], const double b[BLOCKS])
 {
     double sum = 0, squares = 0;
@@ -87,12 +97,11 @@ errors_behind(const candidate *c, const candidate *best, double power)
     return (c->left - best->left) / fmax(fmin(error, best->left / 2), RESIDUE_QUIET / 2);
 }
 
-/* Does it leave more than noise and what a real contact does beside its law, is a law missing, or does nothing
- * slip? */
+/* Does it leave more than noise and what a real contact does beside its law, is a law missing, or is it a spring? */
 static int
 is_refuted(const candidate *c)
 {
-    return c->never_slips || c->fitted > BEYOND_NOISE * ss_verdict_noise(c)
+    return c->work < TAKEN || c->fitted > BEYOND_NOISE * ss_verdict_noise(c)
         || (c->better > SIGNIFICANT && c->fitted > QUIET);
 }
 
@@ -106,7 +115,7 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
     for (size_t i = 1; i < n; i++)
         *best = c[i].left < c[*best].left ? i : *best;
     const candidate *most = &c[*best];
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i <= n; i++) {
         c[i].tied = c[i].left - most->left <= AS_GOOD * most->left || errors_behind(&c[i], most, power) <= 2;
         fit |= c[i].tied && !is_refuted(&c[i]) ? c[i].law : 0;
     }
@@ -121,14 +130,15 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         snprintf(answer, room, "none of these: no law explains any of the force that was held out");
         return SS_NONE_FITS;
     }
-    if (c[0].tied || 1 - most->left < EXPLAINED || count == 0) {
+    if (c[0].tied || c[n].tied || 1 - most->left < EXPLAINED || count == 0) {
         const double beyond = most->fitted / ss_verdict_noise(most);
         const int is_noisy = beyond > BEYOND_NOISE;
         int length = snprintf(answer, room, "none of these: %s%s explains %s of the force that was held out",
-                              c[0].tied ? "no law explains more than the null; " : "", most->name, number);
+                              c[0].tied ? "no law explains more than the null; "
+                              : c[n].tied ? "no law explains more than a spring of any shape and a damper; " : "", most->name, number);
         ss_number_rounded(times, is_noisy ? beyond : most->better, 3);
-        if (count == 0 && most->never_slips)
-            snprintf(answer + length, room - (size_t)length, ", but its friction is not reached");
+        if (count == 0 && most->work < TAKEN)
+            snprintf(answer + length, room - (size_t)length, ", but its friction is hardly reached");
         else if (count == 0)
             snprintf(answer + length, room - (size_t)length, ", but %s %s %s", is_noisy ? "leaves"
                      : "a free law predicts more, by", times, is_noisy ? "times the noise" : "errors");

@@ -37,15 +37,16 @@ typedef struct candidate {
     const double *block;            /* the parts of this of each block, in units of the power */
     double fitted, noise;           /* left where it was fitted, and a bound of the noise by that */
     double better;                  /* errors by which a free law predicts more */
-    int never_slips;                /* 1: its force swings by less than its friction */
+    double work;                    /* the part of the work that its force takes and does not give back */
     int tied;                       /* set: it is as good as the best */
 } candidate;
 
-/* Find the answer; the first of the n candidates, simplest first, is the null.  *best becomes the law that is
- * named, or that explains most. */
+/* Find the answer; the first of the n candidates, simplest first, is the null, and another null, a spring of any
+ * shape, stands behind them.  *best becomes the law that is named, or that explains most. */
 ss_verdict ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power, size_t *best);
 /* The noise beside a candidate, of which no less is known. */
 double ss_verdict_noise(const candidate *c);
+double ss_verdict_sum(const double a[BLOCKS]);
 /* The standard error of a sum over blocks, or of the difference of two; b may be NULL. */
 double ss_verdict_error(const double a[BLOCKS], const double b[BLOCKS]);
 /* Append a word to a list. */

@@ -165,22 +165,27 @@ memory(const state *m, double *unit)
     return m->q[2];
 }
 
-/* z after a motion, in units of f_k / K, on one side of y = 0: Dahl's exponential, or midpoint steps. */
+/* z after a motion, in units of f_k / K, on one side of y = 0: Dahl's exponential, or Runge's and Kutta's steps,
+ * and the exponential in which a long motion ends. */
 static double
 follow(const ss_scene *s, double z, double moved)
 {
-    enum { MOST = 12 };             /* steps: a longer motion has forgotten z */
-    const int way = sign(moved);
+    enum { MOST = 12 };             /* steps: a longer motion has nearly forgotten z */
+    const double n = s->own[EXPONENT], way = sign(moved), length = fmin(0.2, 2 / n);
     double slope;
-    if (s->own[EXPONENT] == 1 && s->own[FRACTION] == 1)
+    if (n == 1 && s->own[FRACTION] == 1)
         return way + (z - way) * exp(-fabs(moved));
-    const int steps = (int)fmin(ceil(fabs(moved) / 0.2), MOST);
-    const double h = moved / fmax(steps, 1);
+    const int steps = (int)fmin(ceil(fabs(moved) / length), MOST);
+    const double h = way * fmin(fabs(moved) / fmax(steps, 1), length);
     for (int i = 0; i < steps; i++) {
-        double middle = z + h / 2 * yield(s, sign(z), way, z, &slope);
-        z = fmax(-1, fmin(z + h * yield(s, sign(middle), way, middle, &slope), 1));
+        double rate[4] = { 0 };
+        for (int k = 0; k < 4; k++) {
+            double at = z + (k == 0 ? 0 : k < 3 ? h / 2 : h) * rate[k > 0 ? k - 1 : 0];
+            rate[k] = yield(s, sign(at), (int)way, at, &slope);
+        }
+        z = fmax(-1, fmin(z + h / 6 * (rate[0] + 2 * rate[1] + 2 * rate[2] + rate[3]), 1));
     }
-    return z;
+    return way + (z - way) * exp(-n * fabs(moved - steps * h));
 }
 
 static void
@@ -188,12 +193,14 @@ drive(const ss_scene *s, double *memory, const piece *p, double part[])
 {
     const double unit = s->friction / s->own[STIFFNESS], b = s->own[GAP];
     const int way = sign(p->dx);
-    double y = *memory, z = z_of(s, fabs(y) > b ? sign(y) : 0, y), rest = p->dx;
-    if (z * way < 0) {              /* it comes back, perhaps into the gap */
-        double next = follow(s, z, rest / unit), share = next * z > 0 ? 1 : z / (z - next);
-        y = share < 1 ? -way * b : y;
-        z = share < 1 ? 0 : next;
-        rest *= 1 - share;
+    double y = *memory, z = z_of(s, fabs(y) > b ? sign(y) : 0, y), rest = p->dx, slope;
+    if (z * way < 0) {              /* it comes back, perhaps into the gap: how far is that, by Simpson's rule? */
+        const double middle = yield(s, -way, way, z / 2, &slope), first = yield(s, -way, way, z, &slope);
+        const double back = fabs(z) / 6 * unit * (1 / first + 4 / middle + 1);
+        const int returns = back < fabs(rest);
+        z = returns ? 0 : follow(s, z, rest / unit);
+        y = returns ? -way * b : y;
+        rest -= way * fmin(back, fabs(rest));
     }
     if (z == 0) {
         double through = fmin(fabs(rest), b - way * y);
