@@ -88,6 +88,7 @@ ss_status ss_driven_predict(double out[], const driven_law *law, const driven *d
 /* Upper bounds of the mean square of the noise, and what is left beside it. */
 typedef struct driven_noise {
     double rough, unshared, unexplained;    /* by its roughness, by repetition, by a free law */
+    double steady;                  /* what is left, but for a wandering size of the law's force */
     double better;                  /* errors by which the free law predicts more than the law */
     double repeat;                  /* correlation of what is left with that of the nearest other passage */
 } driven_noise;

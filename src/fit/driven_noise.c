@@ -190,6 +190,26 @@ find_repeat(const driven *d, const size_t *partner, const double *left, double *
     return squares > 0 ? products / squares : NAN;
 }
 
+/* The mean square that is left if the law's own force has another size in each two cycles, as friction wanders. */
+static double
+find_steady(const driven *d, const double *left, const double *own, size_t turns)
+{
+    const size_t parts = turns / 4 + 1;
+    double sum = 0, n = 0;
+    for (size_t k = 0; k < parts; k++) {
+        double product = 0, squares = DBL_MIN;
+        for (size_t i = k * d->n / parts; i < (k + 1) * d->n / parts; i++)
+            if (d->used[i]) {
+                product += left[i] * own[i];
+                squares += own[i] * own[i];
+                sum += left[i] * left[i];
+                n++;
+            }
+        sum -= product * product / squares;
+    }
+    return sum / n;
+}
+
 ss_status
 ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner,
                 const driven *d, const double *predicted, size_t turns)
@@ -202,6 +222,7 @@ ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, c
     out->unexplained = ss_verdict_sum(free_law);
     out->better = (ss_verdict_sum(law) - out->unexplained) / ss_verdict_error(law, free_law);
     out->repeat = find_repeat(rows, partner, r->left, &out->unshared);
+    out->steady = find_steady(rows, r->left, r->own, turns);
     out->rough = find_rough(d, predicted, turns, room);
     return SS_OK;
 }

@@ -18,10 +18,11 @@
 
 #define AS_GOOD 0.03                /* of the least loss: laws that differ by less are as good */
 #define EXPLAINED 0.8               /* of the power, by a law that is named */
-#define BEYOND_NOISE 4              /* times the noise is left: three quarters are an error of the law */
+#define BEYOND_NOISE 4              /* times the noise is left: three quarters are an error of the law, */
+#define MISSING 2                   /* or half, if a free law predicts significantly more */
 #define SIGNIFICANT 3               /* errors */
 #define TAKEN 0.1                   /* of its work a friction takes, unless it is hardly reached */
-#define QUIET 1e-5                  /* of the power: an error of what the motion does between rows */
+#define QUIET 1e-4                  /* of the power: sensors are linear to a hundredth */
 
 /* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
  * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of
@@ -86,7 +87,14 @@ ss_verdict_append(char *text, size_t room, const char *word)
 double
 ss_verdict_noise(const candidate *c)
 {
-    return fmax(QUIET, c->noise);
+    return fmax(QUIET, fmin(c->noise, c->rough));
+}
+
+/* How many times the noise it leaves. */
+static double
+excess(const candidate *c)
+{
+    return fmax(c->fitted / fmax(QUIET, c->noise), c->steady / fmax(QUIET, c->rough));
 }
 
 /* How much more a candidate leaves than the best, in errors of the difference. */
@@ -101,8 +109,7 @@ errors_behind(const candidate *c, const candidate *best, double power)
 static int
 is_refuted(const candidate *c)
 {
-    return c->work < TAKEN || c->fitted > BEYOND_NOISE * ss_verdict_noise(c)
-        || (c->better > SIGNIFICANT && c->fitted > QUIET);
+    return c->work < TAKEN || excess(c) > (c->better > SIGNIFICANT ? MISSING : BEYOND_NOISE);
 }
 
 ss_verdict
@@ -131,7 +138,7 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         return SS_NONE_FITS;
     }
     if (c[0].tied || c[n].tied || 1 - most->left < EXPLAINED || count == 0) {
-        const double beyond = most->fitted / ss_verdict_noise(most);
+        const double beyond = excess(most);
         const int is_noisy = beyond > BEYOND_NOISE;
         int length = snprintf(answer, room, "none of these: %s%s explains %s of the force that was held out",
                               c[0].tied ? "no law explains more than the null; "

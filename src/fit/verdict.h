@@ -36,6 +36,7 @@ typedef struct candidate {
     double left;                    /* where it was not fitted */
     const double *block;            /* the parts of this of each block, in units of the power */
     double fitted, noise;           /* left where it was fitted, and a bound of the noise by that */
+    double steady, rough;           /* the same, if its friction may wander, and by what is rough in it */
     double better;                  /* errors by which a free law predicts more */
     double work;                    /* the part of the work that its force takes and does not give back */
     int tied;                       /* set: it is as good as the best */
