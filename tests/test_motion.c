@@ -311,7 +311,7 @@ names_dahl(void **unused)
     ss_signal_free(r.signal);
 }
 
-/* Dry friction with a Stribeck part, clipped, with gravity on an arm. */
+/* Dry friction with a Stribeck part, clipped, with gravity on an arm, and oil that drags more in one direction. */
 static void
 names_dry_friction(void **unused)
 {
@@ -319,7 +319,8 @@ names_dry_friction(void **unused)
     ss_motion_opts opts;
     (void)unused;
     for (int i = 0; i < ROWS; i++)
-        r.f[i] = (r.v[i] > 0 ? 1 : -1) * (2 + 1.5 * exp(-pow(fabs(r.v[i]) / 3, 1.5))) + 0.9 * sin(r.x[i]);
+        r.f[i] = (r.v[i] > 0 ? 1 : -1) * (2 + 1.5 * exp(-pow(fabs(r.v[i]) / 3, 1.5))) + 0.9 * sin(r.x[i])
+            + 0.08 * r.v[i] + 0.03 * fabs(r.v[i]);
     add_noise(r.f, 0.02, 4);
     for (int i = 0; i < ROWS; i++)
         r.f[i] = fmin(r.f[i], 3);
@@ -332,6 +333,8 @@ names_dry_friction(void **unused)
     assert_number(k, "stribeck_velocity", 3, "mm/s");
     assert_number(k, "stribeck_exponent", 1.5, "1");
     assert_number(k, "sine", 0.9, "kN");
+    assert_number(k, "viscous_friction", 0.08, "kN s/mm");
+    assert_number(k, "viscous_difference", 0.03, "kN s/mm");
     assert_true(k->clipped > 100);
     ss_motion_ranking_free(k);
     ss_signal_free(r.signal);
@@ -369,6 +372,27 @@ names_friction_that_wanders(void **unused)
     ss_motion_ranking *k = rank(&r, 0, NULL);
     assert_named(k, "compliant");
     assert_number(k, "friction", 3, "kN");
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
+/* The motion is that of an encoder of few lines: where it turns, the direction is not known for some rows. */
+static void
+names_dry_friction_by_a_coarse_encoder(void **unused)
+{
+    const double w = 2 * M_PI, late = 0.9 / (ROWS / 10.);
+    recording r = record();
+    (void)unused;
+    for (int i = 0; i < ROWS; i++) {
+        double t = i / (ROWS / 10.) - late, v = 2 * w * cos(w * t) + 0.4 * 1.7 * w * cos(1.7 * w * t);
+        r.f[i] = (v > 0 ? 2 : -2) + 0.05 * v;
+        r.x[i] = 0.01 * rint(r.x[i] / 0.01);
+    }
+    add_noise(r.f, 0.02, 6);
+    ss_motion_ranking *k = rank(&r, 0, NULL);
+    assert_named(k, "coulomb");
+    assert_number(k, "friction", 2, "kN");
+    assert_number(k, "viscous_friction", 0.05, "kN s/mm");
     ss_motion_ranking_free(k);
     ss_signal_free(r.signal);
 }
@@ -478,6 +502,7 @@ main(void)
         cmocka_unit_test(names_dry_friction),
         cmocka_unit_test(names_dry_friction_read_late),
         cmocka_unit_test(names_friction_that_wanders),
+        cmocka_unit_test(names_dry_friction_by_a_coarse_encoder),
         cmocka_unit_test(does_not_judge_what_tells_nothing),
         cmocka_unit_test(names_none_of_these),
         cmocka_unit_test(writes_what_it_found),

@@ -189,8 +189,8 @@ typedef struct ss_motion_opts {
     size_t size;                /* set by ss_motion_opts_init */
     const double *time;         /* [s] of each row, ascending; NULL: the signal's clock */
     int is_velocity;            /* 1: the motion is a velocity, else a displacement or an angle */
-    double angle;               /* radians in a unit of an angle, whose sine and cosine then stand beside each
-                                   law; 0: they do not */
+    double angle;               /* radians in a unit of an angle, whose sine and cosine, and the size of the
+                                   speed, then stand beside each law; 0: they do not */
     double delay;               /* rows: the force may be so much earlier or later than the motion, >= 0 */
     ss_folds folds;
     const char *const *without; /* names of laws that are left out, behind the last NULL; NULL: none */
@@ -211,11 +211,12 @@ typedef struct ss_motion_row {
 
 /* A number of the law that is named. */
 typedef struct ss_motion_number {
-    const char *name;           /* the key of a scene; or tilt, inertia, sine, cosine, offset, drift, delay */
+    const char *name;           /* the key of a scene; or tilt, inertia, sine, cosine, viscous_difference, offset,
+                                   drift, delay */
     ss_value value;             /* in the recording's units; of the second direction in name_negative */
     char unit[64];              /* "" if the recording has none */
 } ss_motion_number;
-enum { SS_MOTION_NUMBERS = 16 };
+enum { SS_MOTION_NUMBERS = 17 };
 
 typedef struct ss_motion_ranking {
     ss_verdict verdict;

@@ -11,7 +11,7 @@
  * units of the rms speed, DELAY in rows; all but BETA and DELAY are logarithms. */
 enum { LENGTH, OTHER_LENGTH, GAP, EXPONENT, BETA, RISE, SPEED, SHAPE, DELAY, UNKNOWNS };
 /* The columns of the force, which is linear in them.  The law's parts and the viscous part are not negative. */
-enum { PART, VISCOUS = PART + DRIVEN_PARTS, TILT, INERTIA, SINE, COSINE, OFFSET, DRIFT, COLUMNS };
+enum { PART, VISCOUS = PART + DRIVEN_PARTS, TILT, INERTIA, SINE, COSINE, BY_SIDE, OFFSET, DRIFT, COLUMNS };
 enum { LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
 enum { DRIVEN_ROWS = 4000 };        /* rows that fits look at */
 #define DRIVEN_TURN 0.1             /* of the rms motion: a turn that a contact remembers */

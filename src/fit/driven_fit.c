@@ -51,7 +51,7 @@ problem_new(problem *p, const driven_law *law, const driven *d, const char *fold
     if (p->room == NULL)
         return SS_ENOMEM;
     for (int k = 0; k < COLUMNS; k++)
-        if (k < (int)law->parts || (k >= VISCOUS && ((k != SINE && k != COSINE) || d->angle != 0)))
+        if (k < (int)law->parts || (k >= VISCOUS && (k < SINE || k > BY_SIDE || d->angle != 0)))
             p->column[k] = p->room + (size_t)k * d->n;
     p->x = p->column[TILT];
     p->v = p->column[VISCOUS];
@@ -94,6 +94,7 @@ move_earlier(problem *p, double late)
             double angle = (d->middle + p->x[i] * d->length) * d->angle;
             p->column[SINE][i] = sin(angle);
             p->column[COSINE][i] = cos(angle);
+            p->column[BY_SIDE][i] = fabs(p->v[i]);     /* joints rub more on one side */
         }
     }
     p->late = late;
@@ -114,11 +115,11 @@ fill_columns(problem *p, const double u[UNKNOWNS])
     if (u[DELAY] * d->step != p->late)
         move_earlier(p, u[DELAY] * d->step);
     for (size_t i = 0; p->law->parts > 0 && i < d->n; i++) {
-        piece q = { i > 0 ? p->x[i] - p->x[i - 1] : 0, i > 0 ? d->t[i] - d->t[i - 1] : 0, p->v[i], d->slow };
+        piece q = { i > 0 ? p->x[i] - p->x[i - 1] : 0, i > 0 ? d->t[i] - d->t[i - 1] : 0, p->v[i], d->slow / 2 };
         const double before = i > 0 ? p->v[i - 1] : 0;
         if (before * q.v < 0) {             /* it turns between the rows, and went farther */
             const double h = q.h * before / (before - q.v), dx = h * before / 2;
-            scene.model->drive(&scene, &memory, &(piece){ dx, h, 0, d->slow }, part);
+            scene.model->drive(&scene, &memory, &(piece){ dx, h, 0, d->slow / 2 }, part);
             q.dx -= dx;
             q.h -= h;
         }
