@@ -43,7 +43,7 @@ passage(const double *x, size_t from, size_t to)
     return sum;
 }
 
-/* 1: falls are quicker than the rises between them, by a factor, so they are slips; -1: they are slower; 0: neither.
+/* 1: falls are quicker than the rises between them by a factor, so they are slips; -1: slower; 0: neither.
  * The sign test decides at three standard deviations; if there are few, all must be quicker by QUICK. */
 static int
 compare_falls(const double *x, double rate, const ss_drop *drop, size_t n, double factor)
@@ -92,7 +92,8 @@ set_falls(search *s, const double *x, const ss_drop *drop, size_t n)
 
 /* Find the falls of x, which is the signal or its negative: those by the height that is asked for, or else by the
  * height that falls have.  Where they are slower than the rises, x is upside down, as its sign is that of an
- * offset: then it is turned, once.  So is a force of both signs.  A column of unknown quantity is a force only if its falls are quicker. */
+ * offset: then it is turned, once.  So is a force of both signs.  A column of unknown quantity
+ * is a force only if its falls are quicker. */
 static ss_status
 find_falls(search *s, double *x, int *decided)
 {
@@ -128,8 +129,8 @@ find_falls(search *s, double *x, int *decided)
     }
     *decided = st == SS_OK && (named || (typical.height > 0 && quicker > 0));
     if (*decided && has_both && quicker <= 0)
-        say(s->out, SS_SLIPS, "the force changes its sign, but neither in mirrored half-cycles that repeat nor in quick "
-            "falls");
+        say(s->out, SS_SLIPS,
+            "the force changes its sign, but neither in mirrored half-cycles that repeat nor in quick falls");
     else if (*decided && typical.height == 0)
         say(s->out, SS_SLIPS, "the falls of the force have no typical height above its noise");
     else if (*decided) {

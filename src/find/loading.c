@@ -208,8 +208,8 @@ common_misfit(const fall *f, size_t n)
     return power > 0 ? HIDDEN * HIDDEN * power * samples / slips : 0;
 }
 
-/* Widen the errors of a slip by what its fit does not see; add to shared and all, of each number, the variance that
- * all slips share and the whole.
+/* Widen the errors of a slip by what its fit does not see; add to shared and all, of each number, the variance
+ * that all slips share and the whole.
  *
  * What all slips share is `common` times the variance by noise, and the error of the damping, in which is a
  * negative one that was not used.  A shift of all onsets
@@ -312,7 +312,8 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
     if (st == SS_OK) {
         shape rises = shape_of(y, f, n);
         double common = common_misfit(f, n), shared[SLIP_NUMBERS] = { 0 }, all[SLIP_NUMBERS] = { 0 };
-        double damping_error = isfinite(damping.error) ? hypot(damping.error, is_falling(&damping) ? damping.value : 0) : 0;
+        double unused = is_falling(&damping) ? damping.value : 0;
+        double damping_error = isfinite(damping.error) ? hypot(damping.error, unused) : 0;
         for (size_t i = 0; i < n; i++) {
             if (f[i].slip.n > 0) {
                 widen_errors(&f[i], common, damping_error, rises.octave, s->n, shared, all);

@@ -101,5 +101,6 @@ ss_loading_medians(ss_features *out, const ss_drop *drop, const double *shared, 
     };
     for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
         *of_slips[i].to = median_over(out, of_slips[i].offset, of_slips[i].common, v, scratch);
-    add_misfit(&out->number[SS_K_OVER_M], shared[SLIP_K_OVER_M], v, out->n, scratch); /* v still holds the errors of k/m */
+    /* v still holds the errors of k/m */
+    add_misfit(&out->number[SS_K_OVER_M], shared[SLIP_K_OVER_M], v, out->n, scratch);
 }

@@ -38,7 +38,7 @@ typedef struct search {
     ss_cycles cycles;
     int is_cleaned;             /* x has lost a steady hum: it is not the column any more */
     int is_second;              /* it lost that in a first search */
-    int has_offset;             /* not 0: the zero of a force may not be that of friction; -1: its slips are rises */
+    int has_offset;             /* the zero of a force may not be that of friction; -1: its slips are rises */
     int of_sensor;              /* what rings is a sensor's, not the contact's */
     int spiked;                 /* transitions end with their last spike, which may be anywhere before the
                                    next transition */

@@ -149,8 +149,8 @@ numbers_of(const double p[FITTED], double loading, double number[SLIP_NUMBERS])
     double middle = 0.5 * (m.top + m.low), reach = DEEP * (m.top - middle);
     double duration = passes(force_at, &m, middle - reach, highest, lowest)
         - passes(force_at, &m, middle + reach, highest, lowest);
-    memcpy(number, (double[SLIP_NUMBERS]){ p[ONSET], p[ONSET] + m.length, m.top - m.low, duration, p[TOP], p[MIDDLE],
-                                           p[SPEED] * p[SPEED] }, SLIP_NUMBERS * sizeof *number);
+    memcpy(number, (double[SLIP_NUMBERS]){ p[ONSET], p[ONSET] + m.length, m.top - m.low, duration, p[TOP],
+                                           p[MIDDLE], p[SPEED] * p[SPEED] }, SLIP_NUMBERS * sizeof *number);
 }
 
 /* Fill in the numbers, their errors by the covariance of the parameters for samples of variance 1, and, where
@@ -203,7 +203,7 @@ ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t l
             ss_range damping)
 {
     const ss_value none = { NAN, NAN };
-    const ss_range free_one = { -INFINITY, INFINITY }, range[] = { free_one, free_one, free_one, free_one, damping };
+    const ss_range any = { -INFINITY, INFINITY }, range[] = { any, any, any, any, damping };
     double p[FITTED] = { [DAMPING] = 0.5 * (damping.from + damping.to) }, covariance[FITTED * FITTED];
     *out = (ss_slip){ none, none, none, none, none, none, none, none, { 0 }, NAN, NAN, 0, NAN, { 0 } };
     if (!(loading > 0) || low < high + FEWEST)
@@ -220,7 +220,8 @@ ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t l
     least_end end;
     ss_slip s = { .power = gsl_stats_tss(f.x, 1, f.n), .n = (double)f.n };
     ss_status st = ss_least_fit(&end, &(least){ .rows = f.n, .unknowns = FITTED, .model = model, .user = &f,
-                                                .range = range, .difference = step, .steps = STEPS, .tol = 1e-8 }, p, left, covariance);
+                                                .range = range, .difference = step, .steps = STEPS,
+                                                .tol = 1e-8 }, p, left, covariance);
     if (st == SS_OK && end.converged && end.squares <= (1 - EXPLAINED) * s.power) {
         s.left = end.squares;
         s.variance = end.squares / (double)(f.n - FITTED) * ss_colour(left, NULL, f.n, 0);

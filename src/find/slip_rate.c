@@ -10,7 +10,7 @@
 #include "signal/gaps.h"
 
 #define JITTER 0.125            /* relative difference of a time or period from that at which transitions recur */
-#define EVEN 0.03               /* the same between events of one kind: begins and ends of slips may nearly be even */
+#define EVEN 0.03               /* the same between events of one kind: begins and ends may be nearly even */
 #define MOST 0.75               /* the least part of the transitions that must recur */
 #define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
 #define OVERTONES 0.1           /* part of the power: a cycle with less is a sinusoid */

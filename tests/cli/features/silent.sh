@@ -102,3 +102,8 @@ ss-sim --events -b uneven.tsv:z -s settle=4 -s duration=6 coulomb | awk '$2 == "
 ss-sim -b uneven.tsv:z -s settle=4 -s duration=6 coulomb | ss-noise --snr 60 | ss-features -c a > found
 covers slip_rate 2.5 < found
 awk -v n="$(cat begun)" '$2 == "slips:" { print "slips:", ($3 >= n - 1 && $3 <= n + 1 ? "as many" : $3 " of " n) }' found
+# 12 motions between rests of uneven length, and glitches in three rests
+awk 'BEGIN { print "t,v [m/s]"; for (k = 0; k < 12; k++) from[k] = 1 + k + .2 * sin(3 * k); k = 0
+    for (i = 0; i < 14000; i++) { t = i / 1000; if (k < 11 && t > from[k] + .4) k++
+        x = t >= from[k] && t < from[k] + .3 ? 1 - cos(20.94395102 * (t - from[k])) : 0
+        print t "," x + (i % 4001 == 700 ? 3 : 0) + 1e-4 * sin(i * i) } }' | ss-features | grep '^# slips:'
