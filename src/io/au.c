@@ -21,12 +21,6 @@ enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
 static const unsigned width[] = { 0, 0, 1, 2, 3, 4, 4, 8 };
 enum { ENCODING_FLOAT = 6, ENCODING_DOUBLE = 7 };
 
-static uint32_t
-big_endian(const unsigned char *p)
-{
-    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
-}
-
 /* Read our header from the annotation; *out becomes NULL if this is not one.  SS_EDATA: it is malformed. */
 static ss_status
 read_annotation(ss_header **out, const char *magic, char *text, const char **reason)
@@ -93,10 +87,9 @@ open_au(ss_source **out, const struct opening *o, ss_error *err)
     ss_status st = ss_input_whole(in, FIXED_HEADER, "AU header", err);
     if (st != SS_OK)
         return st;
-    const unsigned char *p = (unsigned char *)in->buffer + in->lo;
     uint32_t field[6];
     for (int i = 0; i < 6; i++)
-        field[i] = big_endian(p + 4 * i);
+        field[i] = (uint32_t)ss_bytes_get(in->buffer + in->lo + 4 * i, 4, 0);
     uint32_t offset = field[1], size = field[2], encoding = field[3], channels = field[5];
 
     if (offset < FIXED_HEADER || offset > FIXED_HEADER + MAX_ANNOTATION)
@@ -133,20 +126,13 @@ open_au(ss_source **out, const struct opening *o, ss_error *err)
 enum { ANNOTATION_UNIT = 8 };
 
 static void
-encode_big_endian(char *p, uint64_t x, size_t n)
-{
-    for (; n-- > 0; x >>= 8)
-        p[n] = (char)(x & 0xff);
-}
-
-static void
 write_header(FILE *out, const ss_header *head, const char *text, size_t length, size_t padding)
 {
     char fixed[FIXED_HEADER];
     uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), UNKNOWN_SIZE,
                           ENCODING_DOUBLE, whole_rate(head->rate), (uint32_t)head->n_columns };
     for (int i = 0; i < 6; i++)
-        encode_big_endian(fixed + 4 * i, field[i], 4);
+        ss_bytes_put(fixed + 4 * i, field[i], 4, 0);
     fwrite(fixed, 1, sizeof fixed, out);
     fwrite(text, 1, length, out);
     fwrite("\0\0\0\0\0\0\0", 1, padding, out);
@@ -178,11 +164,8 @@ encode_number(char *to, double x, int last)
 {
     (void)last;
     uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);     /* compilers make one instruction of these eight bytes */
-    to[0] = (char)(bits >> 56), to[1] = (char)(bits >> 48 & 0xff);
-    to[2] = (char)(bits >> 40 & 0xff), to[3] = (char)(bits >> 32 & 0xff);
-    to[4] = (char)(bits >> 24 & 0xff), to[5] = (char)(bits >> 16 & 0xff);
-    to[6] = (char)(bits >> 8 & 0xff), to[7] = (char)(bits & 0xff);
+    memcpy(&bits, &x, sizeof bits);
+    ss_bytes_put(to, bits, sizeof bits, 0);     /* compilers make one instruction of it */
     return sizeof bits;
 }
 

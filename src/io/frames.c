@@ -6,11 +6,9 @@
 #include "io/frames.h"
 
 double
-ss_sample_raw(const unsigned char *p, sample_type type)
+ss_sample_raw(const char *p, sample_type type)
 {
-    uint64_t bits = 0;
-    for (unsigned i = 0; i < type.bytes; i++)
-        bits = bits << 8 | p[type.little_endian ? type.bytes - 1 - i : i];
+    uint64_t bits = ss_bytes_get(p, type.bytes, type.little_endian);
     if (type.is_float && type.bytes == sizeof(double)) {
         double x;
         memcpy(&x, &bits, sizeof x);
@@ -45,7 +43,7 @@ static ss_status
 decode_row(struct frames *f, const char *p, double *const column[], size_t at, ss_error *err)
 {
     for (size_t c = 0; c < f->base.head->n_columns; c++) {
-        double x = ss_sample_raw((const unsigned char *)p + c * f->type.bytes, f->type);
+        double x = ss_sample_raw(p + c * f->type.bytes, f->type);
         if (!f->type.is_float)
             x = ldexp(x, 1 - 8 * (int)f->type.bytes) - (f->type.is_unsigned ? 1 : 0);
         if (column[c] != NULL)
@@ -80,13 +78,13 @@ skip_chunks(struct frames *f, ss_error *err)
             st = ss_input_need(in, CHUNK_HEADER, err);
         if (st != SS_OK || (in->hi == in->lo && left <= 1))
             return st;
-        const unsigned char *p = (const unsigned char *)in->buffer + in->lo;
+        const char *p = in->buffer + in->lo;
         int is_name = in->hi - in->lo >= CHUNK_HEADER;
         for (int i = 0; is_name && i < 4; i++)
             is_name = p[i] >= ' ' && p[i] <= '~';
         if (!is_name)
             return refuse_rest(f, err);
-        left = p[4] | (uint64_t)p[5] << 8 | (uint64_t)p[6] << 16 | (uint64_t)p[7] << 24;
+        left = ss_bytes_get(p + 4, 4, 1);
         left += left % 2;
         in->lo += CHUNK_HEADER;
     }

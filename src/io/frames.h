@@ -23,7 +23,25 @@ struct frames {
 };
 struct frames *ss_frames_new(struct input *in, ss_error *err);
 
+/* An unsigned integer of n bytes in a file. */
+static inline uint64_t
+ss_bytes_get(const char *from, unsigned n, int little_endian)
+{
+    uint64_t x = 0;
+    for (unsigned i = 0; i < n; i++)
+        x = x << 8 | (unsigned char)from[little_endian ? n - 1 - i : i];
+    return x;
+}
+/* Store it; returns its end. */
+static inline char *
+ss_bytes_put(char *to, uint64_t x, unsigned n, int little_endian)
+{
+    for (unsigned i = 0; i < n; i++)
+        to[i] = (char)(x >> 8 * (little_endian ? i : n - 1 - i) & 0xff);
+    return to + n;
+}
+
 /* One value without scaling: an integer, or floating point. */
-double ss_sample_raw(const unsigned char *p, sample_type type);
+double ss_sample_raw(const char *p, sample_type type);
 
 #endif

@@ -195,14 +195,11 @@ read_header(struct input *in, char **text, ss_error *err)
     ss_status st = ss_input_whole(in, MAGIC_BYTES + 4, ".npy header", err);
     if (st != SS_OK)
         return st;
-    const unsigned char *p = (const unsigned char *)in->buffer + in->lo;
-    size_t version = p[6], length = p[8] | (size_t)p[9] << 8, before = MAGIC_BYTES + 2;
-    if (version == 2 || version == 3) {
-        length |= (size_t)p[10] << 16 | (size_t)p[11] << 24;
-        before += 2;
-    }
+    const char *p = in->buffer + in->lo;
+    unsigned version = (unsigned char)p[6], bytes = version == 2 || version == 3 ? 4 : 2;
+    size_t length = (size_t)ss_bytes_get(p + MAGIC_BYTES, bytes, 1), before = MAGIC_BYTES + bytes;
     if (version < 1 || version > 3 || length > HEADER_MOST)
-        return ss_fail(err, SS_EDATA, "%s: .npy of version %zu with a header of %zu bytes is not read; "
+        return ss_fail(err, SS_EDATA, "%s: .npy of version %u with a header of %zu bytes is not read; "
                        "versions 1 to 3 are", in->name, version, length);
     st = ss_input_whole(in, before + length, ".npy header", err);
     if (st != SS_OK)
@@ -228,7 +225,7 @@ read_record(struct input *in, const struct npy *a, uint64_t at, double *value, s
         return ss_fail(err, SS_EDATA, "%s: truncated: %llu of %zu values", in->name, (unsigned long long)at,
                        a->rows * a->columns);
     for (size_t f = 0; f < a->n_fields; f++)
-        value[f] = ss_sample_raw((const unsigned char *)in->buffer + in->lo + a->field[f].at, a->field[f].type);
+        value[f] = ss_sample_raw(in->buffer + in->lo + a->field[f].at, a->field[f].type);
     in->lo += a->record;
     return SS_OK;
 }
@@ -311,7 +308,7 @@ open_npy(ss_source **out, const struct opening *o, ss_error *err)
     if (st == SS_OK)
         st = name_columns(&t, &a);
     if (st == SS_OK) {
-        ss_sheet_begin_rows(&t);
+        ss_kept_begin(&t.rows, t.name, o->opts->folder, t.n_columns + 1);
         st = fill_table(&t, in, &a, err);
     }
     if (st == SS_OK)

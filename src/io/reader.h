@@ -14,8 +14,8 @@ struct ss_reader {
  * path is its name; o->in becomes the reader's. */
 ss_status ss_reader_open(ss_reader **out, FILE *in, const char *name, struct opening *o, ss_error *err);
 
-/* The file of a path, to be freed, and the place in it: the path may go on behind the file's name with ":/" and a place;
- * else that is NULL. */
+/* The file of a path, to be freed, and the place in it: the path may go on behind the file's name with ":/" and a
+ * place; else that is NULL. */
 char *ss_file_of(const char *path, const char **place);
 
 /* Wrap a source for the options that hold for every format: a span of time, factors and units (adjust.c). */

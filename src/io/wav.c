@@ -28,10 +28,7 @@ typedef struct description {    /* the contents of "fmt "; channels is 0 until i
 static uint32_t
 little_endian(const char *at, unsigned n)
 {
-    uint32_t x = 0;
-    while (n-- > 0)
-        x = x << 8 | (unsigned char)at[n];
-    return x;
+    return (uint32_t)ss_bytes_get(at, n, 1);
 }
 
 static ss_status
@@ -145,11 +142,9 @@ open_wav(ss_source **out, const struct opening *o, ss_error *err)
 enum { WRITTEN_HEADER = 58, WIDTH = sizeof(double) };
 
 static char *
-encode(char *to, uint64_t x, size_t bytes)
+encode(char *to, uint64_t x, unsigned bytes)
 {
-    for (size_t i = 0; i < bytes; i++, x >>= 8)
-        *to++ = (char)(x & 0xff);
-    return to;
+    return ss_bytes_put(to, x, bytes, 1);
 }
 
 /* Store a name and the number behind it. */

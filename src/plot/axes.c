@@ -145,8 +145,8 @@ unit_of(const ss_column *column, int exponent)
     return l;
 }
 
-/* "name / (10^-3 unit)", or "(name − offset unit) / (10^-3 unit)"; if it is wider than its room, two lines, "name" and
- * "(10^-3 unit)", or broken near its middle, in smaller letters; cut where it is longer than any picture. */
+/* "name / (10^-3 unit)", or "(name − offset unit) / (10^-3 unit)"; if it is wider than its room, two lines, "name"
+ * and "(10^-3 unit)", or broken near its middle, in smaller letters; cut where it is longer than any picture. */
 static label
 make_label(const ss_column *column, script_scale scale, double room)
 {

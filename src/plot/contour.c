@@ -33,8 +33,8 @@ decimals_of(double f)
     return (int)fmax(6, 5 - floor(log10(f)));
 }
 
-/* Write the cone of influence, within sqrt(2) a of an end of the record or of a gap, as a closed curve: at each time the
- * frequency below which coefficients are influenced. */
+/* Write the cone of influence, within sqrt(2) a of an end of the record or of a gap, as a closed curve: at each
+ * time the frequency below which coefficients are influenced. */
 static void
 write_cone(FILE *out, const ss_coefficients *c, const script_span *span, const double band[2])
 {

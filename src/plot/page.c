@@ -29,7 +29,8 @@ ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err)
 {
     ss_status st = ss_options_take(own, sizeof *own, &defaults, opts, err);
     return st != SS_OK || own->n_over <= SS_PLOT_OVER ? st
-        : ss_fail(err, SS_EINVAL, "one picture has at most %d signals, not %zu", SS_PLOT_OVER + 1, own->n_over + 1);
+        : ss_fail(err, SS_EINVAL, "one picture has at most %d signals, not %zu", SS_PLOT_OVER + 1,
+                  own->n_over + 1);
 }
 
 /* What each format has: gnuplot's points do not grow with the resolution of a picture as letters do. */
@@ -188,8 +189,8 @@ ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_opts *opts, 
 }
 
 void
-ss_script_write_panel(script_stack *s, double height, double gap, const ss_column *label, script_scale scale,
-                      double room)
+ss_script_write_panel(script_stack *s, double height, double gap, const ss_column *label,
+                      script_scale scale, double room)
 {
     fputs(s->n++ == 0 ? "set multiplot\n" : "unset title; unset label 1\n", s->out);
     ss_print(s->out, "set tmargin at screen %.5f; set bmargin at screen %.5f\n", s->top / s->height,

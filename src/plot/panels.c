@@ -181,7 +181,7 @@ read_difference(trace *t, ss_reader *reader, size_t x, ss_reader *over, size_t y
     }
     t->column = &s.head->column[x];
     if (st == SS_OK)
-        st = ss_series_span(&span, &s, opts, err);
+        st = ss_script_find_span(&span, s.start, s.head->rate, s.rows, opts, err);
     if (st == SS_OK)
         st = ss_trace_end(t, &s, &span, err);
     ss_series_free(&s);

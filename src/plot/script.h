@@ -21,9 +21,9 @@ typedef struct script_scale {
 
 /* --- page.c: top, panels and end ------------------------------------------------------------ */
 
-/* Begin a picture of this height [cm], a title included: that of opts, or else scene or model of head, unless
- * it is NULL; and under it "lines: " and the label of a column, unless it is NULL.  The script has the variables letters,
- * their size in points, and mark, a factor of the sizes of points; the caller's own follow. */
+/* Begin a picture of this height [cm], a title included: that of opts, or else scene or model of head, unless it
+ * is NULL; and under it "lines: " and the label of a column, unless it is NULL.  The script has the variables
+ * letters, their size in points, and mark, a factor of the sizes of points; the caller's own follow. */
 ss_status ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, double height,
                           const ss_column *lines, ss_error *err);
 /* SS_EIO if a write failed. */
@@ -60,8 +60,8 @@ ss_status ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_op
                                 const ss_header *head, double height, ss_error *err);
 /* Let what follows be drawn in a panel of this height, with a gap below it [cm], and a label that has so much
  * room [ems]. */
-void ss_script_write_panel(script_stack *stack, double height, double gap, const ss_column *label, script_scale scale,
-                           double room);
+void ss_script_write_panel(script_stack *stack, double height, double gap, const ss_column *label,
+                           script_scale scale, double room);
 
 /* --- script.c: numbers, text, scales --------------------------------------------------------- */
 
@@ -108,12 +108,12 @@ script_extent ss_script_scaled_extent(script_extent of_values, script_scale scal
 
 /* --- axes.c: labels and tics ---------------------------------------------------------------- */
 
-/* The title, broken near its middle and smaller where it is too wide, and under it "lines: " and the label of a column,
- * unless it is NULL. */
+/* The title, broken near its middle and smaller where it is too wide, and under it "lines: " and the label of a
+ * column, unless it is NULL. */
 void ss_script_write_title(FILE *out, const char *title, const ss_column *lines);
 /* Label the horizontal axis with a name and a unit, and what its values are scaled by. */
 void ss_script_write_x_label(FILE *out, const ss_column *column, script_scale scale);
-/* Label number n beside the vertical axis has so much room [ems]; if it is longer, two lines, or smaller letters. */
+/* Label number n beside the vertical axis has so much room [ems]; a longer one has two lines or smaller letters. */
 void ss_script_write_side_label(FILE *out, int n, const ss_column *column, script_scale scale, double room);
 
 /* set AXIS STEP: at most so many intervals over the values, of 1, 2 or 5 times a power of ten; where all

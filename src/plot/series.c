@@ -74,12 +74,6 @@ ss_series_next(series *s, size_t *n, ss_error *err)
 }
 
 ss_status
-ss_series_span(script_span *span, const series *s, const ss_plot_opts *opts, ss_error *err)
-{
-    return ss_script_find_span(span, s->start, s->head->rate, s->rows, opts, err);
-}
-
-ss_status
 ss_series_check(const ss_column *column, script_extent e, const script_span *span, ss_error *err)
 {
     return e.lo <= e.hi ? ss_script_check(column->name, e, err)
@@ -195,7 +189,7 @@ ss_traces_read(trace t[], script_span *span, ss_reader *reader, const size_t col
             ss_extremes_add(&t[c].block, s.value + c * s.piece, got);
     }
     if (st == SS_OK)
-        st = ss_series_span(span, &s, opts, err);
+        st = ss_script_find_span(span, s.start, s.head->rate, s.rows, opts, err);
     for (size_t c = 0; st == SS_OK && c < n; c++)
         st = ss_trace_end(&t[c], &s, span, err);
     ss_series_free(&s);

@@ -28,8 +28,6 @@ ss_status ss_series_begin(series *s, ss_reader *reader, const size_t column[], s
 /* Read the next n > 0 rows that are drawn; values in gaps become NaN.  n = 0: there are none, and all rows have
  * been read.  SS_EINVAL: another value is not finite. */
 ss_status ss_series_next(series *s, size_t *n, ss_error *err);
-/* The part that opts shows, when all rows have been read.  SS_EINVAL: nothing of it. */
-ss_status ss_series_span(script_span *span, const series *s, const ss_plot_opts *opts, ss_error *err);
 /* SS_EINVAL: gnuplot cannot draw values of a column between these, or there are none. */
 ss_status ss_series_check(const ss_column *column, script_extent of_values, const script_span *span,
                           ss_error *err);

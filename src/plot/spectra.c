@@ -83,7 +83,7 @@ ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[
     for (size_t got = 1; st == SS_OK && got > 0;)
         st = ss_series_next(&s, &got, err);
     if (st == SS_OK)
-        st = ss_series_span(&span, &s, &opts, err);
+        st = ss_script_find_span(&span, s.start, s.head->rate, s.rows, &opts, err);
     for (size_t i = 0; st == SS_OK && i < n; i++)
         st = estimate(&spectrum[i], &s, i, span.n, opts.resolution, err);
     ss_series_free(&s);

@@ -105,7 +105,7 @@ read_path(path *p, ss_reader *reader, const size_t column[2], double start, cons
                 ss_script_include(&p->extent[k], s.value[k * s.piece + i]);
     }
     if (st == SS_OK)
-        st = ss_series_span(&span, &s, opts, err);
+        st = ss_script_find_span(&span, s.start, s.head->rate, s.rows, opts, err);
     for (int k = 0; st == SS_OK && k < 2; k++) {
         p->column[k] = &s.head->column[column[k]];
         st = ss_series_check(p->column[k], p->extent[k], &span, err);

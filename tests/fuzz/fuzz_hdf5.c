@@ -1,33 +1,41 @@
-/* fuzz_hdf5.c -- HDF5 files, through the file image interface: as signals, as the arrays of others,
- * as coefficients. */
+/* fuzz_hdf5.c -- HDF5 files, as signals, as the arrays of others, as coefficients. */
 #include <stdlib.h>
+#include <unistd.h>
 #include "io/hdf5/h5.h"
 #include "io/reader.h"
 #include "fuzz.h"
 #include "../read_opts.h"
 
-static hid_t
-open_image(const uint8_t *bytes, size_t size)
+static char path[] = "/tmp/fuzz_hdf5.XXXXXX";
+static FILE *file;
+
+static void
+remove_file(void)
 {
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    H5Pset_fapl_core(access, 65536, 0);
-    H5Pset_file_image(access, (void *)bytes, size);
-    hid_t id = H5Fopen("in", H5F_ACC_RDONLY, access);
-    H5Pclose(access);
-    return id;
+    unlink(path);
+}
+
+/* Make the file of these bytes. */
+static void
+write_file(const uint8_t *bytes, size_t size)
+{
+    if (file == NULL) {
+        int fd = mkstemp(path);
+        fuzz_check(fd >= 0 && (file = fdopen(fd, "w")) != NULL, "a temporary file");
+        atexit(remove_file);
+    }
+    rewind(file);
+    fwrite(bytes, 1, size, file);
+    fuzz_check(fflush(file) == 0 && ftruncate(fileno(file), (off_t)size) == 0, "a temporary file is written");
 }
 
 static void
-read_signal(const uint8_t *bytes, size_t size, const char *dataset, const ss_read_opts *opts)
+read_signal(const char *dataset, const ss_read_opts *opts)
 {
     ss_source *rows = NULL;
     ss_signal *signal = NULL;
     ss_error err = { 0 };
-    hid_t id = open_image(bytes, size);
-    if (id < 0)
-        return;
-    ss_status status = ss_h5_begin_signal(&rows, id, "in", dataset, opts, &err);
+    ss_status status = ss_h5_open_signal(&rows, path, dataset, opts, &err);
     if (status == SS_OK)
         status = ss_source_adjust(&rows, opts, &err);
     if (status == SS_OK)
@@ -41,14 +49,11 @@ read_signal(const uint8_t *bytes, size_t size, const char *dataset, const ss_rea
 }
 
 static void
-read_coefficients(const uint8_t *bytes, size_t size)
+read_coefficients(void)
 {
     ss_error err = { 0 };
     ss_coefficients *c = NULL;
-    hid_t id = open_image(bytes, size);
-    if (id < 0)
-        return;
-    ss_status status = ss_h5_begin_coefficients(&c, id, "in", &err);
+    ss_status status = ss_h5_open_coefficients(&c, path, &err);
     for (size_t i = 0; status == SS_OK && i < c->n_scales; i++) {
         size_t n = c->scale[i].n;
         double *w = malloc(2 * n * sizeof *w);
@@ -67,12 +72,13 @@ LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
         timed = { READ_OPTS, .time = "t" };
     if (size == 0)
         return 0;
+    write_file(bytes, size);
     H5E_BEGIN_TRY {
-        read_signal(bytes, size, NULL, &none);
-        read_signal(bytes, size, "/y", &opts);
-        read_signal(bytes, size, "/signal/a", &none);
-        read_signal(bytes, size, "/signal/a", &timed);
-        read_coefficients(bytes, size);
+        read_signal(NULL, &none);
+        read_signal("/y", &opts);
+        read_signal("/signal/a", &none);
+        read_signal("/signal/a", &timed);
+        read_coefficients();
     } H5E_END_TRY
     return 0;
 }

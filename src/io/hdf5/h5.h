@@ -22,8 +22,8 @@ typedef struct h5_disk {
     int reading, packed;        /* packed: a heap with filters was refused */
     haddr_t eoa, eof;           /* end of what is allocated, of what is there */
 } h5_disk;
-/* A file access list for this disk, to be closed, or < 0.  The driver is to be unregistered behind the file: H5Fclose
- * drops what the file holds of it before its last use. */
+/* A file access list for this disk, to be closed, or < 0.  The driver is to be unregistered behind the file:
+ * H5Fclose drops what the file holds of it before its last use. */
 hid_t ss_h5_disk_access(h5_disk *disk, hid_t *driver);
 
 typedef struct h5_file {
@@ -99,12 +99,7 @@ ss_status ss_h5_read_header(h5_file *file, hid_t group, ss_header **head);
 /* Open /signal, or the array at a path in the file; *out is to be freed even after a failure. */
 ss_status ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts,
                             ss_error *err);
-/* The same for a file that is open, unless id < 0, and becomes the source's. */
-ss_status ss_h5_begin_signal(ss_source **out, hid_t id, const char *path, const char *dataset,
-                             const ss_read_opts *opts, ss_error *err);
 /* The coefficients of a file, which stay there (wavelet_reader.c). */
 ss_status ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err);
-/* The same for a file that is open, unless id < 0, and becomes the map's. */
-ss_status ss_h5_begin_coefficients(ss_coefficients **out, hid_t id, const char *path, ss_error *err);
 
 #endif

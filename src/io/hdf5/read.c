@@ -504,7 +504,7 @@ time_rows(ss_source **out, const ss_read_opts *opts, ss_error *err)
     if (status == SS_OK && s->times > 0)
         own.time = t.names->column[0].name;
     if (status == SS_OK) {
-        ss_sheet_begin_rows(&t);
+        ss_kept_begin(&t.rows, t.name, own.folder, t.n_columns + 1);
         QUIETLY(
             status = fill_table(&t, s);
         );
@@ -524,7 +524,7 @@ time_rows(ss_source **out, const ss_read_opts *opts, ss_error *err)
 static ss_status
 find(rows *s, const char *dataset, const ss_read_opts *opts)
 {
-    ss_status status = s->file.id < 0 ? ss_h5_open(&s->file) : SS_OK;
+    ss_status status = ss_h5_open(&s->file);
     if (status == SS_OK)
         status = *dataset != '\0' ? find_array(s, dataset, opts) : find_signal(s, opts);
     if (status != SS_OK)
@@ -538,8 +538,7 @@ find(rows *s, const char *dataset, const ss_read_opts *opts)
 }
 
 ss_status
-ss_h5_begin_signal(ss_source **out, hid_t id, const char *path, const char *dataset, const ss_read_opts *opts,
-                   ss_error *err)
+ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts, ss_error *err)
 {
     static const struct source_calls calls = { .next = give_rows, .rewind = rewind_rows, .free = free_rows };
     dataset = dataset != NULL ? dataset : "";
@@ -553,7 +552,7 @@ ss_h5_begin_signal(ss_source **out, hid_t id, const char *path, const char *data
         return SS_ENOMEM;
     *out = &s->base;
     s->path = strdup(path);
-    s->file = (h5_file){ .id = id, .path = s->path, .err = err };
+    s->file = (h5_file){ .id = -1, .path = s->path, .err = err };
     ss_status status = SS_ENOMEM;
     if (s->path != NULL)
         QUIETLY(
@@ -564,10 +563,4 @@ ss_h5_begin_signal(ss_source **out, hid_t id, const char *path, const char *data
     if (status == SS_OK && opts->time != NULL && *dataset != '\0')
         return time_rows(out, opts, err);
     return status == SS_OK && s->gaps ? ss_source_fill_gaps(out, opts->gaps, err) : status;
-}
-
-ss_status
-ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts, ss_error *err)
-{
-    return ss_h5_begin_signal(out, -1, path, dataset, opts, err);
 }

@@ -188,7 +188,7 @@ close_file(ss_map_source *source)
 }
 
 ss_status
-ss_h5_begin_coefficients(ss_coefficients **out, hid_t id, const char *path, ss_error *err)
+ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err)
 {
     ss_coefficients *map = calloc(1, sizeof *map);
     file_source *s = calloc(1, sizeof *s);
@@ -199,12 +199,12 @@ ss_h5_begin_coefficients(ss_coefficients **out, hid_t id, const char *path, ss_e
     }
     *s = (file_source){ .source = { read_parts, close_file }, .held = SIZE_MAX, .path = strdup(path), .group = -1,
                         .part = { -1, -1 } };
-    s->file = (h5_file){ .id = id, .path = s->path, .err = &s->error };
+    s->file = (h5_file){ .id = -1, .path = s->path, .err = &s->error };
     map->source = &s->source;
     ss_status st = SS_ENOMEM;
     if (s->path != NULL)
         QUIETLY(
-            st = id < 0 ? ss_h5_open(&s->file) : SS_OK;
+            st = ss_h5_open(&s->file);
             if (st == SS_OK)
                 st = read_grid(s, map);
         );
@@ -217,10 +217,4 @@ ss_h5_begin_coefficients(ss_coefficients **out, hid_t id, const char *path, ss_e
     else
         ss_coefficients_free(map);
     return st;
-}
-
-ss_status
-ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err)
-{
-    return ss_h5_begin_coefficients(out, -1, path, err);
 }

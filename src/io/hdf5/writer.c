@@ -2,8 +2,9 @@
  *
  * /signal has a dataset for each column; /events has datasets of one length; /wavelet has a group a scale, or one
  * rectangle if all scales have one coefficient a sample.  Where the number of samples and coefficients is known,
- * the datasets of a scale are closed when they are full.  If it is not, all datasets stay open, with chunks so short
- * that one of each fits into memory; rows then go to one chunk of each column after the other, however they come. */
+ * the datasets of a scale are closed when they are full.  If it is not, all datasets stay open, with chunks so
+ * short that one of each fits into memory; rows then go to one chunk of each column after the other, however they
+ * come. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -22,8 +23,9 @@
 enum { OPEN_BYTES = 32 << 20,   /* about so much are all chunks in memory if lengths are not known */
        LEAST_CHUNK = 256 };
 
+enum { TIME, RE, IM, EDGE, PARTS };
 struct scale_datasets {
-    hid_t group, time, re, im, edge;
+    hid_t group, part[PARTS];   /* < 0: it is not open */
     int single;                 /* re and im are 32-bit floats */
     size_t done;
     double most;                /* the largest |W| so far */
@@ -241,7 +243,7 @@ copy_grid(h5_writer *w, const ss_coefficients *grid)
     memcpy(w->scale, grid->scale, grid->n_scales * sizeof *w->scale);
     w->dense = 1;
     for (size_t i = 0; i <= grid->n_scales; i++)
-        w->datasets[i] = (struct scale_datasets){ .group = -1, .time = -1, .re = -1, .im = -1, .edge = -1 };
+        w->datasets[i] = (struct scale_datasets){ .group = -1, .part = { -1, -1, -1, -1 } };
     for (size_t i = 0; i < w->n_scales; i++)
         w->dense &= w->scale[i].b_num * w->rate == w->scale[i].b_den && (w->growing || w->scale[i].n == w->length);
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head, NULL);
@@ -342,12 +344,11 @@ open_datasets(h5_writer *w, size_t i, double most)
         { .name = "edge", .unit = "1", .long_name = "1 inside the cone of influence",
           .file_type = H5T_STD_U8LE, .chunk = chunk, .in_rows = 1 },
     };
-    hid_t *const id[] = { &d->time, &d->re, &d->im, &d->edge };
-    for (size_t k = 0; k < sizeof v / sizeof *v; k++) {
-        *id[k] = k == 0 ? ss_h5_new_dataset(group, &v[k], 1, &length, NULL)
+    for (size_t k = 0; k < PARTS; k++) {
+        d->part[k] = k == TIME ? ss_h5_new_dataset(group, &v[k], 1, &length, NULL)
             : ss_h5_new_dataset(group, &v[k], rank, dims + 2 - rank, scales + 2 - rank);
         /* the CF conventions name so the label of a row that is not its index */
-        if (*id[k] < 0 || (k > 0 && w->dense && !ss_h5_write_text(*id[k], "coordinates", "frequency")))
+        if (d->part[k] < 0 || (k != TIME && w->dense && !ss_h5_write_text(d->part[k], "coordinates", "frequency")))
             return fail(w, group, v[k].name);
     }
     if (!w->dense && H5Gclose(group) < 0)
@@ -388,10 +389,10 @@ write_piece(h5_writer *w, size_t i, size_t n, const double *x, size_t samples)
     split(w->value[0], w->value[1], x, n, rounding_of(w->tolerance, w->datasets[i].most));
     for (size_t k = 0; k < n; k++)
         w->edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, w->rate, w->start, w->gap, w->n_gaps);
-    return write_part(w, d->re, d->single, rank, at, n, w->value[0])
-        && write_part(w, d->im, d->single, rank, at, n, w->value[1])
-        && ss_h5_write_piece(d->edge, rank, at, n, H5T_NATIVE_UCHAR, w->edge)
-        && (w->dense || write_times(w, d->time, scale, first, n));
+    return write_part(w, d->part[RE], d->single, rank, at, n, w->value[0])
+        && write_part(w, d->part[IM], d->single, rank, at, n, w->value[1])
+        && ss_h5_write_piece(d->part[EDGE], rank, at, n, H5T_NATIVE_UCHAR, w->edge)
+        && (w->dense || write_times(w, d->part[TIME], scale, first, n));
 }
 
 /* Write the next n coefficients of a scale, as pairs, of a record with so many samples until now. */
@@ -406,7 +407,7 @@ append_coefficients(h5_writer *w, const ss_scale *scale, size_t first, size_t n,
         return ss_fail(&w->output.error, SS_EINVAL, "coefficients that are not the next of a scale");
     ss_status st = SS_OK;
     d->most = w->tolerance > 0 ? largest_of(x, n, d->most) : 0;
-    if (shared->re < 0 && n > 0)
+    if (shared->part[RE] < 0 && n > 0)
         st = open_datasets(w, i, d->most);
     if (st == SS_OK && shared->single && d->most > FLT_MAX)
         st = ss_h5_fail(&w->output.file, SS_ERANGE, w->group, "re", "coefficients of at most 1e20 precede "
@@ -419,11 +420,10 @@ append_coefficients(h5_writer *w, const ss_scale *scale, size_t first, size_t n,
             return fail(w, w->group, "re");
         d->done += m;
     }
-    hid_t *const id[] = { &d->time, &d->re, &d->im, &d->edge };
     int good = 1;
-    for (size_t k = 0; !w->growing && !w->dense && d->done == w->scale[i].n && k < sizeof id / sizeof *id; k++) {
-        good &= *id[k] < 0 || H5Dclose(*id[k]) >= 0;
-        *id[k] = -1;
+    for (size_t k = 0; !w->growing && !w->dense && d->done == w->scale[i].n && k < PARTS; k++) {
+        good &= d->part[k] < 0 || H5Dclose(d->part[k]) >= 0;
+        d->part[k] = -1;
     }
     return good ? SS_OK : fail(w, w->group, "re");
 }
@@ -444,7 +444,7 @@ end_wavelet(h5_writer *w, size_t samples)
     }
     char text[SS_NUMBER_MAX];
     ss_number_format(text, (double)samples);
-    if ((w->dense && !write_times(w, w->datasets->time, &w->scale[0], 0, samples))
+    if ((w->dense && !write_times(w, w->datasets->part[TIME], &w->scale[0], 0, samples))
         || (H5Aexists(root, "samples") <= 0 && !ss_h5_write_text(root, "samples", text))
         || !ss_h5_write_number(w->group, "samples", H5T_STD_I64LE, (double)samples))
         return fail(w, 0, "/wavelet");

@@ -136,16 +136,16 @@ ss_clock_refuse(const char *name, unsigned long line, double late, ss_error *err
                    "sample periods, %.1f is allowed", name, line, fabs(late), CLOCK_TOLERANCE);
 }
 
-/* The error names the row at fault: the one whose step from the row before differs most from the usual step or, if all
- * steps are within the tolerance, the one farthest from the best clock.  A stamp that is off spoils the step to the
- * next row as much, the other way: rounding does not decide which of the two is at fault. */
+/* The error names the row at fault: the one whose step from the row before differs most from the usual step or, if
+ * all steps are within the tolerance, the one farthest from the best clock.  A stamp that is off spoils the step
+ * to the next row as much, the other way: rounding does not decide which of the two is at fault. */
 static ss_status
 refuse(struct stamps s, const struct clock *c, double period, struct off worst, ss_error *err)
 {
     const char *name = s.rows->name;
     if (period > 0 && c->digit > 2 * BY_DIGITS * period)
-        return ss_fail(err, SS_EUNEVEN, "%s: time stamps have too few digits: 1 in the last of them is %.2g sample "
-                       "periods, %.1f is allowed", name, c->digit / period, 2 * BY_DIGITS);
+        return ss_fail(err, SS_EUNEVEN, "%s: time stamps have too few digits: 1 in the last of them is %.2g "
+                       "sample periods, %.1f is allowed", name, c->digit / period, 2 * BY_DIGITS);
     if (c->usual > 0 && period > 0)
         return ss_fail(err, SS_EUNEVEN, "%s:%lu: time stamps are not uniform, with gaps counted too: "
                        "this one is off by %.3g sample periods, %.1f is allowed", name, worst.line,

@@ -17,12 +17,6 @@ ss_sheet_begin(struct sheet *t, const char *name, const ss_read_opts *opts)
 }
 
 void
-ss_sheet_begin_rows(struct sheet *t)
-{
-    ss_kept_begin(&t->rows, t->name, t->opts->folder, t->n_columns + 1);
-}
-
-void
 ss_sheet_free(struct sheet *t)
 {
     ss_kept_free(&t->rows);

@@ -44,9 +44,8 @@ struct sheet {
     int live;                   /* 1: rows come as they are read, of the text that begins with this table */
 };
 
-/* Begin a table, of which all is zeros, and its rows.  SS_ENOMEM, without a text. */
+/* Begin a table, of which all is zeros.  SS_ENOMEM, without a text. */
 ss_status ss_sheet_begin(struct sheet *t, const char *name, const ss_read_opts *opts);
-void ss_sheet_begin_rows(struct sheet *t);
 void ss_sheet_free(struct sheet *t);
 
 /* Add n rows of a table that is no text, from the first-th on, and check that they are numbers. */

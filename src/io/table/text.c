@@ -88,9 +88,9 @@ count_cells(const struct text *x, const char *line, const char *shape, size_t nu
     return numbers > 0 && n > first && strcspn(shape + first, wrong) >= full - first ? n : 0;
 }
 
-/* *yes becomes 1 if this is the first line of data; then next_separator and next_columns are set.  Empty cells at its end
- * count if each has a name in the line above.  Blanks are separators of thousands, and not of cells, where other
- * separators leave as many cells as there are names. */
+/* *yes becomes 1 if this is the first line of data; then next_separator and next_columns are set.  Empty cells at
+ * its end count if each has a name in the line above.  Blanks are separators of thousands, and not of cells, where
+ * other separators leave as many cells as there are names. */
 static ss_status
 is_data(struct text *x, const char *line, int *yes)
 {
@@ -356,7 +356,7 @@ begin_columns(struct text *x, ss_error *err)
         if (t->column[i].kind == COLUMN_TEXT && !(x->labview && row[0] == '\t' && i == 0))
             ss_sheet_warn(t, SS_OK, "%s:%lu: column %zu (\"%s\") %s; it was skipped", t->name, x->in->line, i + 1,
                           t->names->column[i].name, t->column[i].begins_empty ? "is empty" : "holds text");
-    ss_sheet_begin_rows(t);
+    ss_kept_begin(&t->rows, t->name, t->opts->folder, t->n_columns + 1);
     return SS_OK;
 }
 
@@ -381,8 +381,8 @@ begin_table(struct text *x, size_t first, ss_error *err)
     return st;
 }
 
-/* Begin with the first row of numbers, which is the last of the kept lines.  If there is none, or a line of words and
- * numbers stands above it, begin with the first line of words and numbers that is like those below it. */
+/* Begin with the first row of numbers, which is the last of the kept lines.  If there is none, or a line of words
+ * and numbers stands above it, begin with the first line of words and numbers that is like those below it. */
 static ss_status
 begin_first(struct text *x, int found, ss_error *err)
 {
@@ -442,8 +442,8 @@ is_footer(struct text *x, int *yes)
     return SS_OK;
 }
 
-/* Keep the lines from a heading on, up to the first row of another table.  If none follows, the heading is a footer or a
- * malformed row. */
+/* Keep the lines from a heading on, up to the first row of another table.  If none follows, the heading is a
+ * footer or a malformed row. */
 static ss_status
 read_heading(struct text *x, const char *heading, ss_error *err)
 {

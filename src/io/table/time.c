@@ -52,8 +52,8 @@ find_resampled(struct sheet *t, struct stamps s, double usual, double *longest, 
             gap = ss_resample_gap(s.before - start, s.stamp - start, rate);
     double samples = ss_resample_count(start, s.stamp, rate);
     if (samples > MOST_SAMPLES && samples / MOST_PER_STAMP >= (double)s.n + 1)
-        return ss_fail(err, SS_EDATA, "%s: %zu time stamps would become %.15g samples at %g Hz", t->name, s.n, samples,
-                       rate);
+        return ss_fail(err, SS_EDATA, "%s: %zu time stamps would become %.15g samples at %g Hz", t->name, s.n,
+                       samples, rate);
     if (t->opts->gaps != SS_GAPS_REFUSE || gap < 0)
         return SS_OK;
     return ss_fail(err, SS_EGAPS, "%s: a gap around %g s, of more than ten usual steps of %g s", t->name,
