@@ -14,9 +14,7 @@
 #include "io/table/text.h"
 
 enum {
-    MAGIC_BYTES = 8, HEADER_MOST = 1 << 20, RECORD_MOST = 1 << 20,
-    PIECE = 1 << 16             /* values of columns that become rows at a time, or one row */
-};
+    MAGIC_BYTES = 8, HEADER_MOST = 1 << 20, RECORD_MOST = 1 << 20 };
 
 struct field {
     char name[64];
@@ -25,13 +23,17 @@ struct field {
 };
 
 struct npy {
+    ss_source base;
+    struct input *in;
     struct field *field;
     size_t n_fields, room, record;      /* record: bytes of all fields */
     int named, fortran;
     uint64_t shape[2];
     int dimensions;
-    size_t rows, columns;
+    size_t rows, columns, row;          /* row: the next to be given */
     int no_memory;
+    double *value;                      /* of a record */
+    struct kept all;                    /* values of an array whose columns follow each other in the file */
 };
 
 /* --- the header ---------------------------------------------------------------------------- */
@@ -216,8 +218,9 @@ read_header(struct input *in, char **text, ss_error *err)
 
 /* Read the next value or, if there are named fields, the next record; `at` values precede it. */
 static ss_status
-read_record(struct input *in, const struct npy *a, uint64_t at, double *value, ss_error *err)
+read_record(struct npy *a, uint64_t at, ss_error *err)
 {
+    struct input *in = a->in;
     ss_status st = ss_input_need(in, a->record, err);
     if (st != SS_OK)
         return st;
@@ -225,102 +228,92 @@ read_record(struct input *in, const struct npy *a, uint64_t at, double *value, s
         return ss_fail(err, SS_EDATA, "%s: truncated: %llu of %zu values", in->name, (unsigned long long)at,
                        a->rows * a->columns);
     for (size_t f = 0; f < a->n_fields; f++)
-        value[f] = ss_sample_raw(in->buffer + in->lo + a->field[f].at, a->field[f].type);
+        a->value[f] = ss_sample_raw(in->buffer + in->lo + a->field[f].at, a->field[f].type);
     in->lo += a->record;
     return SS_OK;
 }
 
-/* Give the table its columns. */
+/* SS_EDATA: more follows the array. */
 static ss_status
-name_columns(struct sheet *t, const struct npy *a)
+check_end(struct npy *a, ss_error *err)
 {
-    char number[32];
+    ss_status st = ss_input_need(a->in, 1, err);
+    return st != SS_OK || a->in->hi == a->in->lo ? st
+        : ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", a->in->name, a->rows * a->columns);
+}
+
+/* Give all columns of the next rows. */
+static ss_status
+give_npy(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
+{
+    struct npy *a = (struct npy *)s;
+    size_t left = a->rows - a->row, rows = left < max ? left : max;
     ss_status st = SS_OK;
-    t->n_columns = a->columns;
-    t->named = a->named;
-    t->column = calloc(a->columns, sizeof *t->column);
+    for (size_t c = 0; st == SS_OK && a->fortran && rows > 0 && c < a->columns; c++)
+        st = ss_kept_copy(&a->all, c * a->rows + a->row, rows, column[c], err);
+    for (size_t i = 0; !a->fortran && i < rows; i++)
+        for (size_t c = 0; st == SS_OK && c < a->columns; c += a->n_fields) {
+            st = read_record(a, (a->row + i) * a->columns + c, err);
+            for (size_t f = 0; f < a->n_fields; f++)
+                column[c + f][i] = a->value[f];
+        }
+    a->row += rows;
+    *n = rows;
+    return st == SS_OK && rows == 0 ? check_end(a, err) : st;
+}
+
+static void
+free_npy(ss_source *s)
+{
+    struct npy *a = (struct npy *)s;
+    ss_kept_free(&a->all);
+    free(a->field);
+    free(a->value);
+}
+
+/* Read the header, and all values if they do not come row by row. */
+static ss_status
+begin_npy(struct npy *a, const ss_read_opts *opts, ss_error *err)
+{
+    char *text = NULL, number[32];
+    ss_status st = ss_refuse_table(a->in->name, opts, err);
+    if (st == SS_OK)
+        st = read_header(a->in, &text, err);
+    if (st == SS_OK && (!read_dictionary(a, text) || !arrange(a)))
+        st = a->no_memory ? SS_ENOMEM
+            : ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', "
+                      "array.astype('f8')) writes one of one or two dimensions that is", a->in->name,
+                      ss_cell_trim(text));
+    free(text);
     for (size_t c = 0; st == SS_OK && c < a->columns; c++) {
         snprintf(number, sizeof number, "ch%zu", c + 1);
         const char *name = a->named ? a->field[c].name : "";
-        st = ss_header_add_column(t->names, *name != '\0' ? name : number, "", NULL);
+        st = ss_header_add_column(a->base.head, *name != '\0' ? name : number, "", NULL);
     }
-    return t->column != NULL ? st : SS_ENOMEM;
-}
-
-/* Keep all values of an array whose columns follow each other in the file. */
-static ss_status
-keep_values(struct input *in, const struct npy *a, struct kept *value, ss_error *err)
-{
-    double x;
-    ss_status st = SS_OK;
-    for (uint64_t i = 0; st == SS_OK && i < a->rows * a->columns; i++)
-        if ((st = read_record(in, a, i, &x, err)) == SS_OK)
-            st = ss_kept_add(value, &x, err);
-    return st == SS_OK ? ss_kept_end(value, err) : st;
-}
-
-/* Read the rows, piece by piece. */
-static ss_status
-fill_table(struct sheet *t, struct input *in, const struct npy *a, ss_error *err)
-{
-    size_t piece = 1 + PIECE / a->columns;
-    double **column = ss_columns_new(a->columns, piece), *record = malloc(a->n_fields * sizeof *record);
-    struct kept value = { .name = NULL };
-    ss_kept_begin(&value, in->name, t->opts->folder, 1);
-    ss_status st = column == NULL || record == NULL ? SS_ENOMEM : a->fortran ? keep_values(in, a, &value, err) : SS_OK;
-    for (size_t first = 0, n; st == SS_OK && first < a->rows; first += n) {
-        n = a->rows - first < piece ? a->rows - first : piece;
-        for (size_t c = 0; st == SS_OK && a->fortran && c < a->columns; c++)
-            st = ss_kept_copy(&value, c * a->rows + first, n, column[c], err);
-        for (size_t i = 0; !a->fortran && i < n; i++)
-            for (size_t c = 0; st == SS_OK && c < a->columns; c += a->n_fields) {
-                st = read_record(in, a, (first + i) * a->columns + c, record, err);
-                for (size_t f = 0; f < a->n_fields; f++)
-                    column[c + f][i] = record[f];
-            }
-        if (st == SS_OK)
-            st = ss_sheet_add_columns(t, column, first, n, err);
-    }
-    ss_kept_free(&value);
-    free(column);
-    free(record);
-    return st == SS_OK ? ss_kept_end(&t->rows, err) : st;
+    if (st == SS_OK && (a->value = malloc(a->n_fields * sizeof *a->value)) == NULL)
+        st = SS_ENOMEM;
+    ss_kept_begin(&a->all, a->in->name, opts->folder, 1);
+    for (uint64_t i = 0; st == SS_OK && a->fortran && i < a->rows * a->columns; i++)
+        if ((st = read_record(a, i, err)) == SS_OK)
+            st = ss_kept_add(&a->all, a->value, err);
+    return st == SS_OK ? ss_kept_end(&a->all, err) : st;
 }
 
 static ss_status
 open_npy(ss_source **out, const struct opening *o, ss_error *err)
 {
-    struct input *in = o->in;
-    struct sheet t = { .names = NULL };
-    struct npy a = { .field = NULL };
-    char *text = NULL;
-    in->share = 0.5;                            /* of the work; the other half is to give the rows */
-    ss_status st = ss_sheet_begin(&t, in->name, o->opts);
-    if (st == SS_OK)
-        st = ss_refuse_table(in->name, o->opts, err);
-    if (st == SS_OK)
-        st = read_header(in, &text, err);
-    if (st == SS_OK && (!read_dictionary(&a, text) || !arrange(&a)))
-        st = a.no_memory ? SS_ENOMEM
-            : ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', "
-                      "array.astype('f8')) writes one of one or two dimensions that is", in->name,
-                      ss_cell_trim(text));
-    if (st == SS_OK)
-        st = name_columns(&t, &a);
-    if (st == SS_OK) {
-        ss_kept_begin(&t.rows, t.name, o->opts->folder, t.n_columns + 1);
-        st = fill_table(&t, in, &a, err);
-    }
-    if (st == SS_OK)
-        st = ss_input_need(in, 1, err);
-    if (st == SS_OK && in->hi > in->lo)
-        st = ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", in->name, a.rows * a.columns);
-    if (st == SS_OK)
-        st = ss_sheet_give(out, &t, in->size > 0 ? in->progress : (ss_progress){ NULL, NULL }, err);
-    ss_sheet_free(&t);
-    free(a.field);
-    free(text);
-    return st == SS_ENOMEM ? ss_fail_memory(err, in->name) : st;
+    static const struct source_calls calls = { .next = give_npy, .free = free_npy };
+    struct npy *a = ss_source_new(sizeof *a, &calls, o->in->name, err);
+    if (a == NULL)
+        return SS_ENOMEM;
+    *out = &a->base;
+    a->in = o->in;
+    a->in->share = 0.5;                         /* of the work; the other half is to give the rows */
+    ss_status st = begin_npy(a, o->opts, err);
+    if (st == SS_ENOMEM)
+        ss_fail_memory(err, o->in->name);
+    return st != SS_OK ? st : ss_sheet_of_source(out, o->opts, a->named, o->in->size > 0 ? o->in->progress
+                                                 : (ss_progress){ NULL, NULL }, err);
 }
 
 FORMAT(npy) = { .name = "npy", .magic = "\223NUMPY", .open = open_npy };

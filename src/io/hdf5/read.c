@@ -172,6 +172,22 @@ make_header(rows *s, hid_t group, const char *dataset, const array *shape, doubl
     return status;
 }
 
+/* Times are the last column.  Their unit is the s of "s since 1970-01-01 00:00". */
+static ss_status
+name_times(rows *s, const char *time)
+{
+    const char *slash = strrchr(time, '/');
+    char *unit = NULL;
+    ss_status status = ss_h5_get_text(&s->file, s->times, "units", &unit);
+    char *since = unit != NULL ? strstr(unit, " since ") : NULL;
+    if (since != NULL)
+        *since = '\0';
+    if (status == SS_OK)
+        status = ss_header_add_column(s->base.head, slash != NULL ? slash + 1 : time, unit, NULL);
+    free(unit);
+    return status;
+}
+
 /* Open the times of an array: at a path, or with a name in its group, unless a column has this name. */
 static ss_status
 find_times(rows *s, hid_t group, const char *time)
@@ -186,7 +202,7 @@ find_times(rows *s, hid_t group, const char *time)
     if (status == SS_OK && (shape.columns > 1 || shape.rows != s->n))
         status = ss_h5_fail(&s->file, SS_EDATA, group, time, "not one time for each row of the signal");
     s->times_by_columns = shape.transposed;
-    return status;
+    return status == SS_OK ? name_times(s, time) : status;
 }
 
 static ss_status
@@ -218,7 +234,7 @@ find_array(rows *s, const char *dataset, const ss_read_opts *opts)
                           "be chosen");
     s->n = shape.rows;
     s->by_columns = shape.transposed;
-    s->gaps = opts->gaps != SS_GAPS_REFUSE;
+    s->gaps = opts->gaps != SS_GAPS_REFUSE || opts->time != NULL;   /* a table refuses them itself */
     status = make_header(s, group, dataset, &shape, opts->time != NULL ? 1 : opts->rate);
     return status == SS_OK && opts->time != NULL ? find_times(s, group, opts->time) : status;
 }
@@ -340,6 +356,13 @@ piece_rows(const rows *s)
     return n < s->n ? (size_t)n : s->n;
 }
 
+/* The columns of each dataset. */
+static size_t
+columns_of(const rows *s)
+{
+    return s->n_datasets > 1 || s->is_own ? 1 : s->base.head->n_columns - (s->times > 0);
+}
+
 static ss_status
 read_times(rows *s, size_t row, size_t n, double *times)
 {
@@ -390,10 +413,12 @@ read_dataset(rows *s, size_t d, size_t n, size_t columns)
 static ss_status
 read_piece(rows *s, size_t n)
 {
-    size_t columns = s->n_datasets > 1 ? 1 : s->base.head->n_columns;
+    size_t all = s->base.head->n_columns;
     ss_status status = s->is_own && n > 0 ? check_times(s, n) : SS_OK;
     for (size_t d = 0; status == SS_OK && n > 0 && d < s->n_datasets; d++)
-        status = read_dataset(s, d, n, columns);
+        status = read_dataset(s, d, n, columns_of(s));
+    if (status == SS_OK && n > 0 && s->times > 0 && !s->is_own)
+        status = read_times(s, s->row, n, s->value[all - 1]);
     if (status != SS_OK)
         return status;
     s->row += n;
@@ -446,79 +471,6 @@ free_rows(ss_source *base)
     free(s->raw);
 }
 
-/* --- rows with times ----------------------------------------------------------------------- */
-
-/* Give the table its columns: times, if they are a dataset, and those of the array.  The unit of times is the s
- * of "s since 1970-01-01 00:00". */
-static ss_status
-name_columns(struct sheet *t, rows *s, const char *time)
-{
-    const ss_header *head = s->base.head;
-    const char *slash = strrchr(time, '/');
-    char *unit = NULL;
-    ss_status status = s->times > 0 ? ss_h5_get_text(&s->file, s->times, "units", &unit) : SS_OK;
-    char *since = unit != NULL ? strstr(unit, " since ") : NULL;
-    if (since != NULL)
-        *since = '\0';
-    if (status == SS_OK && s->times > 0)
-        status = ss_header_add_column(t->names, slash != NULL ? slash + 1 : time, unit, NULL);
-    free(unit);
-    for (size_t c = 0; status == SS_OK && c < head->n_columns; c++)
-        status = ss_header_add_column(t->names, head->column[c].name, head->column[c].unit, NULL);
-    t->named = 1;
-    t->n_columns = t->names->n_columns;
-    t->column = calloc(t->n_columns, sizeof *t->column);
-    return status == SS_OK && t->column == NULL ? SS_ENOMEM : status;
-}
-
-static ss_status
-fill_table(struct sheet *t, rows *s)
-{
-    size_t own = s->times > 0, n;
-    double **column = ss_columns_new(t->n_columns, s->piece);
-    ss_status status = column != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t done = 0; status == SS_OK && done < s->n; done += n) {
-        status = ss_source_rows(&s->base, column + own, s->piece, &n, s->file.err);
-        if (status == SS_OK && own)
-            status = read_times(s, done, n, *column);
-        if (status == SS_OK)
-            status = ss_sheet_add_columns(t, column, done, n, s->file.err);
-    }
-    free(column);
-    return status == SS_OK ? ss_kept_end(&t->rows, s->file.err) : status;
-}
-
-/* Make a table of the rows, with opts->time as its column of time, and *out the source of its samples. */
-static ss_status
-time_rows(ss_source **out, const ss_read_opts *opts, ss_error *err)
-{
-    rows *s = (rows *)*out;
-    ss_read_opts own = *opts;
-    struct sheet t = { .names = NULL };
-    ss_status status = ss_sheet_begin(&t, s->base.name, &own);
-    s->gaps = 1;                                /* the table refuses them */
-    if (status == SS_OK)
-        QUIETLY(
-            status = name_columns(&t, s, opts->time);
-        );
-    if (status == SS_OK && s->times > 0)
-        own.time = t.names->column[0].name;
-    if (status == SS_OK) {
-        ss_kept_begin(&t.rows, t.name, own.folder, t.n_columns + 1);
-        QUIETLY(
-            status = fill_table(&t, s);
-        );
-    }
-    *out = NULL;
-    if (status == SS_OK)
-        status = ss_sheet_give(out, &t, (ss_progress){ NULL, NULL }, err);
-    ss_sheet_free(&t);
-    if (status == SS_ENOMEM)
-        ss_fail_memory(err, s->base.name);
-    ss_source_free(&s->base);
-    return status;
-}
-
 /* --- opening ------------------------------------------------------------------------------- */
 
 static ss_status
@@ -529,11 +481,10 @@ find(rows *s, const char *dataset, const ss_read_opts *opts)
         status = *dataset != '\0' ? find_array(s, dataset, opts) : find_signal(s, opts);
     if (status != SS_OK)
         return status;
-    size_t all = s->base.head->n_columns, columns = s->n_datasets > 1 || all == 0 ? 1 : all;
     s->base.length = s->n;
     s->piece = piece_rows(s);
-    s->value = ss_columns_new(all, s->piece);
-    s->raw = malloc((s->piece * columns + 1) * sizeof *s->raw);     /* times: one column */
+    s->value = ss_columns_new(s->base.head->n_columns, s->piece);
+    s->raw = malloc((s->piece * columns_of(s) + 1) * sizeof *s->raw);       /* times: one column */
     return s->value != NULL && s->raw != NULL ? SS_OK : SS_ENOMEM;
 }
 
@@ -560,7 +511,10 @@ ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const 
         );
     if (status == SS_ENOMEM)
         ss_fail(err, status, "%s: %s", path, ss_strerror(status));
-    if (status == SS_OK && opts->time != NULL && *dataset != '\0')
-        return time_rows(out, opts, err);
+    if (status == SS_OK && opts->time != NULL && *dataset != '\0') {
+        ss_read_opts own = *opts;
+        own.time = s->times > 0 ? s->base.head->column[s->base.head->n_columns - 1].name : opts->time;
+        return ss_sheet_of_source(out, &own, 1, (ss_progress){ NULL, NULL }, err);
+    }
     return status == SS_OK && s->gaps ? ss_source_fill_gaps(out, opts->gaps, err) : status;
 }

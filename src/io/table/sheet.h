@@ -48,9 +48,6 @@ struct sheet {
 ss_status ss_sheet_begin(struct sheet *t, const char *name, const ss_read_opts *opts);
 void ss_sheet_free(struct sheet *t);
 
-/* Add n rows of a table that is no text, from the first-th on, and check that they are numbers. */
-ss_status ss_sheet_add_columns(struct sheet *t, double *const column[], size_t first, size_t n, ss_error *err);
-
 /* Pass a warning to the caller's function, if there is one. */
 SS_PRINTF(3, 4)
 void ss_sheet_warn(const struct sheet *t, ss_status about, const char *format, ...);
@@ -85,5 +82,8 @@ ss_sheet_stamp(const struct time_column *c, const double *row)
  * more come later, the table.  progress is told of the rows that were given, as the
  * second half of the work. */
 ss_status ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *err);
+/* Let *s, whose rows are those of a table that is no text, be the source of its samples; on failure it is freed, and *s
+ * NULL.  named: are its columns? */
+ss_status ss_sheet_of_source(ss_source **s, const ss_read_opts *opts, int named, ss_progress progress, ss_error *err);
 
 #endif
