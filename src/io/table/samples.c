@@ -2,7 +2,7 @@
  *
  * A row is the sample that its stamp shows, and samples without a row are NaN; with opts->resample, a spline leads
  * from the rows to the samples. */
-#include "io/table/text.h"
+#include "io/table/sheet.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 
 struct samples {
     ss_source base;
-    struct text *live;          /* whose rows come later, or NULL */
+    struct sheet *live;         /* the table whose rows come later, or NULL */
     struct kept own, *rows;     /* rows: of this table, or its own */
     struct timing timing;
     size_t *of, n;              /* the columns of the table that are given */
@@ -42,7 +42,7 @@ read_row(struct samples *s, int may_wait, ss_error *err)
     size_t time = s->timing.time.column;
     do {
         if (s->live != NULL && s->next == s->rows->n) {
-            ss_status st = may_wait ? ss_text_next_rows(s->live, err) : SS_OK;
+            ss_status st = may_wait ? s->live->later->next(s->live, err) : SS_OK;
             if (st != SS_OK || s->next == s->rows->n)
                 return st;
         }
@@ -105,7 +105,7 @@ static int
 samples_wait(const ss_source *base)
 {
     const struct samples *s = (const struct samples *)base;
-    return s->next == s->rows->n && ss_input_waits(s->live->in);
+    return s->next == s->rows->n && s->live->later->waits(s->live);
 }
 
 static void
@@ -113,7 +113,7 @@ free_samples(ss_source *base)
 {
     struct samples *s = (struct samples *)base;
     if (s->live != NULL)
-        ss_text_free(s->live);
+        s->live->later->free(s->live);
     ss_kept_free(&s->own);
     free(s->of);
 }
@@ -154,7 +154,7 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     if (st != SS_OK)
         return st;
     int resampled = timing.longest > 0, stamped = resampled || (t->opts->stamps && timing.time.column != NONE);
-    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : t->live ? &live : &samples_calls, t->name,
+    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : t->later != NULL ? &live : &samples_calls, t->name,
                                        err);
     if (s == NULL)
         return SS_ENOMEM;
@@ -162,7 +162,7 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     s->timing = timing;
     s->progress = progress;
     s->rows = &t->rows;
-    s->live = t->live ? (struct text *)t : NULL;
+    s->live = t->later != NULL ? t : NULL;
     if (s->live == NULL) {
         s->own = t->rows;
         s->own.name = s->base.name;
@@ -174,6 +174,54 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     if (st == SS_OK && resampled)
         st = ss_source_resample(out, t->names->rate, 1, timing.longest, err);
     return st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE ? ss_source_fill_gaps(out, t->opts->gaps, err) : st;
+}
+
+/* --- of rows that are no text --------------------------------------------------------------- */
+
+/* Add all rows of a source, and check that they are numbers. */
+static ss_status
+add_rows(struct sheet *t, ss_source *from, ss_error *err)
+{
+    size_t piece = ss_source_piece(from), n = 1;
+    double **column = ss_columns_new(t->n_columns, piece), *row = malloc((t->n_columns + 1) * sizeof *row);
+    ss_status st = column != NULL && row != NULL ? SS_OK : SS_ENOMEM;
+    while (st == SS_OK && n > 0) {
+        st = ss_source_rows(from, column, piece, &n, err);
+        for (size_t i = 0; st == SS_OK && i < n; i++) {
+            size_t number = (size_t)t->rows.n + 1;
+            row[t->n_columns] = (double)number;
+            for (size_t c = 0; st == SS_OK && c < t->n_columns; c++) {
+                row[c] = isfinite(column[c][i]) ? column[c][i] : NAN;
+                if (isnan(row[c]) && t->opts->gaps == SS_GAPS_REFUSE)
+                    st = ss_fail(err, SS_EGAPS, "%s: row %zu, column %s: not a finite number", t->name, number,
+                                 t->names->column[c].name);
+            }
+            st = st == SS_OK ? ss_kept_add(&t->rows, row, err) : st;
+        }
+    }
+    free(column);
+    free(row);
+    return st == SS_OK ? ss_kept_end(&t->rows, err) : st;
+}
+
+ss_status
+ss_sheet_of_source(ss_source **s, const ss_read_opts *opts, int named, ss_progress progress, ss_error *err)
+{
+    ss_source *from = *s;
+    struct sheet t = { .name = from->name, .opts = opts, .named = named, .n_columns = from->head->n_columns };
+    *s = NULL;
+    t.column = calloc(t.n_columns, sizeof *t.column);
+    ss_status st = t.column != NULL ? ss_header_copy(&t.names, from->head, NULL) : SS_ENOMEM;
+    ss_kept_begin(&t.rows, t.name, opts->folder, t.n_columns + 1);
+    if (st == SS_OK)
+        st = add_rows(&t, from, err);
+    if (st == SS_OK)
+        st = ss_sheet_give(s, &t, progress, err);
+    if (st == SS_ENOMEM)
+        ss_fail_memory(err, from->name);
+    ss_sheet_free(&t);
+    ss_source_free(from);
+    return st;
 }
 
 /* --- of a source that cannot go back ------------------------------------------------------- */

@@ -27,6 +27,15 @@ struct sheet_column {
     struct stamp_column stamps; /* of stamps */
 };
 
+struct sheet;
+/* A table whose rows come as they are read. */
+struct sheet_calls {
+    /* Drop the rows, and add those that have arrived, at least one unless there are no more. */
+    ss_status (*next)(struct sheet *t, ss_error *err);
+    int (*waits)(const struct sheet *t);
+    void (*free)(struct sheet *t);
+};
+
 struct sheet {
     const char *name;           /* of the file, for messages */
     const ss_read_opts *opts;
@@ -41,7 +50,7 @@ struct sheet {
     const char *clue;           /* the line above the data that may give the rate, or NULL; its number */
     unsigned long clue_line;
     struct kept rows;           /* each of them the values of all columns and the number of its line */
-    int live;                   /* 1: rows come as they are read, of the text that begins with this table */
+    const struct sheet_calls *later;    /* NULL: all rows are there */
 };
 
 /* Begin a table, of which all is zeros.  SS_ENOMEM, without a text. */

@@ -534,10 +534,17 @@ read_tables(struct text *x, ss_error *err)
 
 /* --- rows as they come --------------------------------------------------------------------- */
 
-ss_status
-ss_text_next_rows(struct text *x, ss_error *err)
+static int
+text_waits(const struct sheet *t)
 {
-    struct sheet *t = &x->t;
+    return ss_input_waits(((const struct text *)t)->in);
+}
+
+/* Drop the rows, and add those that have arrived, at least one unless the text ends. */
+static ss_status
+next_rows(struct sheet *t, ss_error *err)
+{
+    struct text *x = (struct text *)t;
     ss_status st = SS_OK;
     t->rows.first = t->rows.n;
     t->rows.held = 0;
@@ -592,23 +599,25 @@ find_rate_line(const struct text *x)
     return NULL;
 }
 
-void
-ss_text_free(struct text *x)
+static void
+free_text(struct sheet *t)
 {
+    struct text *x = (struct text *)t;
     drop_lines(x);
     free(x->head);
     free(x->row);
     free(x->cell);
     free(x->copy);
-    ss_sheet_free(&x->t);
+    ss_sheet_free(t);
     free(x);
 }
 
 static ss_status
 open_text(ss_source **out, const struct opening *o, ss_error *err)
 {
+    static const struct sheet_calls as_they_come = { next_rows, text_waits, free_text };
     struct input *in = o->in;
-    int found;
+    int live = 0, found;
     struct text *x = calloc(1, sizeof *x);
     if (x == NULL)
         return ss_fail_memory(err, in->name);
@@ -626,8 +635,10 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
     if (st == SS_OK)
         st = begin_first(x, found, err);
     if (st == SS_OK)
-        st = read_first(x, &x->t.live, err);
-    if (st == SS_OK && !x->t.live)
+        st = read_first(x, &live, err);
+    if (st == SS_OK && live)
+        x->t.later = &as_they_come;
+    else if (st == SS_OK)
         st = read_tables(x, err);
     if (st == SS_OK)
         st = ss_kept_end(&x->t.rows, err);
@@ -638,8 +649,8 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
     x->t.clue_line = clue != NULL ? clue->number : 0;
     if (st == SS_OK)
         st = ss_sheet_give(out, &x->t, in->size > 0 ? in->progress : (ss_progress){ NULL, NULL }, err);
-    if (*out == NULL || !x->t.live)
-        ss_text_free(x);
+    if (*out == NULL || x->t.later == NULL)
+        free_text(&x->t);
     return st == SS_ENOMEM ? ss_fail_memory(err, in->name) : st;
 }
 

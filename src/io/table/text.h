@@ -53,10 +53,6 @@ size_t ss_text_split(struct text *x, const char *line, char separator);
  * number, e for an empty cell, t for text.  *numbers counts the finite numbers.  NULL: no memory. */
 char *ss_text_shape(struct text *x, const char *line, char separator, size_t *numbers);
 
-/* Of a live table: drop the rows, and add those that have arrived, at least one unless there are no more. */
-ss_status ss_text_next_rows(struct text *x, ss_error *err);
-void ss_text_free(struct text *x);
-
 /* Names (names.c): find names, units and a clock in the lines above the data.
  *
  * A line with numbers in it is either a word about the record ("Rate;1000") or a row of data with
