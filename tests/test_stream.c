@@ -617,13 +617,12 @@ refuses_streams_that_are_cut_or_changed(void **state)
         }
         size_t cut = (size_t)(strstr(text, "# samples") - text);
         assert_refused(text, cut, "", "", "cut short");
-        assert_refused(text, size, "samples: 300", "samples: 301", "of influence of 301 samples");
-        assert_refused(text, size, "samples: 300", "samples: 3000", "of influence of 3000 samples");
+        assert_refused(text, size, "samples: 300", "samples: 301", "ends with ");
+        assert_refused(text, size, "samples: 300", "samples: 3000", "ends with ");
         assert_refused(text, size, "samples: 300", "samples: 290", "scale");
         assert_refused(text, size, "samples: 300", "samples: 0.5", "length of a record");
         assert_refused(text, size, "samples: 300", "samples: x", "length of a record");
         assert_refused(text, size, "samples: 300", "samples: 300\n# samples: 300", "twice");
-        assert_refused(text, size, "\t1\n# samples", "\t0\n# samples", "edge is 0");
         assert_refused(text, size, "stream: yes", "stream: no", "lack their option 'samples");
     }
     free(text);
