@@ -14,12 +14,26 @@
 #define ROOM 9.0                /* for the label of a panel [ems] */
 enum { POINTS = 8000 };         /* of a line */
 
-/* Write a panel whose axes are these columns, scaled by nothing. */
-static void
-write_labels(script_stack *stack, double height, const ss_column *x, const ss_column *y)
+/* A column, what is drawn of it, and its scale. */
+typedef struct axis {
+    ss_column column;
+    script_extent extent;
+    script_scale scale;
+} axis;
+
+static axis
+axis_of(const ss_column *column, script_extent extent)
 {
-    ss_script_write_panel(stack, height, AXIS, y, ss_script_power(0), ROOM);
-    ss_script_write_x_label(stack->out, x, ss_script_power(0));
+    return (axis){ *column, extent, ss_script_scale(extent) };
+}
+
+static void
+write_panel(script_stack *stack, double height, const axis *x, const axis *y, int intervals)
+{
+    ss_script_write_panel(stack, height, AXIS, &y->column, y->scale, ROOM);
+    ss_script_write_x_label(stack->out, &x->column, x->scale);
+    ss_script_write_tics(stack->out, "xtics", ss_script_scaled_extent(x->extent, x->scale), 6);
+    ss_script_write_tics(stack->out, "ytics", ss_script_scaled_extent(y->extent, y->scale), intervals);
 }
 
 ss_status
@@ -38,10 +52,10 @@ ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, 
         return ss_fail(err, SS_EINVAL, "nothing to draw: %s", r->answer);
     const double *x = signal->values + motion * signal->n, *f = signal->values + force * signal->n;
     const ss_column *of_x = &signal->head->column[motion], *of_f = &signal->head->column[force];
-    const ss_column time = { .name = (char *)"t", .unit = (char *)"s" };
-    const ss_column left = { .name = (char *)"left", .unit = of_f->unit };
+    const ss_column t = { .name = (char *)"t", .unit = (char *)"s" };
+    const ss_column rest = { .name = (char *)"left", .unit = of_f->unit };
     const ss_column explained = { .name = (char *)"explained of the force that was held out", .unit = (char *)"" };
-    const ss_column law = { .name = (char *)"", .unit = (char *)"" };
+    const ss_column none = { .name = (char *)"", .unit = (char *)"" };
     if (st == SS_OK)
         st = ss_script_check(of_x->name, ss_script_extent(x, signal->n), err);
     if (st == SS_OK)
@@ -51,11 +65,19 @@ ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, 
                                    SCRIPT_LEGEND + LOOP + LEFT + BAR * (double)r->n + 3 * AXIS, err);
     if (st != SS_OK)
         return st;
+    for (size_t i = 0; i < signal->n; i++)
+        ss_script_include(&of_left, f[i] - r->predicted[i]);
+    const axis place = axis_of(of_x, ss_script_extent(x, signal->n));
+    const axis forces = axis_of(of_f, ss_script_extent(f, signal->n));
+    const axis time = axis_of(&t, ss_script_extent(r->time, signal->n)), left = axis_of(&rest, of_left);
+    const axis share = axis_of(&explained, (script_extent){ 0, 1 }), law = axis_of(&none, (script_extent){ 0, 1 });
     stack.top -= SCRIPT_LEGEND;
     fputs("$loop << EOD\n", out);
     for (size_t i = 0, stride = 1 + signal->n / POINTS; i < signal->n; i += stride)
-        ss_print(out, "%.8g %.6g %.6g %.6g %.6g\n", r->time[i], x[i], f[i], r->predicted[i],
-                 f[i] - r->predicted[i]);
+        ss_print(out, "%.8g %.6g %.6g %.6g %.6g\n", ss_script_scaled(r->time[i], time.scale),
+                 ss_script_scaled(x[i], place.scale), ss_script_scaled(f[i], forces.scale),
+                 ss_script_scaled(r->predicted[i], forces.scale),
+                 ss_script_scaled(f[i] - r->predicted[i], left.scale));
     fputs("EOD\n$laws << EOD\n", out);
     for (size_t i = 0; i < r->n; i++)
         ss_print(out, "%.6g %.6g %zu %d\n", fmax(r->row[i].explained, 0), r->row[i].explained_error, r->n - i,
@@ -63,18 +85,15 @@ ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, 
     fputs("EOD\n", out);
     ss_script_write_frame(out, 0.22, 0.965);
     fputs("set autoscale xfix; set offsets graph 0.03,graph 0.03,graph 0.05,graph 0.05\n", out);
-    write_labels(&stack, LOOP, of_x, of_f);
+    write_panel(&stack, LOOP, &place, &forces, 8);
     ss_script_write_key(out);
     fputs("plot $loop using 2:3 with lines lw 1 lc rgb '" SKY_BLUE "' title 'measured', "
           "$loop using 2:4 with lines lw 0.8 lc rgb '" VERMILION "' title ", out);
     ss_script_quote(out, r->row[0].law, 0);
     fputs("\nunset key\n", out);
-    for (size_t i = 0; i < signal->n; i++)
-        ss_script_include(&of_left, f[i] - r->predicted[i]);
-    ss_script_write_tics(out, "ytics", of_left, 4);
-    write_labels(&stack, LEFT, &time, &left);
+    write_panel(&stack, LEFT, &time, &left, 4);
     fputs("plot 0 lc rgb '" ZERO_COLOUR "' lw 0.7, $loop using 1:5 with lines lw 0.7 lc rgb '" BLACK "'\n", out);
-    write_labels(&stack, BAR * (double)r->n, &explained, &law);
+    write_panel(&stack, BAR * (double)r->n, &share, &law, 4);
     ss_script_write_frame(out, 0.3, 0.965);
     ss_print(out, "set offsets 0,0,0,0; set xrange [0:1]; set yrange [0.4:%zu.6]; set ytics (", r->n);
     for (size_t i = 0; i < r->n; i++) {
