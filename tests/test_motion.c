@@ -359,6 +359,21 @@ names_dry_friction_read_late(void **unused)
     ss_signal_free(r.signal);
 }
 
+/* A converter's steps of .03, so that friction has one value either way. */
+static void
+knows_a_converter(void **unused)
+{
+    recording r = record();
+    (void)unused;
+    for (int i = 0; i < ROWS; i++)
+        r.f[i] = 0.03 * round((r.v[i] > 0 ? 2 : -2) / 0.03);
+    ss_motion_ranking *k = rank(&r, 0, NULL);
+    assert_named(k, "coulomb");
+    assert_number(k, "friction", 2, "kN");
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
 /* Friction that wanders by 4 % in the record, and a hum of .6 %: 20 times the noise, but no error of the law. */
 static void
 names_friction_that_wanders(void **unused)
@@ -501,6 +516,7 @@ main(void)
         cmocka_unit_test(names_rate_and_state_where_the_speed_varies),
         cmocka_unit_test(names_dry_friction),
         cmocka_unit_test(names_dry_friction_read_late),
+        cmocka_unit_test(knows_a_converter),
         cmocka_unit_test(names_friction_that_wanders),
         cmocka_unit_test(names_dry_friction_by_a_coarse_encoder),
         cmocka_unit_test(does_not_judge_what_tells_nothing),

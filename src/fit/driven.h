@@ -44,6 +44,7 @@ typedef struct driven {
     double step;                    /* mean time between rows, before they were thinned */
     double length, speed, force, middle;    /* the units, and the mean of x, in those of the recording */
     int sign;                       /* of f in the recording */
+    double code, codes;             /* the step of f's converter, and how many values f visits evenly */
     size_t clipped;
     double angle;                   /* radians in the recording's unit of motion; 0: it is no angle */
     double most_delay;              /* rows */

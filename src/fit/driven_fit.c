@@ -6,7 +6,7 @@
  * thinned, and at the fits of the laws that the law contains.
  *
  * * What a fit leaves is no white noise.  So errors come from the scatter of the slopes of the squares between
- * blocks of time (the sandwich), and from the difference of the fits of the two folds. */
+ * blocks of time (the sandwich), from the difference of the fits of the two folds, and from the converter's steps. */
 #include "fit/driven.h"
 
 #include <gsl/gsl_linalg.h>
@@ -373,8 +373,12 @@ find_covariance(problem *p, driven_result *r, double *slopes)
                 h[k * m + l] += s[k] * s[l];
         }
     }
-    for (size_t k = 0; k < m; k++)
+    /* The mean of a value is known to half a step of the converter, unless noise moves it (Widrow 1956). */
+    const double stands = d->code / 2 * exp(-2 * M_PI * M_PI * fit->loss / (d->code * d->code));
+    for (size_t k = 0; k < m; k++) {
         size[k] = sqrt(h[k * (m + 1)]);
+        r->covariance[of[k]][of[k]] = size[k] > 0 ? stands * stands / d->codes * (double)d->n / (size[k] * size[k]) : 0;
+    }
     for (size_t k = 0; k < m; k++)
         for (size_t l = 0; l <= k; l++)
             h[k * m + l] = size[k] > 0 && size[l] > 0
