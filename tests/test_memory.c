@@ -634,9 +634,10 @@ steps(int variant)
 {
     enum { ROWS = 60 };
     static double values[3 * ROWS];
-    static ss_column column[] = { { (char *)"x", (char *)"um" }, { (char *)"mu", (char *)"" }, { (char *)"t", (char *)"s" } };
+    static ss_column column[] = { { (char *)"x", (char *)"um" }, { (char *)"mu", (char *)"" },
+                                  { (char *)"t", (char *)"s" } };
     static ss_header head = { .rate = 1, .n_columns = 3, .column = column };
-    const ss_signal path = { &head, ROWS, values };
+    const ss_signal pulled = { &head, ROWS, values };
     ss_steps *made = NULL;
     for (int i = 0; i < ROWS; i++) {
         const double x = i < 30 ? i : 30 + 10 * (i - 30), slid = x > 30 ? x - 30 : 0;
@@ -645,7 +646,7 @@ steps(int variant)
             + 1e-5 * sin(i * i);
         values[2 * ROWS + i] = i;
     }
-    ss_status st = ss_steps_new(&made, &path, 0, 1, -1, 0, &err);
+    ss_status st = ss_steps_new(&made, &pulled, 0, 1, -1, 0, &err);
     if (st == SS_OK && made->n != 1)
         fail_msg("%zu steps", made->n);
     ss_steps_free(made);

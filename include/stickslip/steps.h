@@ -51,7 +51,7 @@ typedef struct ss_steps {
  * of its rows, see ss_read_opts.stamps.  stiffness [1/m] of the machine; 0: it is fitted.
  *
  * A hold and the slide behind it are one step.  The slider begins in a steady slide and has no inertia.  The
- * load point moves as recorded, on straight lines between the rows; of more than 4096 rows means are taken.
+ * load point moves on lines that meet between rows, or as recorded; of more than 4096 rows means are taken.
  * SS_EDATA: the unit is not one of length, a value is not finite, or there is no step; SS_ENOMEM.
  * The caller frees *out with ss_steps_free. */
 ss_status ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t friction, int normal,

@@ -115,17 +115,19 @@ typedef struct start {
 static void
 solve(start *s, const track *r, const double *g, double a)
 {
-    double mean[3] = { gsl_stats_mean(r->load, 1, r->n), gsl_stats_mean(g, 1, r->n), gsl_stats_mean(r->mu, 1, r->n) };
+    const size_t n = r->n;
+    double mean[3] = { gsl_stats_mean(r->load, 1, n), gsl_stats_mean(g, 1, n), gsl_stats_mean(r->mu, 1, n) };
     double xx = 0, xg = 0, xm = 0;
-    for (size_t i = 0; i < r->n; i++) {
+    for (size_t i = 0; i < n; i++) {
         double x = r->load[i] - mean[0];
         xx += x * x;
         xg += x * (g[i] - mean[1]);
         xm += x * (r->mu[i] - mean[2]);
     }
     double gg = 0, gm = 0, mm = 0;
-    for (size_t i = 0; i < r->n; i++) {
-        double x = r->load[i] - mean[0], of_g = g[i] - mean[1] - xg / xx * x, of_m = r->mu[i] - mean[2] - xm / xx * x;
+    for (size_t i = 0; i < n; i++) {
+        double x = r->load[i] - mean[0];
+        double of_g = g[i] - mean[1] - xg / xx * x, of_m = r->mu[i] - mean[2] - xm / xx * x;
         gg += of_g * of_g;
         gm += of_g * of_m;
         mm += of_m * of_m;
@@ -291,26 +293,17 @@ begin(law *all, double stiffness)
     return st;
 }
 
-/* Find the noise of what a law leaves. */
+/* Find the noise of what a law leaves beside its slopes. */
 static ss_status
 find_noise(law *l, double *residual, double *slopes)
 {
-    const size_t n = l->record->n, m = UNKNOWNS + 1;
+    const size_t n = l->record->n, free = UNKNOWNS - (l->range[STIFFNESS].from == l->range[STIFFNESS].to);
     ss_status st = leave(l, l->u, residual, slopes);
-    size_t columns = 0;
-    for (int k = 0; k < UNKNOWNS; k++) {
-        if (!(l->range[k].to > l->range[k].from))
-            continue;
-        for (size_t i = 0; i < n; i++)
-            l->rows[i * m + columns] = slopes[i * UNKNOWNS + (size_t)k];
-        columns++;
-    }
     for (size_t i = 0; i < n; i++) {
-        l->rows[i * m + columns] = residual[i];
-        if (columns + 1 < m)                    /* k is held: the rows move together */
-            memmove(l->rows + i * (columns + 1), l->rows + i * m, (columns + 1) * sizeof *l->rows);
+        memcpy(l->rows + i * (free + 1), slopes + i * UNKNOWNS, free * sizeof *slopes);     /* k is the last */
+        l->rows[i * (free + 1) + free] = residual[i];
     }
-    return st == SS_OK ? ss_wander_find(&l->noise, l->record->t, l->rows, n, columns + 1) : st;
+    return st == SS_OK ? ss_wander_find(&l->noise, l->record->t, l->rows, n, free + 1) : st;
 }
 
 /* A number whose slopes by the unknowns are these.  noise: its variance, for which the covariance is 1. */
@@ -337,8 +330,8 @@ report(ss_step_law *out, const law *l, const double *u, const double *covariance
     out->critical_slip_distance = value_of(s.distance, (double[]){ [DIRECT] = -s.distance, [RING] = -s.distance,
                                            [STIFFNESS] = s.distance }, covariance, noise);
     out->stiffness = value_of(k, (double[]){ [STIFFNESS] = k }, covariance, noise);
-    out->drift = value_of(u[DRIFT] / way_of(l->record), (double[]){ [DRIFT] = 1 / way_of(l->record), [STIFFNESS] = 0 },
-                          covariance, noise);
+    const double way = way_of(l->record);
+    out->drift = value_of(u[DRIFT] / way, (double[]){ [DRIFT] = 1 / way, [STIFFNESS] = 0 }, covariance, noise);
 }
 
 static void
@@ -431,7 +424,7 @@ conclude(ss_step_law *out, law *l, double free_rows, double *room)
     return SS_OK;
 }
 
-/* The squares that a straight line along the path leaves of whitened rows; *logarithms: those of their variances. */
+/* The squares that a line along the path leaves of whitened rows, and the logarithms of their variances. */
 static ss_status
 fit_line(law *l, double *room, double *squares, double *logarithms)
 {
@@ -462,7 +455,8 @@ fit_both(law both[SS_STEP_LAWS], double free_rows, double *room)
             if (isinf(l->squares))
                 continue;
             l->noise = both->noise;
-            ss_status st = fit(l, l->u, l->squares / (pass == 0 ? (double)n : free_rows), &l->squares, l->covariance);
+            const double noise = l->squares / (pass == 0 ? (double)n : free_rows);
+            ss_status st = fit(l, l->u, noise, &l->squares, l->covariance);
             if (st != SS_OK)
                 return st;
             better = l->squares < better->squares ? l : better;
@@ -501,8 +495,8 @@ ss_loaded_fit(ss_step_law out[SS_STEP_LAWS], double *model, const track *record,
         st = fit_line(both, room, &line, &logarithms);
     for (int k = 0; st == SS_OK && k < SS_STEP_LAWS; k++, model += n) {
         law *l = &both[k];
-        out[k] = (ss_step_law){ NAN, NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN,
-                                model };
+        const ss_value none = { NAN, NAN };
+        out[k] = (ss_step_law){ NAN, NAN, none, none, none, none, none, NAN, model };
         if (isinf(l->squares)) {
             for (size_t i = 0; i < n; i++)
                 model[i] = NAN;

@@ -25,7 +25,7 @@
 #include "io/record.h"
 #include "signal/header.h"
 
-enum { FEWEST = 4, MOST = 4096, CLOSE = 1024 };   /* rows of a line, of a step, and behind a corner that are no means */
+enum { FEWEST = 4, MOST = 4096, CLOSE = 1024 };     /* rows of a line, of a step, and behind a corner: no means */
 enum { BETWEEN = 4 };           /* parts of the way from one row to the next, where it bends */
 enum { ROOM = 8 };              /* columns of a step: time, friction, two paths, two laws along either */
 #define CHANGE 0.2              /* the least relative change of speed */
@@ -216,7 +216,7 @@ off_neighbours(const path *p, size_t i)
     return by * by / (1 + w * w + (1 - w) * (1 - w));
 }
 
-/* What all changes of a column are multiples of, if there is such a digit, and for how many rows it stands still. */
+/* What all changes of a column are multiples of, or 0, and for how many rows it stands still. */
 static double
 digit_of(const double *x, size_t n, size_t *longest)
 {
@@ -282,7 +282,7 @@ end_of(const path *p, size_t k)
     return k + 1 < p->lines ? p->line[k + 1].of.meets : p->t[p->n - 1];
 }
 
-/* The speed between a row and the next, and at a row by Akima (1970), who keeps a line straight up to its last row. */
+/* The speed between a row and the next, and at a row by Akima (1970), who keeps a line straight to its end. */
 static double
 chord(const path *p, size_t i)
 {
@@ -413,7 +413,8 @@ find_lines(path *p)
     for (size_t k = 0; st == SS_OK && k < p->lines; k++) {
         line *l = &p->line[k];
         const double lasts = p->t[l->end - 1] - p->t[l->first];
-        l->of = (slide){ k > 0 ? joint(p, l - 1) : p->t[0], l->speed, (double)(l->end - l->first) * lasts * lasts };
+        const double meets = k > 0 ? joint(p, l - 1) : p->t[0];
+        l->of = (slide){ meets, l->speed, (double)(l->end - l->first) * lasts * lasts };
     }
     p->corner[0] = st == SS_OK ? malloc((BETWEEN * p->n + 2 * p->lines) * sizeof *p->corner[0]) : NULL;
     if (p->corner[0] == NULL)
@@ -436,7 +437,7 @@ middle(const path *p, size_t k)
     return k > 0 ? (p->line[k].first + p->line[k].end) / 2 : 0;
 }
 
-/* The slide from which on the load point's way to the middle of a later one is known: that before it, or itself. */
+/* The slide from which on the way to the middle of a later one is known: that before it, or itself. */
 static size_t
 history(const path *p, int which, size_t at)
 {

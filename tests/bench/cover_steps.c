@@ -16,7 +16,8 @@
 #include "../pulled_rock.h"
 
 enum { NUMBERS = 5 };
-static const char *const kinds[] = { "even rows", "memory in time", "fast after", "ramp", "noisy path", "few rows", "hold" };
+static const char *const kinds[] = { "even rows", "memory in time", "fast after", "ramp", "noisy path", "few rows",
+                                    "hold" };
 enum { KINDS = sizeof kinds / sizeof *kinds, HOLD = KINDS - 1, FEW = KINDS - 2 };
 
 static double
@@ -127,8 +128,8 @@ main(int argc, char *argv[])
             all_within[1] += sum[1];
             all_numbers += NUMBERS * numbers;
         }
-    printf("# all: %zu right, %zu cannot tell, %zu wrong, %zu none; within 1 error %.1f %%, 2 %.1f %%, beyond 5 %zu\n", all_named[0],
-           all_named[1], all_named[2], all_named[3], 100. * (double)all_within[0] / (double)all_numbers,
+    printf("# all: %zu right, %zu cannot tell, %zu wrong, %zu none; within 1 error %.1f %%, 2 %.1f %%, beyond 5 %zu\n",
+           all_named[0], all_named[1], all_named[2], all_named[3], 100. * (double)all_within[0] / (double)all_numbers,
            100. * (double)all_within[1] / (double)all_numbers, all_far);
     return 0;
 }
