@@ -17,6 +17,16 @@ ss-backbone --mass 2.42 --fit joint.tsv > joint.scene
 awk -F ' = ' '{ want["stiffness"] = 2310; want["friction"] = 0.3; want["contact_stiffness"] = 500; want["damping"] = 1 }
     $1 in want { print $1, ($2 / want[$1] > 0.95 && $2 / want[$1] < 1.05 ? "is near" : "is " $2) }' joint.scene
 ss-sim -c t,x joint.scene | ss-backbone | grep '^# mechanism'
+# other rigs, their scenes, within 5 %, and what these decay by
+for rig in '0.8 0' '0 0.1' '0.3 0.06'; do
+    set -- $rig
+    ss-sim -c t,x --set mass=2.42 --set stiffness=2310 --set x0=0.01 --set "damping=$1" --set "friction=$2" free-decay \
+        | ss-noise --snr 40 | ss-backbone --mass 2.42 --fit > rig.scene
+    awk -F ' = ' -v "damping=$1" -v "friction=$2" '{ is[$1] = $2 }
+        function far(a, b) { return a < 0.95 * b - 1e-9 || a > 1.05 * b + 1e-9 }
+        END { print far(is["damping"], damping) || far(is["friction"], friction) ? "is " is["damping"] " " is["friction"] : "is near" }' rig.scene
+    ss-sim -c t,x rig.scene | ss-backbone | grep '^# mechanism'
+done
 ss-backbone joint.tsv -o joint.gp && grep -c 'xerrorbars\|yerrorbars' joint.gp
 ! command -v gnuplot > /dev/null || ss-backbone joint.tsv -o joint.png || echo no picture
 ss-signal noise | ss-backbone -o none.gp || echo $?
