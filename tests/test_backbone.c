@@ -403,42 +403,47 @@ velocity_and_acceleration_have_the_frequency(void **state)
         }
 }
 
-/* A resonator of 50,000 periods: blocks of a thousand of samples, a line beside it at 1.3 of its frequency, and each of
- * the two by --mode.  Amplitudes 1 and .3, damping ratios 1.6e-5 and 4e-5. */
+/* A resonator of 50,000 periods: blocks of a thousand of samples, a line beside it at 1.3 of its frequency, and each
+ * of the two by --mode.  Amplitudes 1 and .3, damping ratios 1.6e-5 and 4e-5.  Rows of one decay share what they
+ * know, so its middle row stands for it: over draws, modes and numbers the errors are neither too narrow nor too
+ * wide, by 2.5 standard deviations of the root mean square of as many normal numbers. */
 static void
 long_blocks_and_two_modes(void **state)
 {
-    enum { N = 400000 };
+    enum { N = 400000, DRAWS = 8, NUMBERS = 4 * DRAWS };
     static const double w[2] = { 2 * PI / 8, 2.6 * PI / 8 }, zeta[2] = { 1.6e-5, 4e-5 };
     ss_signal *signal = new_signal(N, 1, 0, "x", "m");
     ss_backbone_opts opts;
+    double squares = 0;
+    size_t rows = 0, within[2] = { 0 };
     (void)state;
-    seed = 21;
     ss_backbone_opts_init(&opts, sizeof opts);
-    for (size_t i = 0; i < N; i++)
-        signal->values[i] = .003 * gauss() + exp(-zeta[0] * w[0] * (double)i) * cos(w[0] * (double)i)
-            + .3 * exp(-zeta[1] * w[1] * (double)i) * cos(w[1] * (double)i);
-    size_t rows = 0, tenth = 0;         /* of both modes and numbers: rows of one share most of what they know */
-    for (int k = 0; k < 2; k++) {
-        size_t within[2] = { 0 };
-        opts.mode = w[k] / (2 * PI) * 1.03;
-        ss_backbone *b = find(signal, &opts);
-        assert_true(b->n > 50);
-        for (size_t i = 0; i < b->n; i++) {
-            const ss_backbone_row *r = &b->row[i];
-            within[0] += fabs(r->damping_ratio.value - zeta[k]) <= 3 * r->damping_ratio.error;
-            within[1] += fabs(r->frequency.value - w[k] / (2 * PI)) <= 3 * r->frequency.error;
-            tenth += fabs(r->damping_ratio.value - zeta[k]) <= .1 * r->damping_ratio.error;
-            tenth += fabs(r->frequency.value - w[k] / (2 * PI)) <= .1 * r->frequency.error;
+    for (seed = 21; seed < 21 + DRAWS * 1000; seed += 1000) {
+        uint64_t first = seed;
+        for (size_t i = 0; i < N; i++)
+            signal->values[i] = .003 * gauss() + exp(-zeta[0] * w[0] * (double)i) * cos(w[0] * (double)i)
+                + .3 * exp(-zeta[1] * w[1] * (double)i) * cos(w[1] * (double)i);
+        seed = first;
+        for (int k = 0; k < 2; k++) {
+            opts.mode = w[k] / (2 * PI) * 1.03;
+            ss_backbone *b = find(signal, &opts);
+            assert_true(b->n > 50);
+            for (size_t i = 0; i < b->n; i++, rows++) {
+                const ss_backbone_row *r = &b->row[i];
+                double z[2] = { (r->damping_ratio.value - zeta[k]) / r->damping_ratio.error,
+                                (r->frequency.value - w[k] / (2 * PI)) / r->frequency.error };
+                within[0] += fabs(z[0]) <= 3;
+                within[1] += fabs(z[1]) <= 3;
+                squares += i == b->n / 2 ? z[0] * z[0] + z[1] * z[1] : 0;
+            }
+            assert_true(b->n_mechanisms > 0);
+            assert_int_equal(b->mechanism[0], SS_VISCOUS);
+            ss_backbone_free(b);
         }
-        rows += 2 * b->n;
-        print_message("%zu and %zu of %zu rows, %zu of %zu within a tenth, %s\n", within[0], within[1], b->n,
-                      tenth, rows, ss_mechanism_names[b->mechanism[0]]);
-        assert_true((double)within[0] > .9 * (double)b->n && (double)within[1] > .9 * (double)b->n);
-        assert_int_equal(b->mechanism[0], SS_VISCOUS);
-        ss_backbone_free(b);
     }
-    assert_true((double)tenth <= .16 * (double)rows);
+    print_message("%zu and %zu of %zu rows, rms %.2f\n", within[0], within[1], rows, sqrt(squares / NUMBERS));
+    assert_true((double)within[0] > .95 * (double)rows && (double)within[1] > .95 * (double)rows);
+    assert_true(fabs(sqrt(squares / NUMBERS) - 1) < 2.5 / sqrt(2 * NUMBERS));
     ss_signal_free(signal);
 }
 

@@ -192,8 +192,8 @@ find_extent(decay *d)
     return SS_OK;
 }
 
-/* 1: from a sample on the amplitude grows from what it is there by as much as noise never makes it grow, and
- * slower than a blow does. */
+/* 1: from a sample on the amplitude grows from what it is there, and what a line beside it makes there, by as much
+ * as noise never makes it grow, and slower than a blow does. */
 static int
 grows(const decay *d, size_t from, double amplitude)
 {
@@ -203,7 +203,7 @@ grows(const decay *d, size_t from, double amplitude)
         most = d->size[i] > d->size[most] ? i : most;
     for (size_t i = from; i < most; i++)
         half = d->size[i] < d->size[most] / 2 ? i : half;
-    return most < n && d->size[most] > GROWS * amplitude && most - half > SLOW * width;
+    return most < n && d->size[most] > GROWS * fmax(amplitude, d->size[from]) && most - half > SLOW * width;
 }
 
 /* --- block by block -------------------------------------------------------------------------- */
@@ -595,7 +595,7 @@ no_decay(const decay *d)
         return "nothing oscillates";
     if (d->n_blocks < FEW && !d->source->has_phase)
         return "too few levels lie between the highest and the end, or the noise";
-    if (d->n_blocks < FEW && grows(d, 0, d->size[0]))
+    if (d->n_blocks < FEW && grows(d, 0, 0))
         return "the oscillation grows";
     if (d->n_blocks < FEW)
         return d->n_blocks > 0 && strcmp(d->stop, "end of the record") == 0
