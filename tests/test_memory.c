@@ -637,7 +637,7 @@ steps(int variant)
     static ss_column column[] = { { (char *)"x", (char *)"um" }, { (char *)"mu", (char *)"" },
                                   { (char *)"t", (char *)"s" } };
     static ss_header head = { .rate = 1, .n_columns = 3, .column = column };
-    const ss_signal pulled = { &head, ROWS, values };
+    const ss_signal slid_rock = { &head, ROWS, values };
     ss_steps *made = NULL;
     for (int i = 0; i < ROWS; i++) {
         const double x = i < 30 ? i : 30 + 10 * (i - 30), slid = x > 30 ? x - 30 : 0;
@@ -646,7 +646,7 @@ steps(int variant)
             + 1e-5 * sin(i * i);
         values[2 * ROWS + i] = i;
     }
-    ss_status st = ss_steps_new(&made, &pulled, 0, 1, -1, 0, &err);
+    ss_status st = ss_steps_new(&made, &slid_rock, 0, 1, -1, 0, &err);
     if (st == SS_OK && made->n != 1)
         fail_msg("%zu steps", made->n);
     ss_steps_free(made);

@@ -24,8 +24,9 @@ typedef struct ss_slip {
                                            it */
 } ss_slip;
 
-/* Fit a slip to the fall of x from sample high to sample low, between loadings by so much per sample > 0, with
- * a damping in a range, whose middle is the start.  Only samples in room are used.  If the slip does not explain the fall, all of *out is NaN and n is 0. */
+/* Fit a slip to the fall of x from sample high to sample low, between loadings by so much per sample > 0, with a
+ * damping in a range, whose middle is the start.  Only samples in room are used.  If the slip does not explain the
+ * fall, all of *out is NaN and n is 0. */
 ss_status ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t low, double loading,
                       ss_range damping);
 

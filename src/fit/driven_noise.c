@@ -63,9 +63,9 @@ hat(double x, double k)
     return fmax(1 - fabs(x - k), 0);
 }
 
-/* The terms of a free law: free functions of the place, speed, its square, and acceleration, as a spring of any shape
- * and a damper have them; sliders of many lengths; free functions of the speed, alone and times the law's own force, and of this force
- * in either direction; and its rate. */
+/* The terms of a free law: free functions of the place, speed, its square, and acceleration, as a spring of any
+ * shape and a damper have them; sliders of many lengths; free functions of the speed, alone and times the law's
+ * own force, and of this force in either direction; and its rate. */
 enum { PLACES = 8, SPRING = PLACES + 3, SLIDERS = 8, SPEEDS = 6, FORCES = 8 };
 enum { TERMS = SPRING + SLIDERS + 2 * SPEEDS + 2 * FORCES + 1 };
 

@@ -110,8 +110,7 @@ enum { AT = UNKNOWNS + COLUMNS, BESIDE = COLUMNS - VISCOUS, LATE = LAW_NUMBERS +
 /* What stands beside each law, and the delay. */
 static const struct { const char *name, *unit; } beside[] = {
     { "viscous_friction", "N s/m" }, { "tilt", "N/m" }, { "inertia", "N s^2/m" }, { "sine", "N" }, { "cosine", "N" },
-    { "viscous_difference", "N s/m" },
-    { "offset", "N" }, { "drift", "N/s" }, { "delay", "s" } };
+    { "viscous_difference", "N s/m" }, { "offset", "N" }, { "drift", "N/s" }, { "delay", "s" } };
 
 /* The unit in which laws are fitted over that of the recording, of a number in this unit of scenes. */
 static double
@@ -178,7 +177,8 @@ find_numbers(ss_motion_ranking *out, const driven_result *r, const driven *d, co
                 variance += (moved[k][i] - number[i]) / h * (moved[l][i] - number[i]) / h * r->covariance[k][l];
         const double size = size_of_unit(d, unit);
         ss_motion_number *to = &out->number[out->n_numbers++];
-        *to = (ss_motion_number){ .name = name, .value = { size * number[i], variance > 0 ? size * sqrt(variance) : NAN } };
+        const double error = variance > 0 ? size * sqrt(variance) : NAN;
+        *to = (ss_motion_number){ .name = name, .value = { size * number[i], error } };
         name_unit(to->unit, sizeof to->unit, unit, force, length);
         number[i] *= size * size_of_unit(&si, unit);
     }
@@ -255,8 +255,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
     driven_result *r = calloc(LAWS_MOST, sizeof *r);
     candidate c[LAWS_MOST];
     size_t *partner = malloc(rows->n * sizeof *partner), n = 0, best = 0;
-    double spring[BLOCKS], linear[BLOCKS];
-    double line[2];
+    double spring[BLOCKS], linear[BLOCKS], line[2];
     const double power = ss_driven_line(line, rows, rows->f);
     out->predicted = malloc(signal->n * sizeof *out->predicted);
     ss_status st = r != NULL && partner != NULL && out->predicted != NULL

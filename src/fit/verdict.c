@@ -142,7 +142,8 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         const int is_noisy = beyond > BEYOND_NOISE;
         int length = snprintf(answer, room, "none of these: %s%s explains %s of the force that was held out",
                               c[0].tied ? "no law explains more than the null; "
-                              : c[n].tied ? "no law explains more than a spring of any shape and a damper; " : "", most->name, number);
+                              : c[n].tied ? "no law explains more than a spring of any shape and a damper; " : "",
+                              most->name, number);
         ss_number_rounded(times, is_noisy ? beyond : most->better, 3);
         if (count == 0 && most->work < TAKEN)
             snprintf(answer + length, room - (size_t)length, ", but its friction is hardly reached");
