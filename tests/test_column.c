@@ -1,11 +1,11 @@
 /* test_column.c -- power, noise and distance from a sinusoid of what a law is fitted to: closed forms.
  *
- * Noise is the median of differences, of which n are known to some 2 / sqrt n: 3 % of the variance, 10 % allowed. */
+ * Noise is a median of differences, known to some 2 / sqrt n of n of them: 3 % of its variance; 10 % are allowed. */
 #include <math.h>
 #include <string.h>
 #include "fit/column.h"
+#include "new_signal.h"
 #include "uniform.h"
-#include "unit.h"
 
 enum { N = 40000 };
 static double x[N];
@@ -61,8 +61,8 @@ motion_is_no_noise(void **state)
     assert_noise(spoil(13), 64, .01);
 }
 
-/* Differences of white noise: their fourth differences have C(10, 5) / 2 / 70 = 1.8 of their variance.  Those from what
- * is interpolated a part p of a sample later have variance 1 + q + c / 2 of it, q = (1 - p)^2 + p^2, c = -2 p (1 - p). */
+/* Differences of white noise: their fourth differences have C(10, 5) / 2 / 70 = 1.8 of their variance.  Those from
+ * what is interpolated a part p of a sample later have 1 + q + c / 2 of it, q = (1 - p)^2 + p^2, c = 2 p (p - 1). */
 static void
 cycles_of_parts_of_a_sample(void **state)
 {
@@ -82,7 +82,7 @@ cycles_of_parts_of_a_sample(void **state)
     assert_noise(spoil(13), 300.5, .01 * 1.25 / 1.5);
 }
 
-/* A step of .5 that is seldom taken, and larger ones, hide a twelfth of its square, and a ninth for noise of a third. */
+/* A step of .5 that is seldom taken hides a twelfth of its square, and a ninth for noise of a third of it. */
 static void
 steps_of_a_converter(void **state)
 {
@@ -135,6 +135,37 @@ power_and_distance_from_a_sinusoid(void **state)
     assert_true(fabs(left / .01 - 1) < 1e-2);
 }
 
+/* A scene is in SI units without a prefix; a column without a unit is trusted. */
+static void
+columns_that_can_be_fitted(void **state)
+{
+    static const struct { const char *unit; ss_quantity quantity; ss_status status; } row[] = {
+        { "m", SS_DISPLACEMENT, SS_OK }, { "", SS_DISPLACEMENT, SS_OK }, { "mm", SS_DISPLACEMENT, SS_EDATA },
+        { "m/s", SS_DISPLACEMENT, SS_EDATA }, { "N", SS_DISPLACEMENT, SS_EDATA }, { "m/s", SS_VELOCITY, SS_OK },
+        { "m/s^2", SS_ACCELERATION, SS_OK }, { "g", SS_ACCELERATION, SS_EDATA },
+        { "m", SS_ACCELERATION, SS_EDATA },
+        { "N", SS_FORCE, SS_OK }, { "", SS_FORCE, SS_OK }, { "kN", SS_FORCE, SS_EDATA },
+        { "m", SS_FORCE, SS_EDATA } };
+    ss_rank_opts opts;
+    ss_error err = { 0 };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        ss_signal *signal = new_signal(3, 1, 0, "y", row[i].unit);
+        if (ss_column_check_unit(signal, 0, row[i].quantity, &err) != row[i].status)
+            fail_msg("'%s' as quantity %d", row[i].unit, row[i].quantity);
+        ss_signal_free(signal);
+    }
+    ss_signal *signal = new_signal(3, 1, 0, "y", NULL);
+    ss_rank_opts_init(&opts, sizeof opts);
+    assert_int_equal(ss_column_check(signal, 0, &opts, &err), SS_OK);
+    assert_int_equal(ss_column_check(signal, 1, &opts, &err), SS_EINVAL);
+    assert_string_equal(err.text, "there is no column 2");
+    signal->values[2] = NAN;
+    assert_int_equal(ss_column_check(signal, 0, &opts, &err), SS_EDATA);
+    assert_string_equal(err.text, "row 3 is not finite");
+    ss_signal_free(signal);
+}
+
 int
 main(void)
 {
@@ -142,6 +173,7 @@ main(void)
         cmocka_unit_test(motion_is_no_noise), cmocka_unit_test(cycles_of_parts_of_a_sample),
         cmocka_unit_test(steps_of_a_converter), cmocka_unit_test(few_samples),
         cmocka_unit_test(power_and_distance_from_a_sinusoid),
+        cmocka_unit_test(columns_that_can_be_fitted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

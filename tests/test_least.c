@@ -154,6 +154,110 @@ goes_round_where_there_is_no_model(void **state)
     assert_true(u[0] == 0.75);
 }
 
+/* Slopes by a step back, where a step ahead has no model. */
+static void
+goes_back_where_there_is_no_model_ahead(void **state)
+{
+    static const double step[3] = { 1e-3, 1e-3, 1e-3 };
+    const ss_range range[] = { { -INFINITY, INFINITY }, { -INFINITY, INFINITY }, { 7, 7 } };
+    double most = 4, u[3] = { 3.9995, 5, 7 };
+    least fit = { .rows = 3, .unknowns = 3, .model = line, .user = &most, .steps = 20, .tol = 1e-9,
+                  .difference = step, .range = range };
+    least_end end;
+    (void)state;
+    assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_OK);
+    assert_true(end.converged);
+    near_to(u[0], 1, 1e-8);
+    near_to(u[1], 2, 1e-8);
+}
+
+/* user times (u0 + u1 - 3), and user times (u0 - u1): least at 1.5, 1.5; with u0 held at c, too, u1 = 1.5, and
+ * (c - 1.5)^2 is left of each. */
+static ss_status
+coupled(const double *u, double *residual, double *slopes, void *user)
+{
+    const double by = *(double *)user;
+    if (slopes == NULL)
+        residual[0] = by * (u[0] + u[1] - 3), residual[1] = by * (u[0] - u[1]);
+    else
+        slopes[0] = slopes[1] = slopes[2] = by, slopes[3] = -by;
+    return SS_OK;
+}
+
+static void
+stays_at_an_end_of_a_range_and_leaves_it(void **state)
+{
+    static const struct { ss_range range; double from, to; } row[] = {
+        { { -9, 1 }, 0, 1 }, { { -9, 1 }, 1, 1 }, { { 2, 9 }, 5, 2 }, { { 2, 9 }, 2, 2 },
+        { { 0, 1.75 }, 1.75, 1.5 }, { { 1.25, 4 }, 1.25, 1.5 } };
+    static const double by[] = { .1, 1, 30 };
+    (void)state;
+    for (size_t i = 0; i < 3 * (sizeof row / sizeof *row); i++) {
+        const ss_range range[] = { row[i / 3].range, { -INFINITY, INFINITY } };
+        double size = by[i % 3], u[2] = { row[i / 3].from, -7 }, left = size * (row[i / 3].to - 1.5);
+        least fit = { .rows = 2, .unknowns = 2, .model = coupled, .user = &size, .steps = 60, .tol = 1e-9,
+                      .range = range };
+        least_end end;
+        assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_OK);
+        assert_true(end.converged);
+        near_to(u[0], row[i / 3].to, 1e-6);
+        near_to(u[1], 1.5, 1e-6);
+        near_to(end.squares, 2 * left * left, 1e-6 * size * size);
+    }
+}
+
+/* (u0 - 1)^3, which each step of Gauss and Newton lessens to 8 / 27, and u1 - 2, which the first one ends. */
+static ss_status
+slow(const double *u, double *residual, double *slopes, void *user)
+{
+    (void)user;
+    if (slopes == NULL)
+        residual[0] = pow(u[0] - 1, 3), residual[1] = u[1] - 2;
+    else
+        slopes[0] = 3 * pow(u[0] - 1, 2), slopes[3] = 1;
+    return SS_OK;
+}
+
+/* Every unknown must be still, to a part tol; what the noise hides is not sought, but all that it does not. */
+static void
+ends_when_all_are_still_or_noise_hides_the_rest(void **state)
+{
+    least fit = { .rows = 2, .unknowns = 2, .model = slow, .steps = 40, .tol = 1e-3 };
+    double u[2] = { 3, 2 };
+    least_end end;
+    (void)state;
+    assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_OK);
+    assert_true(end.converged && end.steps > 10);
+    near_to(u[0], 1, 1e-2);        /* damping may shorten its steps */
+    fit.tol = 1e-9, fit.noise = 1, fit.gain = .5;       /* squares of 64 and less: to .01 */
+    u[0] = 3;
+    assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_OK);
+    assert_true(end.converged && end.steps < 10);
+    near_to(u[0], 1, .6);
+    u[0] = 2;                                           /* 1, far below the noise: still to .01 */
+    assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_OK);
+    near_to(u[0], 1, .4);
+}
+
+/* A gain of a hundredth of the noise's variance is a tenth of a standard error. */
+static void
+costly_models_end_within_a_part_of_their_errors(void **state)
+{
+    static const double step[] = { 1e-4, 1e-10 }, from[][2] = { { 500, 1e-4 }, { 250, 5e-4 }, { 100, 1e-3 } };
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        counted c = { 0 };
+        least fit = { .rows = MISRA, .unknowns = 2, .model = misra, .user = &c, .steps = 200, .tol = 1e-12,
+                      .difference = step, .costly = 1, .noise = 1.2455138894e-01 / (MISRA - 2),
+                      .farthest = i > 2 ? 50 : 0 };
+        double u[2] = { from[i % 3][0], from[i % 3][1] };
+        least_end end;
+        assert_int_equal(ss_least_fit(&end, &fit, u, NULL, NULL), SS_OK);
+        assert_true(end.converged);
+        near_to(end.squares, 1.2455138894e-01, .02 * fit.noise);
+    }
+}
+
 static ss_status
 stopping(const double *u, double *residual, double *slopes, void *user)
 {
@@ -203,6 +307,10 @@ main(void)
         cmocka_unit_test(keeps_slopes_that_are_good),
         cmocka_unit_test(keeps_to_the_ranges),
         cmocka_unit_test(goes_round_where_there_is_no_model),
+        cmocka_unit_test(goes_back_where_there_is_no_model_ahead),
+        cmocka_unit_test(stays_at_an_end_of_a_range_and_leaves_it),
+        cmocka_unit_test(ends_when_all_are_still_or_noise_hides_the_rest),
+        cmocka_unit_test(costly_models_end_within_a_part_of_their_errors),
         cmocka_unit_test(hands_back_what_the_model_says),
         cmocka_unit_test(solves_what_is_linear),
     };

@@ -323,7 +323,6 @@ ss_least_fit(least_end *end, const least *fit, double u[], double *residual, dou
                   .u = room + 2 * m + 2 * rows + rows * m, .squares = NAN };
     memcpy(d.u, u, m * sizeof *u);
     memcpy(d.at, u, m * sizeof *u);
-    memset(d.slopes, 0, rows * m * sizeof *d.slopes);
     for (size_t k = 0; k < m; k++)
         if (range_of(fit, k).to > range_of(fit, k).from)
             of[d.n++] = k;
