@@ -1,6 +1,6 @@
 /* test_column.c -- power, noise and distance from a sinusoid of what a law is fitted to: closed forms.
  *
- * Noise is a median of differences, known to some 2 / sqrt n of n of them: 3 % of its variance; 10 % are allowed. */
+ * Noise is a median of differences, known to some 2 / sqrt n, 3 % of its variance: 10 % is allowed. */
 #include <math.h>
 #include <string.h>
 #include "fit/column.h"
@@ -61,8 +61,8 @@ motion_is_no_noise(void **state)
     assert_noise(spoil(13), 64, .01);
 }
 
-/* Differences of white noise: their fourth differences have C(10, 5) / 2 / 70 = 1.8 of their variance.  Those from
- * what is interpolated a part p of a sample later have 1 + q + c / 2 of it, q = (1 - p)^2 + p^2, c = 2 p (p - 1). */
+/* Differences of white noise: their fourth differences have C(10, 5) / 140 = 1.8 of their variance.  Those from
+ * what is interpolated a part p of a sample later have 1 + q + c / 2, q = (1 - p)^2 + p^2, c = 2 p (p - 1). */
 static void
 cycles_of_parts_of_a_sample(void **state)
 {
