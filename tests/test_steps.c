@@ -177,6 +177,33 @@ finds_the_truth_of_simulated_rocks(void **state)
     answers("a stress", &r, 11, 1, 0);
 }
 
+/* A record that begins with a hold knows of no slide before it. */
+static void
+begins_in_a_hold(void **state)
+{
+    rock r = usual;
+    uint64_t seed = 18;
+    ss_steps *steps = NULL;
+    (void)state;
+    const double speed[] = { 1e-6, 0, 1e-6, 10e-6 }, until[] = { 100, 150, 400, 440 };
+    memcpy(r.speed, speed, sizeof speed);
+    memcpy(r.until, until, sizeof until);
+    r.n = 2200;
+    ss_signal *s = rock_signal(&r, &seed);
+    const size_t first = 500 + 10, n = s->n - first;    /* in the hold */
+    for (size_t c = 0; c < 3; c++)
+        memmove(s->values + c * n, s->values + c * s->n + first, n * sizeof *s->values);
+    s->n = n;
+    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, NULL), SS_OK);
+    assert_int_equal(steps->n, 1);
+    within("a", steps->step[0].law[0].direct_effect, r.a, 5);
+    within("Dc", steps->step[0].law[0].critical_slip_distance, r.Dc, 5);
+    within("k", steps->step[0].law[0].stiffness, r.k, 5);
+    assert_true(steps->step[0].law[0].direct_effect.error < 0.1 * r.a);
+    ss_steps_free(steps);
+    ss_signal_free(s);
+}
+
 /* Noise without an effect of speed, and a path without a step. */
 static void
 says_what_is_none(void **state)
@@ -253,6 +280,7 @@ main(void)
         cmocka_unit_test(a_soft_spring_runs_away),
         cmocka_unit_test(whitens_what_wanders),
         cmocka_unit_test(finds_the_truth_of_simulated_rocks),
+        cmocka_unit_test(begins_in_a_hold),
         cmocka_unit_test(says_what_is_none),
         cmocka_unit_test(answers_the_basalt),
     };

@@ -437,7 +437,8 @@ middle(const path *p, size_t k)
     return k > 0 ? (p->line[k].first + p->line[k].end) / 2 : 0;
 }
 
-/* The slide from which on the way to the middle of a later one is known: that before it, or itself. */
+/* The slide from which on the way to the middle of a later one is known: that before it, or itself, as behind a
+ * hold with which a record begins. */
 static size_t
 history(const path *p, int which, size_t at)
 {
@@ -447,7 +448,7 @@ history(const path *p, int which, size_t at)
     size_t corners = 0;
     for (size_t i = 0; i < p->corners[which]; i++)
         corners += p->corner[which][i].t > from && p->corner[which][i].t < to;
-    return corners >= at - before ? before : at;
+    return corners >= at - before && p->line[before].speed > STILL * p->line[at].speed ? before : at;
 }
 
 /* Lay the places of the load point under the rows of a step, each the mean of so many of the record.  Where
