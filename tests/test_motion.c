@@ -359,14 +359,14 @@ names_dry_friction_read_late(void **unused)
     ss_signal_free(r.signal);
 }
 
-/* A converter's steps of .03, so that friction has one value either way. */
+/* A converter's steps of .03, so that friction has one value either way, or three. */
 static void
 knows_a_converter(void **unused)
 {
     recording r = record();
     (void)unused;
     for (int i = 0; i < ROWS; i++)
-        r.f[i] = 0.03 * round((r.v[i] > 0 ? 2 : -2) / 0.03);
+        r.f[i] = 0.03 * round(((r.v[i] > 0 ? 2 : -2) + 0.01 * r.x[i]) / 0.03);
     ss_motion_ranking *k = rank(&r, 0, NULL);
     assert_named(k, "coulomb");
     assert_number(k, "friction", 2, "kN");

@@ -103,15 +103,16 @@ leave_out_clipped(driven *d)
     const double noise = gsl_stats_median(sorted, 1, d->n);
     memcpy(sorted, d->f, d->n * sizeof *sorted);
     qsort(sorted, d->n, sizeof *sorted, ss_ascending);
-    size_t squares = 0;
+    size_t squares = 0, all = 0;
     d->code = INFINITY;
     for (size_t k = 0, first = 0; k < d->n; k++)
         if (k + 1 == d->n || sorted[k + 1] != sorted[k]) {
             squares += (k + 1 - first) * (k + 1 - first);
             first = k + 1;
+            all++;
             d->code = k + 1 < d->n ? fmin(d->code, sorted[k + 1] - sorted[k]) : d->code;
         }
-    d->codes = (double)d->n * (double)d->n / (double)squares;
+    d->codes = all > 2 ? (double)d->n * (double)d->n / (double)squares : INFINITY;
     for (int end = 0; end < 2 && noise > NOISY * (sorted[d->n - 1] - sorted[0]); end++) {
         const double at = end ? sorted[d->n - 1] : sorted[0];
         size_t count = 0, others = 0, values = 0;
