@@ -160,23 +160,31 @@ places(const stretch *of, ss_window gap)
     return (ss_window_length(gap) - of->length) / of->hop + 1;
 }
 
-/* The least sums of squares that either leaves of the samples in x, whose own is `all`. */
+/* The sum of squares that columns first ... end - 1 of a basis explain. */
+static double
+explained(const stretch *of, size_t event, ringer who, int first, int end)
+{
+    const double *row = basis_of(of, event, who);
+    double dot[COLUMNS] = { 0 }, sum = 0;
+    for (size_t i = 0; i < of->n; i++, row += COLUMNS)
+        for (int c = first; c < end; c++)
+            dot[c] += of->x[i] * row[c];
+    for (int c = first; c < end; c++)
+        sum += dot[c] * dot[c];
+    return sum;
+}
+
+/* The least sums of squares that either leaves of the samples in x, whose own is `all`.  The cubic is the same at
+ * all places, and so is what rings in a sensor. */
 static void
 seek_event(const stretch *of, double all, double left[RINGERS])
 {
     for (ringer who = BY_SENSOR; who < RINGERS; who++) {
+        const int same = who == BY_SENSOR ? COLUMNS - EVENT : COLUMNS - EVENT - 2;
         double most = 0;
-        for (size_t event = 0; event < EVENTS; event++) {
-            const double *row = basis_of(of, event, who);
-            double dot[COLUMNS] = { 0 }, explained = 0;
-            for (size_t i = 0; i < of->n; i++, row += COLUMNS)
-                for (int c = 0; c < COLUMNS; c++)
-                    dot[c] += of->x[i] * row[c];
-            for (int c = 0; c < COLUMNS; c++)
-                explained += dot[c] * dot[c];
-            most = fmax(most, explained);
-        }
-        left[who] = fmax(all - most, 0) + of->noise;
+        for (size_t event = 0; event < EVENTS; event++)
+            most = fmax(most, explained(of, event, who, same, COLUMNS));
+        left[who] = fmax(all - explained(of, 0, who, 0, same) - most, 0) + of->noise;
     }
 }
 
