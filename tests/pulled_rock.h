@@ -1,5 +1,5 @@
-/* pulled_rock.h -- recordings of a velocity step by rate and state, with no code of the library: ln V and ln theta by
- * Runge's and Kutta's method, in steps of which ten or more make a change. */
+/* pulled_rock.h -- recordings of a velocity step by rate and state, with no code of the library: ln V and ln theta
+ * by Runge's and Kutta's method, in steps of which thirty make a change. */
 #ifndef PULLED_ROCK_H
 #define PULLED_ROCK_H
 
@@ -9,6 +9,8 @@
 #include <stickslip.h>
 
 #include "uniform.h"
+
+enum { RUNS_AWAY = 20 };        /* of ln V/V0 */
 
 typedef struct rock {
     int is_slip;
@@ -63,12 +65,11 @@ rock_slope(const rock *r, double load, const double u[2], double slope[2])
 static inline void
 rock_carry(const rock *r, double u[2], double from, double to)
 {
-    double fast = (r->k / r->a + 1 / r->Dc) * r->speed[0] * fmax(exp(u[0]), 1), speed = r->speed[0];
-    int steps = (int)ceil((to - from) * fast * 30) + 1;
-    for (int j = 0; j < steps; j++) {
-        double h = (to - from) / steps, slope[4][2], w[2];
+    while (from < to && u[0] < RUNS_AWAY) {
+        double fast = (r->k / r->a + 1 / r->Dc) * r->speed[0] * fmax(exp(u[0]), 1), speed = r->speed[0];
+        double h = fmin(1 / (30 * fast), to - from), slope[4][2], w[2];
         for (int q = 0; q < 4; q++) {
-            double part = q == 0 ? 0 : q == 3 ? 1 : 0.5, at = from + h * (j + part);
+            double part = q == 0 ? 0 : q == 3 ? 1 : 0.5, at = from + h * part;
             for (int c = 0; c < 2; c++)
                 w[c] = u[c] + (q > 0 ? part * h * slope[q - 1][c] : 0);
             rock_load(r, at + 1e-9 * h * (1 - 2 * part), &speed);       /* on this side of a corner */
@@ -76,6 +77,7 @@ rock_carry(const rock *r, double u[2], double from, double to)
         }
         for (int c = 0; c < 2; c++)
             u[c] += h / 6 * (slope[0][c] + 2 * slope[1][c] + 2 * slope[2][c] + slope[3][c]);
+        from = h < to - from ? from + h : to;
     }
 }
 
@@ -117,7 +119,7 @@ rock_signal(const rock *r, uint64_t *seed)
             rock_carry(r, u, at, to);
             at = to;
         }
-        if (!(fabs(u[0]) < 40)) {
+        if (!(fabs(u[0]) < RUNS_AWAY)) {
             ss_signal_free(s);
             return NULL;
         }
