@@ -129,7 +129,8 @@ rock_signal(const rock *r, uint64_t *seed)
         s->values[r->n + i] = (r->mean > 0 ? r->mean : 0.6) + r->drift * x + r->a * u[0] + r->b * u[1] + r->noise * noise;
         x += off + (r->path_noise > 0 ? r->path_noise * rock_gauss(seed) : 0);
         s->values[i] = rock_rounded(r, 1e6 * x, r->step[0]);
-        s->values[r->n + i] = r->step[1] > 0 ? r->step[1] * rint(s->values[r->n + i] / r->step[1]) : s->values[r->n + i];
+        if (r->step[1] > 0)
+            s->values[r->n + i] = r->step[1] * rint(s->values[r->n + i] / r->step[1]);
         s->values[2 * r->n + i] = rock_rounded(r, t, 0);
     }
     return s;

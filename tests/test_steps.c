@@ -156,14 +156,16 @@ finds_the_truth_of_simulated_rocks(void **state)
     answers("changes between rows half a Dc apart", &r, 12, 2, 0);
     r.until[2] = 0, r.n = 7000;
     answers("means of rows", &r, 13, 1, 0);
-    r = (rock){ .a = .0126, .b = .00668, .Dc = 1.7e-6, .k = 6210, .drift = 2.7, .speed = { 7.485e-6, 74.85e-6, 7.485e-6 },
-                .until = { 7.34, 8.423, 19.25 }, .noise = 1.85e-4, .n = 300 };
+    r = (rock){ .a = .0126, .b = .00668, .Dc = 1.7e-6, .k = 6210, .drift = 2.7,
+                .speed = { 7.485e-6, 74.85e-6, 7.485e-6 }, .until = { 7.34, 8.423, 19.25 },
+                .noise = 1.85e-4, .n = 300 };
     answers("laws of one noise", &r, 260, 2, 0);
     r = (rock){ .a = .003, .b = .0019, .Dc = 12.5e-6, .k = 4800, .drift = -4, .speed = { 1e-6, 13.3e-6 },
                 .until = { 283.7, 326.2 }, .ramp = .85, .noise = 1e-4, .memory = .6, .n = 827 };
     answers("a ramp of two rows", &r, 15, 1, 0);
-    r = (rock){ .is_slip = 1, .a = .0055, .b = .00466, .Dc = 40e-6, .k = 300, .speed = { 2.55e-7, 2.55e-6, 2.55e-7, 2.55e-6 },
-                .until = { 6480, 7406, 16664, 17590 }, .noise = 3.6e-4, .n = 2237, .step = { 20 } };
+    r = (rock){ .is_slip = 1, .a = .0055, .b = .00466, .Dc = 40e-6, .k = 300,
+                .speed = { 2.55e-7, 2.55e-6, 2.55e-7, 2.55e-6 }, .until = { 6480, 7406, 16664, 17590 },
+                .noise = 3.6e-4, .n = 2237, .step = { 20 } };
     answers("a path in steps of half a Dc", &r, 16, 3, 0);
     r = (rock){ .a = .0122, .b = .0116, .Dc = 57e-6, .k = 530, .speed = { 1.05e-6, 31.5e-6 },
                 .until = { 2800, 2894 }, .noise = 1e-4, .n = 3000, .step = { 1.1, .004 } };

@@ -1,12 +1,12 @@
 /* cover_steps.c -- are a, b, Dc, stiffness and drift of velocity steps within their errors of the truth?
  *
  * Random steps of rate and state, made by tests/pulled_rock.h, which has no code of the library: a .003 ... .015,
- * b/a .5 ... 1.4, Dc 2 ... 30 um, k 300 ... 5000 /m, drift -10 ... 10 /m, steps of 3 to 30 up or down over 30 to 60
- * Dc or more, noise of .3 to 5 % of the direct effect with memory, 600 to 3000 rows, even or not, a ramp over up
- * to 2 % of the path, a path with noise of .3 to 3 % of Dc, holds, and records of two steps in 300 to 900 rows, as a
- * file of nine digits has them, with a white noise of .1 to 1 %: there speeds change between rows that may be a Dc
- * apart.  A row a kind and law: steps, law named rightly, not told, wrongly, none of these, percentage of the numbers
- * within 1 and 2 errors, of each and of all, how many are beyond 5, and CPU a step and law.
+ * b/a .5 ... 1.4, Dc 2 ... 30 um, k 300 ... 5000 /m, drift -10 ... 10 /m, steps of 3 to 30 up or down over 30 to
+ * 60 Dc or more, noise of .3 to 5 % of the direct effect with memory, 600 to 3000 rows, even or not, a ramp over
+ * up to 2 % of the path, a path with noise of .3 to 3 % of Dc, holds, and records of two steps in 300 to 900 rows,
+ * as a file of nine digits has them, with a white noise of .1 to 1 %: there speeds change between rows that may be
+ * a Dc apart.  A row a kind and law: steps, law named rightly, not told, wrongly, none of these, percentage of the
+ * numbers within 1 and 2 errors, of each and of all, how many are beyond 5, and CPU a step and law.
  * usage: cover_steps [RECORDS [SEED]] */
 #include <stdio.h>
 #include <stdlib.h>
@@ -109,8 +109,8 @@ main(int argc, char *argv[])
                 ss_steps_free(steps);
             }
             size_t sum[2] = { 0 };
-            printf("%s\t%s\t%zu\t%zu\t%zu\t%zu\t%zu", kinds[kind], ss_step_law_names[law], numbers, named[0], named[1],
-                   named[2], named[3]);
+            printf("%s\t%s\t%zu\t%zu\t%zu\t%zu\t%zu", kinds[kind], ss_step_law_names[law], numbers, named[0],
+                   named[1], named[2], named[3]);
             for (int k = 0; k < NUMBERS; k++) {
                 printf("\t%.0f/%.0f", 100. * (double)within[0][k] / (double)numbers,
                        100. * (double)within[1][k] / (double)numbers);
@@ -128,8 +128,9 @@ main(int argc, char *argv[])
             all_within[1] += sum[1];
             all_numbers += NUMBERS * numbers;
         }
-    printf("# all: %zu right, %zu cannot tell, %zu wrong, %zu none; within 1 error %.1f %%, 2 %.1f %%, beyond 5 %zu\n",
-           all_named[0], all_named[1], all_named[2], all_named[3], 100. * (double)all_within[0] / (double)all_numbers,
+    printf("# all: %zu right, %zu cannot tell, %zu wrong, %zu none; ", all_named[0], all_named[1], all_named[2],
+           all_named[3]);
+    printf("within 1 error %.1f %%, 2 %.1f %%, beyond 5 %zu\n", 100. * (double)all_within[0] / (double)all_numbers,
            100. * (double)all_within[1] / (double)all_numbers, all_far);
     return 0;
 }
