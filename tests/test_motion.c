@@ -294,7 +294,8 @@ names_dahl(void **unused)
     (void)unused;
     for (int i = 0; i < ROWS; i++) {
         for (int k = FINE - 1; k >= 0 && i > 0; k--) {
-            double t = i - (double)k / FINE, dx = 2 * (sin(w * t) - sin(w * (t - 1. / FINE))), way = dx > 0 ? 1 : -1;
+            double t = i - (double)k / FINE, dx = 2 * (sin(w * t) - sin(w * (t - 1. / FINE)));
+            double way = dx > 0 ? 1 : -1;
             z = way + (z - way) * exp(-fabs(dx) / 0.4);
         }
         r.x[i] = 2 * sin(w * i);

@@ -1,12 +1,12 @@
 /* driven_fit.c -- fit a friction law, driven by a measured motion, to the force.
  *
  * * The force is linear in the amplitudes of the law's parts and in what stands beside the law: a tilt, inertia, a
- * viscous part, an offset and its drift.  Linear least squares finds these for each value of the other unknowns (variable
- * projection), so that a search moves at most six.  It begins at points all over their ranges, of rows that were
+ * viscous part, an offset and its drift.  Linear least squares finds these for each value of the other unknowns
+ * (variable projection), so that a search moves at most six.  It begins at points all over their ranges, of rows that were
  * thinned, and at the fits of the laws that the law contains.
  *
  * * What a fit leaves is no white noise.  So errors come from the scatter of the slopes of the squares between
- * blocks of time (the sandwich), from the difference of the fits of the two folds, and from the converter's steps. */
+ * blocks of time (the sandwich), the difference of the fits of the two folds, and the converter's steps. */
 #include "fit/driven.h"
 
 #include <gsl/gsl_linalg.h>
@@ -154,8 +154,8 @@ solve(double g[COLUMNS][COLUMNS], const double b[], const int of[], size_t m, do
         c[k] /= size[k];
 }
 
-/* Find the amplitudes of the columns: one that would be negative, and may not, is 0.  Offset and drift are those of
- * all rows: one fold does not tell those of the other. */
+/* Find the amplitudes of the columns: one that would be negative, and may not, is 0.  Offset and drift are those
+ * of all rows: one fold does not tell those of the other. */
 static void
 find_amplitudes(problem *p)
 {
@@ -377,7 +377,8 @@ find_covariance(problem *p, driven_result *r, double *slopes)
     const double stands = d->code / 2 * exp(-2 * M_PI * M_PI * fit->loss / (d->code * d->code));
     for (size_t k = 0; k < m; k++) {
         size[k] = sqrt(h[k * (m + 1)]);
-        r->covariance[of[k]][of[k]] = size[k] > 0 ? stands * stands / d->codes * (double)d->n / (size[k] * size[k]) : 0;
+        if (size[k] > 0)
+            r->covariance[of[k]][of[k]] = stands * stands / d->codes * (double)d->n / (size[k] * size[k]);
     }
     for (size_t k = 0; k < m; k++)
         for (size_t l = 0; l <= k; l++)

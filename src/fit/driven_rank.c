@@ -275,7 +275,8 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         if (st != SS_OK)
             break;
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
-            .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power, .better = noise.better,
+            .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power,
+            .better = noise.better,
             .work = work_of(&r[n], rows),
             .noise = fmin(noise.unshared, noise.unexplained) / power,
             .steady = noise.steady / power, .rough = noise.rough / power };
