@@ -301,7 +301,7 @@ finds_nothing_in_noise_silence_and_short_records(void **state)
             ss_features *f = NULL;
             assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
             assert_int_equal(f->n, 0);
-            assert_true(f->number[SS_SLIPS].value == 0);
+            assert_true(!(f->number[SS_SLIPS].value > 0));
             assert_true(isnan(f->number[SS_TRANSITION_FREQUENCY].value)
                         && isnan(f->number[SS_TRANSITION_FREQUENCY_RAW].value)
                         && isnan(f->number[SS_REPETITION_FREQUENCY].value)

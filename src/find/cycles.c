@@ -313,19 +313,6 @@ parts_of(const cycle *c, size_t n)
     return 1;
 }
 
-/* The part of the variance of a period that a sinusoid of this period does not explain. */
-static double
-overtones(const double *x, size_t n, double period)
-{
-    double c = 0, s = 0, mean = gsl_stats_mean(x, 1, n), power = 0;
-    for (size_t i = 0; i < n; i++) {
-        double turn = 2 * M_PI * (double)i / period;
-        c += (x[i] - mean) * cos(turn), s += (x[i] - mean) * sin(turn);
-        power += (x[i] - mean) * (x[i] - mean);
-    }
-    return power > 0 ? fmax(0, 1 - 2 * (c * c + s * s) / ((double)n * power)) : 0;
-}
-
 /* Find median and standard error of the frequencies of n cycles. */
 static void
 summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
@@ -343,7 +330,7 @@ summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
     double variance = gsl_stats_variance(v, 1, n);
     double rho = n < 5 || !(variance > 0) ? 0 : fmax(0, fmin(0.9, gsl_stats_lag1_autocorrelation(v, 1, n)));
     double free_ones = fmax(1, (double)n * (1 - rho) / (1 + rho));
-    double student = gsl_cdf_tdist_Pinv(0.8413, fmax(1, fmin((double)n - 1, free_ones)));
+    double student = gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(1), fmax(1, fmin((double)n - 1, free_ones)));
     if (n >= ROBUST) {
         for (size_t i = 0; i < n; i++)
             v[i] = fabs(v[i] - f);
@@ -357,13 +344,12 @@ summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
     out->period = (ss_value){ 1 / f, out->frequency.error / (f * f) };
 }
 
-/* Describe the cycles of x, which are step samples long, by the n that begin so far apart.  known and v have
- * room for n.  Returns the number of shorter cycles in each of them. */
+/* Describe n cycles; known and v have room for n.  Returns the number of shorter cycles in each of them. */
 static size_t
-describe(const cycle *c, size_t n, const double *x, size_t step, cycle *known, double *v, ss_cycles *out)
+describe(const cycle *c, size_t n, cycle *known, double *v, ss_cycles *out)
 {
     double energy = 0, squares = 0;
-    size_t n_known = 0, alike = 0, sooner = 0, first = n, last = 0;
+    size_t n_known = 0, alike = 0, sooner = 0;
     for (size_t i = 0; i < n; i++) {
         energy += c[i].energy / (double)n;
         squares += c[i].energy * c[i].energy / (double)n;
@@ -372,8 +358,6 @@ describe(const cycle *c, size_t n, const double *x, size_t step, cycle *known, d
         if (!(c[i].energy > ACTIVE * energy))
             continue;
         out->n++;
-        first = first < i ? first : i;
-        last = i;
         if (isnan(c[i].rate))
             continue;
         known[n_known++] = c[i];
@@ -395,10 +379,8 @@ describe(const cycle *c, size_t n, const double *x, size_t step, cycle *known, d
         out->why = "what hums or rings repeats sooner than the rest";
     else if ((out->modulated = repeats(c, n, &c->energy, energy, CYCLES_LIKE, v)) != 0)
         out->why = "its cycles swell and fade in turn: it is modulated";
-    else {
+    else
         summarise(known, n_known, v, out);
-        out->overtones = overtones(x + (first + last) / 2 * step, step, out->period.value);
-    }
     return parts_of(known, n_known);
 }
 
@@ -417,7 +399,7 @@ find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
             averaged[i / q] += x[i] / (double)q;
         for (size_t i = 0; i + reach < n; i += step)
             c[found++] = measure(&fine, &coarse, q, i, period);
-        *parts = describe(c, found, x, step, c + most, averaged + n / q + 1, out);
+        *parts = describe(c, found, c + most, averaged + n / q + 1, out);
     }
     free(averaged);
     free(c);

@@ -13,7 +13,6 @@ typedef struct ss_cycles {
     double lasting;             /* correlation of the record with itself 8 cycles later, or a quarter of it */
     double symmetry;            /* the same with the signal half a period later: -1 where the second
                                    half of a cycle mirrors the first */
-    double overtones;           /* share of a cycle's power beyond its fundamental */
     double wander;              /* relative error of times by a clock that wanders: the scatter of the cycles' lengths
                                    over the root of their number, if noise does not explain it; else 0 */
     int modulated;              /* 1: the cycles swell and fade in turn */

@@ -21,7 +21,6 @@ static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement 
                                            .threads = 1 };
 
 #define SPAN 80.0               /* [dB] of the paper's contours */
-#define SIGMAS 3.0              /* of the noise: maxima that rise less above the saddle are left out */
 #define SLIGHT 0.5              /* [dB] the least prominence of a maximum that shows an oscillation */
 
 /* Parts of the work that are done after each step, roughly. */
@@ -63,7 +62,7 @@ find_maxima(search *s)
     for (size_t i = 0; i < s->n_found; i++) {
         ss_maximum m = s->found[i];
         double fall = s->top * pow(10, m.level / 20) * (1 - pow(10, -m.prominence / 20));
-        if (fall * (l1 ? sqrt(CENTER / (2 * M_PI * m.f)) : 1) < SIGMAS * rms || m.level < -SPAN)
+        if (fall * (l1 ? sqrt(ROW_CENTER / (2 * M_PI * m.f)) : 1) < SIGMAS * rms || m.level < -SPAN)
             continue;
         s->found[kept++] = m;
         if (m.prominence >= s->opts->threshold)
@@ -108,11 +107,11 @@ static ss_status
 find(search *s, double *x, size_t column, ss_error *err)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
-    opts.center = CENTER;
+    opts.center = ROW_CENTER;
     opts.norm = s->opts->norm;
     opts.threads = s->opts->threads;
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin       /* the lowest usable frequency */
-        : CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n) * (1 + 1e-9);
+        : ROW_CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n) * (1 + 1e-9);
     opts.progress = (ss_progress){ report_transform, s };
     ss_range flat = { 0, s->rate };             /* what a filter has changed is no contact */
     ss_header_flat(s->signal->head, &flat);

@@ -28,11 +28,10 @@
 #include <stickslip/spectrum.h>
 #include "find/fitter.h"
 
-#define BARELY 0.577            /* s / w at a damping ratio of one half */
 #define AROUND 2.0              /* periods on either side of the middle of a stretch */
-#define CONTACT 0.08            /* what the sensor leaves more than the contact, in parts: less is the sensor; 60
-                                   sensors in noise of 50 dB came to .054, contacts of the tests from .118 on */
-#define LINE 1.5                /* the same for what is not shown to decay */
+/* What the sensor leaves more than the contact, in parts: less is the sensor.  Sensors in noise of 50 dB come to .054,
+ * contacts of the tests to .118 and more. */
+#define CONTACT 0.08
 #define HIDDEN 2e-4             /* noise re what an event makes: more may hide where a slip begins */
 #define SLOW 0.05               /* range of means re that of samples: with less nothing moves but what rings */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
@@ -98,7 +97,6 @@ typedef struct stretch {
     size_t length, hop;         /* of it, and from one to the next, in samples of the record */
     double w, s;
     double noise;               /* sum of squares of white noise, or of rounding */
-    int decays;                 /* 0: what rings may be a steady line, which answers nothing */
     double *basis;              /* for each place of an event and either ringer: COLUMNS orthonormal columns */
     double *x;                  /* room for n samples */
 } stretch;
@@ -148,7 +146,7 @@ fill_basis(const stretch *of, size_t event, ringer who)
         row[4] = rings ? fall * cos(of->w * t) : 0;
         row[5] = rings ? fall * sin(of->w * t) : 0;
         for (int k = 0; k < EVENT; k++)
-            row[6 + k] = t < 0 ? 0 : who == BY_SENSOR && of->decays ? answer(of, k, t) : pow(u, k);
+            row[6 + k] = t < 0 ? 0 : who == BY_SENSOR ? answer(of, k, t) : pow(u, k);
     }
     orthonormalise(basis_of(of, event, who), of->n);
 }
@@ -230,8 +228,7 @@ gap_behind(const search *s, const ringdown *r, size_t i, size_t length)
     return gap.end < gap.first + length || gap.end > s->n ? (ss_window){ 0, 0 } : gap;
 }
 
-/* Does what rings in the windows ring on through the slips, or end where they begin?  What is not shown to decay
- * must be the contact's beyond doubt. */
+/* Does what rings in the windows ring on through the slips, or end where they begin? */
 static ss_status
 is_sensor(const search *s, const ringdown *r, int *is)
 {
@@ -240,8 +237,7 @@ is_sensor(const search *s, const ringdown *r, int *is)
     size_t windows = 0, seen = 0, used = 0, most = 0;
     stretch of = { .n = n, .skip = skip, .length = n * skip, .hop = (size_t)ceil(period / 2),
                    .w = r->all[0].value * (double)skip, .s = r->all[1].value * (double)skip,
-                   .noise = (double)n * (r->white * r->white + ROUNDING),
-                   .decays = r->all[1].value > SIGMAS * r->all[1].error };
+                   .noise = (double)n * (r->white * r->white + ROUNDING) };
     ss_window gap[STICKS];
     for (size_t i = 0; i < r->n_anchors; i++)
         windows += ss_window_length(r->window[i]) > 0;
@@ -275,7 +271,7 @@ is_sensor(const search *s, const ringdown *r, int *is)
             if (m >= 2 && 2 * m >= used)
                 best = fmax(best, gsl_stats_median(here, 1, m));
         }
-        *is = of.decays ? 2 * moved > used && best < CONTACT : best < LINE;
+        *is = 2 * moved > used && best < CONTACT;
     }
     free(more);
     free(of.basis);
@@ -289,7 +285,8 @@ ss_status
 ss_identity_of(search *s, const ringdown *r, const char **why)
 {
     int at_edge = 0;
-    *why = r->all[1].value > BARELY * r->all[0].value ? "what recurs is damped so much that a filter may make it"
+    /* a damping ratio above one half */
+    *why = 3 * pow(r->all[1].value, 2) > pow(r->all[0].value, 2) ? "what recurs is damped so much that a filter may make it"
         : !(r->all[1].value > 0) ? "what recurs does not decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
     const int is_known = *why != NULL || s->out->reverses || s->part->is_contact;

@@ -7,9 +7,10 @@
 #include "find/search.h"
 
 enum {
-    WITH_X = 1, WITH_F = 2, WITH_X_F = WITH_X | WITH_F, WITH_MASS = 4,  /* columns and mass in the options */
-    LOADING = 8,                                /* the transitions are falls of a force */
-    OF_EVENTS = 16,                             /* falls or reversals of a force: it is their median */
+    WITH_X = 1, WITH_F = 1 << 1, WITH_X_F = WITH_X | WITH_F,    /* columns in the options */
+    WITH_MASS = 1 << 2,
+    LOADING = 1 << 3,                           /* the transitions are falls of a force */
+    OF_EVENTS = 1 << 4,                         /* falls or reversals of a force: it is their median */
     OF_FALLS = LOADING | OF_EVENTS
 };
 

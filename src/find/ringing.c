@@ -18,7 +18,7 @@ static double
 true_frequency(const search *s, double label)
 {
     return s->opts->norm == SS_NORM_L1 ? label
-        : label * (CENTER + sqrt(CENTER * CENTER + 2)) / (2 * CENTER);
+        : label * (ROW_CENTER + sqrt(ROW_CENTER * ROW_CENTER + 2)) / (2 * ROW_CENTER);
 }
 
 /* --- transitions that are found by their ringing ----------------------------------------------- */
@@ -67,7 +67,7 @@ static size_t
 match_maxima(search *s, const ss_maximum *swell, double f)
 {
     ss_features *out = s->out;
-    double reach = CENTER / (M_PI * f);
+    double reach = ROW_CENTER / (M_PI * f);
     size_t ringing = 0, first = 0;
     for (size_t i = 0; i < out->n; i++) {
         const ss_maximum *best = NULL;
@@ -119,11 +119,12 @@ begin_sharply(const search *s, const ss_maximum *swell, double f)
     const ss_spikes *found = s->out->spikes;
     size_t sharp = 0, n = s->out->n;
     for (size_t i = 0; i < n; i++) {
-        double t = swell[i].t - 1 / f;          /* a swell is highest about a period behind its onset */
-        size_t k = ss_list_from(found->spike, found->n, sizeof *found->spike, t - 1.5 / f);
-        while (k < found->n && found->spike[k].t <= t + 1.5 / f && !is_event(&found->spike[k]))
+        /* a swell is highest about a period behind its onset, give or take 1.5 */
+        double last = swell[i].t + 0.5 / f;
+        size_t k = ss_list_from(found->spike, found->n, sizeof *found->spike, last - 3 / f);
+        while (k < found->n && found->spike[k].t <= last && !is_event(&found->spike[k]))
             k++;
-        sharp += k < found->n && found->spike[k].t <= t + 1.5 / f;
+        sharp += k < found->n && found->spike[k].t <= last;
     }
     return 2 * sharp >= n;
 }

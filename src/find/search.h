@@ -12,7 +12,6 @@
 #include "find/quantity.h"
 #include "find/window.h"
 
-#define CENTER 6.0              /* of the wavelet */
 #define STRONG 20.0             /* [dB] range of the spikes that begin or end a transition */
 
 static const ss_value unknown = { NAN, NAN };

@@ -13,7 +13,6 @@
 #define EVEN 0.03               /* the same between events of one kind: begins and ends may be nearly even */
 #define MOST 0.75               /* the least part of the transitions that must recur */
 #define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
-#define OVERTONES 0.1           /* part of the power: a cycle with less is a sinusoid */
 #define BARE 0.999              /* likeness of cycles in which noise and hum hide no slip */
 #define ALIKE 0.05              /* relative scatter of falls that differ by chance only */
 
@@ -103,31 +102,8 @@ keep_ringing(search *s)
     out->n = kept;
 }
 
-/* Keep the transitions with a jump or a kink, if the record is one in which these are seen: a swell without any is
- * what a resonance leaves. */
-static void
-keep_sharp(ss_features *out)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < out->n && out->spikes->conclusive; i++)
-        if (out->transition[i].spikes > 0)
-            out->transition[kept++] = out->transition[i];
-    out->n = kept > 0 ? kept : out->n;
-}
-
-/* Do most of the events last longer than a period of what they are?  Then short sticks may hide in them. */
-static int
-are_long(const ss_features *out)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < out->n; i++)
-        n += (out->transition[i].end - out->transition[i].onset) * out->transition[i].maximum.f > 1;
-    return 2 * n > out->n;
-}
-
 /* May some of the events be no slips, but ends of sticks, or micro-slips, or may slips be missing?  Events at
- * equal distances are all of one kind.  Where nothing rings anew with each, weak slips hide in noise or a hum, or
- * within an event. */
+ * equal distances are all of one kind.  Where nothing rings anew with each, weak slips hide in noise or a hum. */
 static int
 is_doubtful(const search *s, times event, size_t each)
 {
@@ -136,7 +112,7 @@ is_doubtful(const search *s, times event, size_t each)
         || (each > least
             && !recur(s, event, 1, 1 / ((double)each * s->out->number[SS_REPETITION_FREQUENCY].value), EVEN))
         || (isnan(s->out->number[SS_TRANSITION_FREQUENCY].value) && !s->out->reverses
-            && (!(s->cycles.likeness >= BARE) || are_long(s->out)));
+            && !(s->cycles.likeness >= BARE));
 }
 
 void
@@ -170,15 +146,14 @@ forget_ringing(ss_features *out)
 
 /* Count a slip in each cycle, as sharp events do not repeat with the cycle.  A cycle of dry friction has a
  * slip nevertheless.  It has one, unless its second half mirrors the first: then it has as many in either
- * direction.  A sinusoid may have none. */
+ * direction, or none, as a sinusoid. */
 static void
 count_cycles(search *s)
 {
     ss_features *out = s->out;
     int more = (double)out->n > (double)s->cycles.n;
     forget_ringing(out);
-    if (s->quantity == QUANTITY_UNKNOWN && s->cycles.symmetry > -CYCLES_ALIKE
-        && s->cycles.overtones > OVERTONES) {
+    if (s->quantity == QUANTITY_UNKNOWN && s->cycles.symmetry > -CYCLES_ALIKE) {
         out->n = out->recurring = 0;
         out->number[SS_SLIPS].value = (double)s->cycles.n;
         know(out, SS_SLIP_RATE, known(out, SS_REPETITION_FREQUENCY));
@@ -285,9 +260,7 @@ count_events(search *s, double *t)
     ss_features *out = s->out;
     size_t each = slips_in_cycle(s, onsets(s, t));
     if (each > least_in_cycle(s)) {
-        if (isnan(out->number[SS_TRANSITION_FREQUENCY].value))
-            keep_sharp(out);
-        else
+        if (!isnan(out->number[SS_TRANSITION_FREQUENCY].value))
             keep_ringing(s);
         out->number[SS_SLIPS].value = (double)out->n;
         each = slips_in_cycle(s, onsets(s, t));

@@ -6,6 +6,7 @@
  * window stops growing when they raise it by more. */
 #include "find/fitter.h"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
 #include <stdlib.h>
 
@@ -102,8 +103,7 @@ ss_sticks_place(fitter *k, size_t anchor, double size_in_periods)
 int
 ss_sticks_belong(const fitter *k, double rise, size_t q)
 {
-    const double deviations = 3.0902;           /* a Gaussian exceeds so many with FIT_CHANCE */
-    return rise <= k->noise * chi_square((double)q, deviations);
+    return rise <= k->noise * chi_square((double)q, gsl_cdf_ugaussian_Qinv(FIT_CHANCE));
 }
 
 /* Grow a window about a core to at most `longest` samples within room, backwards and then forwards, in steps
