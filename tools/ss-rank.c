@@ -398,8 +398,6 @@ write_law(const job *j, const ss_motion_ranking *r)
         if (ss_scene_set_text(&scene, key, equals + 1, &err) != SS_OK)
             tool_usage("--set: %s", err.text);
     }
-    if (!(scene.mass > 0 && scene.stiffness > 0))
-        tool_usage("--fit needs --set=mass=KG and --set=stiffness=N/m of the rig in which the law is to move");
     tool_check(ss_scene_check(&scene, &err), &err);
     for (size_t i = 0; i < r->n_numbers; i++)
         if (strstr(r->number[i].name, "_negative") != NULL && isnan(ss_scene_get(&scene, r->number[i].name)))
@@ -423,9 +421,20 @@ write_motion(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
     return ss_plot_motion(out, d->signal, d->motion, d->force, d->ranking, opts, err);
 }
 
+static int
+is_set(const job *j, const char *key)
+{
+    for (size_t i = 0; i < j->settings.n; i++)
+        if (strncmp(j->settings.text[i], key, strlen(key)) == 0)
+            return 1;
+    return 0;
+}
+
 static void
 rank_motion(job *j)
 {
+    if (j->fits && !(is_set(j, "mass=") && is_set(j, "stiffness=")))
+        tool_usage("--fit needs --set=mass=KG and --set=stiffness=N/m of the rig in which the law is to move");
     ss_motion_ranking *r = NULL;
     ss_error err = { 0 };
     ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);

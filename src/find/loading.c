@@ -324,6 +324,8 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
         }
         for (size_t i = 0; i < SLIP_NUMBERS; i++)
             shared[i] = all[i] > 0 ? shared[i] / all[i] : 0;
+        if (fabs(damping.value) >= MOST_DAMPING)
+            damping = (ss_number){ NAN, NAN, NAN, "friction is not constant in slip" };
         ss_loading_medians(out, drop, shared, &damping, v, scratch);
     }
     free(f);

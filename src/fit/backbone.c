@@ -636,8 +636,8 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
         if (st == SS_OK && d->n_blocks >= FEW)
             st = settle(d);
         if (st == SS_OK && d->n_blocks >= FEW && is_stop(d)) {
-            d->n_blocks--;
-            d->stop = "the motion stops";
+            const block *b = &d->block[--d->n_blocks];
+            d->stop = b->cov[LEVEL][0] * b[-1].left / b[-1].free > .01 ? "noise" : "the motion stops";
             st = settle(d);
         }
         if (st == SS_OK && d->n_blocks < FEW && d->beside.n > 0) {
