@@ -8,6 +8,7 @@
 #define BREAK 0.05              /* probability of cutting all windows although there is no micro-slip; it is
                                    FIT_CHANCE if neither part has the least length, as then all are refused */
 #define LATEST 32.0             /* periods behind a window, see ss_slips_ring_on */
+#define TONE 0.25               /* from one hum that is tried to the next, re w: windows show no less */
 #define LOUDER 1.5              /* times the residual: an oscillation that is louder rings on */
 
 /* --- micro-slips too weak for any one window ----------------------------------------------- */
@@ -234,7 +235,7 @@ rings_there(fitter *k, tail behind)
 ss_status
 ss_slips_ring_on(fitter *k, int *is)
 {
-    static const double tone[] = { 0, 0.7, 0.85, 1, 1.15, 1.3 };   /* re w; 0: the oscillation itself */
+    static const double tone[] = { 0, 1 - TONE, 1, 1 + TONE };     /* re w; 0: the oscillation itself */
     const double w = k->fit.w, s = k->fit.s;
     tail *behind = malloc((k->n + 1) * sizeof *behind);
     if (behind == NULL)

@@ -79,34 +79,6 @@ stand_apart(const ss_bursts *found)
     return found->n < 2 || weakest - fmax(found->next, found->floor) >= APART;
 }
 
-/* Does x stay at the value between two events, but not most of the time? */
-static int
-stands_between(const search *s, const ss_bursts *found, double value)
-{
-    size_t there = 0;
-    for (size_t i = 0; i < s->n; i++)
-        there += s->x[i] == value;
-    for (size_t k = 1; k < found->n && 2 * there < s->n; k++) {
-        size_t run = 0, i = (size_t)(found->burst[k - 1].t * s->rate);
-        for (; i < (size_t)(found->burst[k].t * s->rate); i++) {
-            run = s->x[i] == value ? run + 1 : 0;
-            if (run == FEWEST)
-                return 1;
-        }
-    }
-    return 0;
-}
-
-/* May two events be one?  A clipped part of a signal begins and ends sharply. */
-static int
-is_clipped_between(const search *s, const ss_bursts *found)
-{
-    double top = s->x[0], bottom = s->x[0];
-    for (size_t i = 1; i < s->n; i++)
-        top = fmax(top, s->x[i]), bottom = fmin(bottom, s->x[i]);
-    return stands_between(s, found, top) || stands_between(s, found, bottom);
-}
-
 /* Find single events in a record that is quiet elsewhere.  The map is not needed any more. */
 static ss_status
 find_single(search *s)
@@ -115,10 +87,7 @@ find_single(search *s)
     ss_coefficients_free(s->map);
     s->map = NULL;
     ss_status st = ss_bursts_find(&found, s->rows, CLEAR, NULL);
-    if (st == SS_OK && is_clipped_between(s, found))
-        say(s->out, SS_SLIPS,
-            "two events may be one that is clipped: it stands still at an extreme between them");
-    else if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
+    if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
         for (size_t i = 0; i < found->n; i++) {
             ss_transition *tr = &s->out->transition[i];
             size_t at = (size_t)round(found->burst[i].t * s->rate);
