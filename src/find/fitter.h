@@ -51,9 +51,9 @@ int ss_sticks_belong(const fitter *k, double rise, size_t q);
 /* Grow windows about one of every so many cores, up to limit samples. */
 void ss_sticks_grow(fitter *k, const ss_window *core, size_t every, size_t limit);
 
-/* Cut all windows in two, so many samples behind their starts or before their ends, and keep the parts that
- * are longer in all, trimmed at that place; 0: too little would be left, and they stay as they were. */
-int ss_sticks_split(fitter *k, size_t at, int from_end);
+/* Cut all windows in two, so many samples behind their starts, and keep the parts that are longer in all,
+ * trimmed at that place; 0: too little would be left, and they stay as they were. */
+int ss_sticks_split(fitter *k, size_t at);
 
 /* Trim both ends as growth found them; empty: the rest is shorter than the least length. */
 ss_window ss_sticks_trim(const fitter *k, ss_window win);
@@ -67,15 +67,15 @@ ss_chisq2(double chance)
     return -2 * log(chance);
 }
 
-/* Find where the gain changes most, so many samples behind the starts of the windows, or before their ends;
- * *at becomes 0 if it does not change. */
-ss_status ss_slips_find(fitter *k, int from_end, size_t *at);
+/* Find where the gain changes most, so many samples behind the starts of the windows; *at becomes 0 if it does
+ * not change. */
+ss_status ss_slips_find(fitter *k, size_t *at);
 
 /* Does the gain change once a period, as in a train of micro-slips? */
 int ss_slips_recur(fitter *k);
 
 /* Empty the windows whose own gains change most at a place: one window of up to 31. */
-ss_status ss_slips_drop_worst(fitter *k, size_t at, int from_end);
+ss_status ss_slips_drop_worst(fitter *k, size_t at);
 
 /* *is becomes 1 if it rings on behind the windows, or hums. */
 ss_status ss_slips_ring_on(fitter *k, int *is);

@@ -134,17 +134,12 @@ leave_out_slips(fitter *k, int *ok)
     const double grown = (double)samples_in(k);
     for (;;) {
         size_t at = 0;
-        int from_end = 0;
         ss_status st = fit_shared(k, FIT_FINE, ok);
         if (st == SS_OK && *ok)
-            st = ss_slips_find(k, 0, &at);
-        if (st == SS_OK && *ok && at == 0) {
-            from_end = 1;
-            st = ss_slips_find(k, 1, &at);
-        }
+            st = ss_slips_find(k, &at);
         *ok = *ok && (double)samples_in(k) >= KEPT * grown;
-        if (st == SS_OK && *ok && at > 0 && !ss_sticks_split(k, at, from_end))
-            st = ss_slips_drop_worst(k, at, from_end);
+        if (st == SS_OK && *ok && at > 0 && !ss_sticks_split(k, at))
+            st = ss_slips_drop_worst(k, at);
         if (st != SS_OK || !*ok || at == 0)
             return st;
     }

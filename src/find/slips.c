@@ -79,11 +79,10 @@ add_score(const varpro_factor *f, const linear *fitted, const varpro_sums *once,
     }
 }
 
-/* Add the scores of a window at the places first, first + step, ... behind its start, or before its
- * end; again: the gain changes at the place and once a period behind it. */
+/* Add the scores of a window at the places first, first + step, ... behind its start; again: the gain changes at the
+ * place and once a period behind it. */
 static void
-add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, int from_end, int again,
-           score *to)
+add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, int again, score *to)
 {
     const size_t length = ss_window_length(win);
     if (length == 0)
@@ -92,9 +91,8 @@ add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places,
     varpro_sums behind, once, twice;
     size_t end = length;
     ss_varpro_sums_start(&k->fit, win.first, &behind);
-    for (size_t i = 0; i < n_places; i++) {     /* the last place first */
-        size_t l = from_end ? i : n_places - 1 - i, off = first + l * step;
-        size_t at = !from_end ? off : off < length ? length - off : length;
+    for (size_t l = n_places; l-- > 0;) {
+        size_t at = first + l * step;
         if (at >= length)
             continue;
         if (again) {
@@ -118,7 +116,7 @@ statistic(const score *at)
 }
 
 ss_status
-ss_slips_find(fitter *k, int from_end, size_t *at)
+ss_slips_find(fitter *k, size_t *at)
 {
     size_t step = periods(k, FIT_BLOCK), longest = 0;
     for (size_t i = 0; i < k->n; i++)
@@ -128,7 +126,7 @@ ss_slips_find(fitter *k, int from_end, size_t *at)
     if (place == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < k->n; i++)
-        add_scores(k, k->window[i], step, step, n_places, from_end, 0, place);
+        add_scores(k, k->window[i], step, step, n_places, 0, place);
     double most = 1;
     *at = 0;
     for (size_t l = 0; l < n_places; l++) {
@@ -152,7 +150,7 @@ ss_slips_recur(fitter *k)
     score phase[PHASES] = { { .g = { 0 } } };
     size_t step = periods(k, 1. / PHASES);
     for (size_t i = 0; i < k->n; i++)
-        add_scores(k, k->window[i], step, step, PHASES, 0, 1, phase);
+        add_scores(k, k->window[i], step, step, PHASES, 1, phase);
     for (size_t l = 0; l < PHASES; l++)
         if (statistic(&phase[l]) > k->noise * ss_chisq2(BREAK / PHASES))
             return 1;
@@ -166,7 +164,7 @@ typedef struct change {
 
 /* Drop several windows at once: dropping one by one would take as many fits as windows. */
 ss_status
-ss_slips_drop_worst(fitter *k, size_t at, int from_end)
+ss_slips_drop_worst(fitter *k, size_t at)
 {
     enum { PART = 32 };         /* of the windows is dropped, and one */
     change *found = malloc((k->n + 1) * sizeof *found);
@@ -177,7 +175,7 @@ ss_slips_drop_worst(fitter *k, size_t at, int from_end)
         score s = { .g = { 0 } };
         if (ss_window_length(k->window[i]) <= at)
             continue;
-        add_scores(k, k->window[i], at, 1, 1, from_end, 0, &s);
+        add_scores(k, k->window[i], at, 1, 1, 0, &s);
         found[count++] = (change){ statistic(&s), i };
     }
     if (count > 1)

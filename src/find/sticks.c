@@ -172,30 +172,30 @@ keep_off(const fitter *k, ss_window win, size_t start, size_t end)
 /* The part of a window before a place in it, or behind it, trimmed at the place if it stays long enough.  A
  * window that does not reach the place stays whole. */
 static ss_window
-part(const fitter *k, ss_window win, size_t at, int from_end, int behind)
+part(const fitter *k, ss_window win, size_t at, int behind)
 {
     size_t least = periods(k, FIT_LEAST), length = ss_window_length(win);
     if (at >= length)
-        return behind != from_end ? (ss_window){ win.first, win.first } : win;
-    size_t kept = behind != from_end ? length - at : at, spare = kept > least ? kept - least : 0;
+        return behind ? (ss_window){ win.first, win.first } : win;
+    size_t kept = behind ? length - at : at, spare = kept > least ? kept - least : 0;
     size_t off = length - kept + least_of(periods(k, FIT_TRIM_END), spare);
     return behind ? keep_off(k, win, off, 0) : keep_off(k, win, 0, off);
 }
 
 int
-ss_sticks_split(fitter *k, size_t at, int from_end)
+ss_sticks_split(fitter *k, size_t at)
 {
     size_t all = 0, left[2] = { 0, 0 };
     for (size_t i = 0; i < k->n; i++) {
         all += ss_window_length(k->window[i]);
         for (int behind = 0; behind < 2; behind++)
-            left[behind] += ss_window_length(part(k, k->window[i], at, from_end, behind));
+            left[behind] += ss_window_length(part(k, k->window[i], at, behind));
     }
     int behind = left[1] > left[0];
     if (3 * left[behind] < all)
         return 0;
     for (size_t i = 0; i < k->n; i++)
-        k->window[i] = part(k, k->window[i], at, from_end, behind);
+        k->window[i] = part(k, k->window[i], at, behind);
     return 1;
 }
 
