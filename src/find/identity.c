@@ -29,8 +29,8 @@
 #include "find/fitter.h"
 
 #define AROUND 2.0              /* periods on either side of the middle of a stretch */
-/* What the sensor leaves more than the contact, in parts: less is the sensor.  Sensors in noise of 50 dB come to .054,
- * contacts of the tests to .118 and more. */
+/* What the sensor leaves more than the contact, in parts: less is the sensor.  Sensors in noise of 50 dB come to
+ * .054, contacts of the tests to .118 and more. */
 #define CONTACT 0.08
 #define HIDDEN 2e-4             /* noise re what an event makes: more may hide where a slip begins */
 #define SLOW 0.05               /* range of means re that of samples: with less nothing moves but what rings */
@@ -286,7 +286,8 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
 {
     int at_edge = 0;
     /* a damping ratio above one half */
-    *why = 3 * pow(r->all[1].value, 2) > pow(r->all[0].value, 2) ? "what recurs is damped so much that a filter may make it"
+    *why = 3 * pow(r->all[1].value, 2) > pow(r->all[0].value, 2)
+        ? "what recurs is damped so much that a filter may make it"
         : !(r->all[1].value > 0) ? "what recurs does not decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
     const int is_known = *why != NULL || s->out->reverses || s->part->is_contact;

@@ -79,8 +79,8 @@ add_score(const varpro_factor *f, const linear *fitted, const varpro_sums *once,
     }
 }
 
-/* Add the scores of a window at the places first, first + step, ... behind its start; again: the gain changes at the
- * place and once a period behind it. */
+/* Add the scores of a window at the places first, first + step, ... behind its start; again: the gain changes at
+ * the place and once a period behind it. */
 static void
 add_scores(fitter *k, ss_window win, size_t first, size_t step, size_t n_places, int again, score *to)
 {
