@@ -49,8 +49,14 @@ read_row(struct samples *s, int may_wait, ss_error *err)
         s->row = ss_kept_row(s->rows, s->next);
         s->next += s->row != NULL;
     } while (s->row != NULL && time != NONE && isnan(s->row[time]));
-    ss_progress_at(&s->progress, (1 + (double)s->next / (double)s->rows->n) / 2);
     return ss_kept_check(s->rows, err);
+}
+
+/* Report how many of the rows were given before. */
+static void
+report(const struct samples *s)
+{
+    ss_progress_at(&s->progress, (1 + (double)s->next / (double)s->rows->n) / 2);
 }
 
 static ss_status
@@ -58,6 +64,7 @@ give_samples(ss_source *base, double *const column[], size_t max, size_t *n, ss_
 {
     struct samples *s = (struct samples *)base;
     const struct time_column *time = &s->timing.time;
+    report(s);
     for (; *n < max; ++*n, s->given++) {
         if (s->row == NULL) {
             ss_status st = read_row(s, *n == 0, err);
@@ -83,6 +90,7 @@ give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_err
 {
     struct samples *s = (struct samples *)base;
     ss_status st = SS_OK;
+    report(s);
     for (; *n < max && (st = read_row(s, 1, err)) == SS_OK && s->row != NULL; ++*n) {
         give_row(s, s->row, column, *n);
         column[s->n - 1][*n] = ss_sheet_stamp(&s->timing.time, s->row);
