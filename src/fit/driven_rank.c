@@ -247,6 +247,14 @@ work_of(const driven_result *r, const driven *d)
     return all > 0 ? taken / all : 1;
 }
 
+/* Has the law a gap that is not three errors above 0, or at the end of its range? */
+static int
+has_no_gap(const driven_result *r)
+{
+    const double variance = r->covariance[GAP][GAP];        /* of its logarithm */
+    return (r->law->free >> GAP & 1) && !(variance > 0 && variance < 1. / 9);
+}
+
 /* Rank by a record that can show a law. */
 static ss_status
 judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven *coarse, const char *fold,
@@ -277,7 +285,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
             .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power,
             .better = noise.better,
-            .work = work_of(&r[n], rows),
+            .work = work_of(&r[n], rows), .has_no_gap = has_no_gap(&r[n]),
             .noise = fmin(noise.unshared, noise.unexplained) / power,
             .steady = noise.steady / power, .rough = noise.rough / power };
         out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - c[n].left, .repeat = noise.repeat,

@@ -109,7 +109,7 @@ errors_behind(const candidate *c, const candidate *best, double power)
 static int
 is_refuted(const candidate *c)
 {
-    return c->work < TAKEN || excess(c) > (c->better > SIGNIFICANT ? MISSING : BEYOND_NOISE);
+    return c->work < TAKEN || c->has_no_gap || excess(c) > (c->better > SIGNIFICANT ? MISSING : BEYOND_NOISE);
 }
 
 ss_verdict
@@ -147,6 +147,8 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         ss_number_rounded(times, is_noisy ? beyond : most->better, 3);
         if (count == 0 && most->work < TAKEN)
             snprintf(answer + length, room - (size_t)length, ", but its friction is hardly reached");
+        else if (count == 0 && most->has_no_gap)
+            snprintf(answer + length, room - (size_t)length, ", but its gap is not shown to be above 0");
         else if (count == 0)
             snprintf(answer + length, room - (size_t)length, ", but %s %s %s", is_noisy ? "leaves"
                      : "a free law predicts more, by", times, is_noisy ? "times the noise" : "errors");
