@@ -312,6 +312,17 @@ names_dahl(void **unused)
     ss_signal_free(r.signal);
 }
 
+/* The recording is that of a law with this friction. */
+static void
+assert_law(const recording *r, const char *law, double friction)
+{
+    ss_motion_ranking *k = rank(r, 0, NULL);
+    assert_named(k, law);
+    assert_number(k, "friction", friction, "kN");
+    ss_motion_ranking_free(k);
+    ss_signal_free(r->signal);
+}
+
 /* Dry friction with a Stribeck part, clipped, with gravity on an arm, and oil that drags more in one direction. */
 static void
 names_dry_friction(void **unused)
@@ -353,11 +364,7 @@ names_dry_friction_read_late(void **unused)
         r.f[i] = 2 * cos(w * t) + 0.4 * 1.7 * cos(1.7 * w * t) > 0 ? 2 : -2;
     }
     add_noise(r.f, 0.006, 5);
-    ss_motion_ranking *k = rank(&r, 0, NULL);
-    assert_named(k, "coulomb");
-    assert_number(k, "friction", 2, "kN");
-    ss_motion_ranking_free(k);
-    ss_signal_free(r.signal);
+    assert_law(&r, "coulomb", 2);
 }
 
 /* A converter's steps of .03, so that friction has one value either way, or three. */
@@ -368,11 +375,7 @@ knows_a_converter(void **unused)
     (void)unused;
     for (int i = 0; i < ROWS; i++)
         r.f[i] = 0.03 * round(((r.v[i] > 0 ? 2 : -2) + 0.01 * r.x[i]) / 0.03);
-    ss_motion_ranking *k = rank(&r, 0, NULL);
-    assert_named(k, "coulomb");
-    assert_number(k, "friction", 2, "kN");
-    ss_motion_ranking_free(k);
-    ss_signal_free(r.signal);
+    assert_law(&r, "coulomb", 2);
 }
 
 /* Friction that wanders by 4 % in the record, and a hum of .6 %: 20 times the noise, but no error of the law. */
@@ -385,11 +388,7 @@ names_friction_that_wanders(void **unused)
     for (int i = 0; i < ROWS; i++)
         r.f[i] = r.f[i] * (1 + 0.04 * sin(0.9 * i / ROWS * 2 * M_PI + 1)) + 0.02 * sin(0.7 * i);
     add_noise(r.f, 0.003, 10);
-    ss_motion_ranking *k = rank(&r, 0, NULL);
-    assert_named(k, "compliant");
-    assert_number(k, "friction", 3, "kN");
-    ss_motion_ranking_free(k);
-    ss_signal_free(r.signal);
+    assert_law(&r, "compliant", 3);
 }
 
 /* The motion is that of an encoder of few lines: where it turns, the direction is not known for some rows. */

@@ -127,15 +127,22 @@ cycle_variance(const rank_record *r, double samples, double *d)
     return gaussian_variance(d, count);
 }
 
+double
+ss_smallest_change(const double *x, size_t n)
+{
+    double smallest = INFINITY;
+    for (size_t i = 1; i < n; i++)
+        if (x[i] != x[i - 1])
+            smallest = fmin(smallest, fabs(x[i] - x[i - 1]));
+    return smallest;
+}
+
 /* The variance of a converter's steps: a twelfth of the square of the smallest, and a ninth for noise of a
  * third of a step.  Medians do not see such noise, as most samples do not leave their step. */
 static double
 step_variance(const rank_record *r)
 {
-    double smallest = INFINITY;
-    for (size_t i = 1; i < r->n; i++)
-        if (r->x[i] != r->x[i - 1])
-            smallest = fmin(smallest, fabs(r->x[i] - r->x[i - 1]));
+    double smallest = ss_smallest_change(r->x, r->n);
     return isfinite(smallest) ? smallest * smallest * (1. / 12 + 1. / 9) : 0;
 }
 

@@ -2,8 +2,8 @@
  *
  * * The force is linear in the amplitudes of the law's parts and in what stands beside the law: a tilt, inertia, a
  * viscous part, an offset and its drift.  Linear least squares finds these for each value of the other unknowns
- * (variable projection), so that a search moves at most six.  It begins at points all over their ranges, of rows that were
- * thinned, and at the fits of the laws that the law contains.
+ * (variable projection), so that a search moves at most six.  It begins at points all over their ranges, of rows
+ * that were thinned, and at the fits of the laws that the law contains.
  *
  * * What a fit leaves is no white noise.  So errors come from the scatter of the slopes of the squares between
  * blocks of time (the sandwich), the difference of the fits of the two folds, and the converter's steps. */

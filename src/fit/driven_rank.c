@@ -247,12 +247,12 @@ work_of(const driven_result *r, const driven *d)
     return all > 0 ? taken / all : 1;
 }
 
-/* Has the law a gap that is not three errors above 0, or at the end of its range? */
-static int
-has_no_gap(const driven_result *r)
+/* By how many errors is a law's gap above 0?  0: it is at the end of its range; infinite: the law has none. */
+static double
+shown_gap(const driven_result *r)
 {
     const double variance = r->covariance[GAP][GAP];        /* of its logarithm */
-    return (r->law->free >> GAP & 1) && !(variance > 0 && variance < 1. / 9);
+    return !(r->law->free >> GAP & 1) ? INFINITY : variance > 0 ? 1 / sqrt(variance) : 0;
 }
 
 /* Rank by a record that can show a law. */
@@ -285,7 +285,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
             .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power,
             .better = noise.better,
-            .work = work_of(&r[n], rows), .has_no_gap = has_no_gap(&r[n]),
+            .work = work_of(&r[n], rows), .gap = shown_gap(&r[n]),
             .noise = fmin(noise.unshared, noise.unexplained) / power,
             .steady = noise.steady / power, .rough = noise.rough / power };
         out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - c[n].left, .repeat = noise.repeat,

@@ -20,6 +20,7 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "base/number.h"
+#include "fit/column.h"
 #include "fit/loaded.h"
 #include "fit/wander.h"
 #include "io/record.h"
@@ -220,13 +221,11 @@ off_neighbours(const path *p, size_t i)
 static double
 digit_of(const double *x, size_t n, size_t *longest)
 {
-    double digit = INFINITY;
+    const double digit = ss_smallest_change(x, n);
     *longest = 1;
     for (size_t i = 1, run = 1; i < n; i++) {
-        const double by = fabs(x[i] - x[i - 1]);
-        run = by > 0 ? 1 : run + 1;
+        run = x[i] != x[i - 1] ? 1 : run + 1;
         *longest = run > *longest ? run : *longest;
-        digit = by > 0 ? fmin(digit, by) : digit;
     }
     for (size_t i = 1; i < n; i++) {
         const double digits = (x[i] - x[i - 1]) / digit;

@@ -105,11 +105,13 @@ errors_behind(const candidate *c, const candidate *best, double power)
     return (c->left - best->left) / fmax(fmin(error, best->left / 2), RESIDUE_QUIET / 2);
 }
 
-/* Does it leave more than noise and what a real contact does beside its law, is a law missing, or is it a spring? */
+/* Does it leave more than noise and what a real contact does beside its law, is a law missing, is it a spring, or
+ * has it no gap? */
 static int
 is_refuted(const candidate *c)
 {
-    return c->work < TAKEN || c->has_no_gap || excess(c) > (c->better > SIGNIFICANT ? MISSING : BEYOND_NOISE);
+    return c->work < TAKEN || c->gap <= SIGNIFICANT
+        || excess(c) > (c->better > SIGNIFICANT ? MISSING : BEYOND_NOISE);
 }
 
 ss_verdict
@@ -147,7 +149,7 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         ss_number_rounded(times, is_noisy ? beyond : most->better, 3);
         if (count == 0 && most->work < TAKEN)
             snprintf(answer + length, room - (size_t)length, ", but its friction is hardly reached");
-        else if (count == 0 && most->has_no_gap)
+        else if (count == 0 && most->gap <= SIGNIFICANT)
             snprintf(answer + length, room - (size_t)length, ", but its gap is not shown to be above 0");
         else if (count == 0)
             snprintf(answer + length, room - (size_t)length, ", but %s %s %s", is_noisy ? "leaves"

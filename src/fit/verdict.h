@@ -39,7 +39,7 @@ typedef struct candidate {
     double steady, rough;           /* the same, if its friction may wander, and by what is rough in it */
     double better;                  /* errors by which a free law predicts more */
     double work;                    /* the part of the work that its force takes and does not give back */
-    int has_no_gap;                 /* 1: it has one, but not shown to be above 0: its two sides alone explain more */
+    double gap;                     /* errors by which it is above 0: else the two sides alone explain more */
     int tied;                       /* set: it is as good as the best */
 } candidate;
 
