@@ -51,12 +51,10 @@ ss_features_row(struct rows *rows, const ss_features *f, size_t i, double start,
     write_transition(rows, i < f->n ? &f->transition[i] : &no_transition, start, f->spikes->conclusive);
     if (has & LOADING)
         write_loading(rows, i < f->n && f->loading != NULL ? &f->loading[i] : &no_loading);
-    for (size_t k = SS_TRANSITIONS + 1; k < SS_FEATURE_NUMBERS && !rows->format->has_notes; k++) {
-        char name[64];
-        snprintf(name, sizeof name, "all_%s", ss_feature_numbers[k].label.name);
+    for (size_t k = SS_TRANSITIONS + 1; k < SS_FEATURE_NUMBERS && !rows->format->has_notes; k++)
         if ((ss_feature_numbers[k].needs & ~has) == 0)
-            ss_rows_value(rows, name, "", (ss_value){ f->number[k].value, f->number[k].error });
-    }
+            ss_rows_whole_value(rows, ss_feature_numbers[k].label.name,
+                                (ss_value){ f->number[k].value, f->number[k].error }, "", 0);
     ss_rows_end(rows);
 }
 

@@ -16,28 +16,38 @@ ss_motion_order(const char *unit)
     return -1;
 }
 
+/* Write the mechanism and its numbers, or why there is no decay. */
 static void
-write_row(struct rows *rows, const ss_backbone_row *r, const char *unit, double start)
+write_mechanism(struct rows *rows, const ss_backbone *b)
+{
+    char text[256] = "";            /* longer than all names */
+    size_t length = 0;
+    if (b->why != NULL) {
+        snprintf(text, sizeof text, "none: %s", b->why);
+        ss_rows_whole_word(rows, "decay", text);
+        return;
+    }
+    if (b->n_mechanisms > 1)
+        length = (size_t)sprintf(text, "cannot tell: ");
+    for (size_t i = 0; i < b->n_mechanisms; i++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i > 0 ? ", " : "",
+                                   ss_mechanism_names[b->mechanism[i]]);
+    ss_rows_whole_word(rows, "mechanism", b->n_mechanisms > 0 ? text : "other");
+    for (size_t i = 0; i < b->n_numbers; i++)
+        ss_rows_whole_value(rows, b->number[i].name, b->number[i].value, b->number[i].unit, 0);
+}
+
+static void
+write_row(struct rows *rows, const ss_backbone *b, const ss_backbone_row *r, const char *unit, double start)
 {
     ss_rows_number(rows, "amplitude", unit, r->amplitude);
     ss_rows_value(rows, "frequency", "Hz", r->frequency);
     ss_rows_value(rows, "damping_ratio", "", r->damping_ratio);
     ss_rows_number(rows, "t", "s", start + r->t);
     ss_rows_number(rows, "periods", "", r->periods);
+    if (!rows->format->has_notes)
+        write_mechanism(rows, b);
     ss_rows_end(rows);
-}
-
-static void
-write_mechanism(struct rows *rows, const ss_backbone *b)
-{
-    char text[256] = "other";       /* longer than all names */
-    size_t length = 0;
-    for (size_t i = 0; i < b->n_mechanisms; i++)
-        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i > 0 ? ", " : "",
-                                   ss_mechanism_names[b->mechanism[i]]);
-    ss_rows_note(rows, "mechanism: %s%s", b->n_mechanisms > 1 ? "cannot tell: " : "", text);
-    for (size_t i = 0; i < b->n_numbers; i++)
-        ss_rows_note_value(rows, b->number[i].name, b->number[i].value, b->number[i].unit, 0);
 }
 
 ss_status
@@ -62,18 +72,19 @@ ss_backbone_write(const ss_backbone *b, const ss_signal *signal, size_t column, 
         unit = "";              /* amplitudes are those of the levels */
     const ss_backbone_row none = { NAN, NAN, { NAN, NAN }, { NAN, NAN }, NAN, { NAN, NAN } };
     ss_rows_notes(&rows, signal->head, own);
-    if (b->why != NULL)
-        ss_rows_note(&rows, "decay: none: %s", b->why);
-    else {
+    if (rows.format->has_notes)
         write_mechanism(&rows, b);
+    if (b->why == NULL) {
         ss_rows_note(&rows, "chi2_dof: %s", ss_number_rounded(number, b->chi2_dof, 4));
         ss_rows_note(&rows, "amplitude_start: %s %s", ss_number_text(number, b->row[0].amplitude), b->start);
         ss_rows_note(&rows, "amplitude_stop: %s %s", ss_number_text(number, b->row[b->n - 1].amplitude), b->stop);
         ss_rows_note(&rows, "noise: %s", ss_number_text(number, b->noise));
     }
-    write_row(&rows, &none, unit, 0);
+    write_row(&rows, b, &none, unit, 0);
     for (size_t i = 0; i < b->n; i++)
-        write_row(&rows, &b->row[i], unit, signal->head->start);
+        write_row(&rows, b, &b->row[i], unit, signal->head->start);
+    if (b->n == 0 && !rows.format->has_notes)
+        write_row(&rows, b, &none, unit, 0);
     return ss_rows_finish(&rows, err);
 }
 

@@ -434,6 +434,19 @@ ss_motion_ranking_free(ss_motion_ranking *ranking)
 
 /* --- its text ------------------------------------------------------------------------------- */
 
+/* Write the answer, and the numbers of the law that is named. */
+static void
+write_answer(struct rows *rows, const ss_motion_ranking *r)
+{
+    ss_rows_whole_word(rows, "answer", r->answer);
+    if (r->n > 0)
+        ss_rows_whole_value(rows, "explained", (ss_value){ r->row[0].explained, r->row[0].explained_error }, "", 5);
+    for (size_t i = 0; i < r->n_numbers; i++)
+        ss_rows_whole_value(rows, r->number[i].name, r->number[i].value, r->number[i].unit, 5);
+    if (r->confounded[0] != '\0')
+        ss_rows_whole_word(rows, "confounded", r->confounded);
+}
+
 static void
 write_row(struct rows *rows, const ss_motion_ranking *r, size_t i)
 {
@@ -446,6 +459,8 @@ write_row(struct rows *rows, const ss_motion_ranking *r, size_t i)
     ss_rows_rounded(rows, "residual", "", row->residual, DIGITS);
     ss_rows_rounded(rows, "repeat", "", row->repeat, DIGITS);
     ss_rows_count(rows, "tied", (size_t)row->tied);
+    if (!rows->format->has_notes)
+        write_answer(rows, r);
     ss_rows_end(rows);
 }
 
@@ -458,20 +473,16 @@ ss_motion_ranking_write(const ss_motion_ranking *r, FILE *out, ss_format format,
     ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, err);
     if (st != SS_OK)
         return st;
-    ss_rows_note(&rows, "answer: %s", r->answer);
-    if (rows.format->has_notes && r->n > 0) {
-        ss_rows_note_value(&rows, "explained", (ss_value){ r->row[0].explained, r->row[0].explained_error }, "", 5);
-        for (size_t i = 0; i < r->n_numbers; i++)
-            ss_rows_note_value(&rows, r->number[i].name, r->number[i].value, r->number[i].unit, 5);
-        if (r->confounded[0] != '\0')
-            ss_rows_note(&rows, "confounded: %s", r->confounded);
+    if (rows.format->has_notes)
+        write_answer(&rows, r);
+    if (r->n > 0) {
         ss_rows_note(&rows, "force: %s on what moves", r->sign < 0 ? "as it acts" : "opposite to that");
         ss_rows_note(&rows, "folds: %s", r->interleaved ? "interleaved" : "halves");
-        if (r->clipped > 0)
-            ss_rows_note(&rows, "clipped: %zu rows, left out", r->clipped);
     }
+    if (r->clipped > 0)
+        ss_rows_note(&rows, "clipped: %zu rows, left out", r->clipped);
     write_row(&rows, r, 0);         /* the names */
-    for (size_t i = 0; i < r->n; i++)
+    for (size_t i = 0; i < r->n + (r->n == 0 && !rows.format->has_notes); i++)
         write_row(&rows, r, i);
     return ss_rows_finish(&rows, err);
 }

@@ -12,16 +12,6 @@ enum { DIGITS = 4 };            /* more than a criterion deserves */
 
 /* --- notes --------------------------------------------------------------------------------- */
 
-/* Write a part of the signal's power in per cent, so that the rest has two digits: 99.98. */
-static void
-write_explained(FILE *out, double part)
-{
-    char text[SS_NUMBER_MAX];
-    double left = fmax(1 - part, 1e-9);
-    int decimals = (int)fmax(ceil(-log10(left)) - 2, 0) + 1;
-    fprintf(out, "%s %%", ss_number_fixed(text, 100 * (1 - left), decimals));
-}
-
 static int
 is_compared(const ss_ranking *r)
 {
@@ -39,20 +29,31 @@ find_best(const ss_ranking *r)
     return best;
 }
 
-static void
-write_answer(FILE *out, const ss_ranking *r, const char *const *scene)
+/* The answer as one text, to be freed; NULL: there is no memory. */
+static char *
+answer_of(const ss_ranking *r, const char *const *scene)
 {
     const ss_rank_row *best = find_best(r);
+    char part[SS_NUMBER_MAX], *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (out == NULL)
+        return NULL;
     if (r->verdict == SS_NAMED)
-        fprintf(out, "# answer: %s explains ", scene[best->scene]);
+        fprintf(out, "%s explains ", scene[best->scene]);
     else
-        fprintf(out, "# answer: %s: %s", r->verdict == SS_NONE_FITS ? "none of these" : "cannot tell",
-                r->why);
+        fprintf(out, "%s: %s", r->verdict == SS_NONE_FITS ? "none of these" : "cannot tell", r->why);
     if (r->verdict != SS_NAMED && is_compared(r))
         fprintf(out, "; %s explains most, ", scene[best->scene]);
-    if (is_compared(r))
-        write_explained(out, best->explained);
-    fputs(r->verdict == SS_NAMED ? " of the signal's power\n" : "\n", out);
+    if (is_compared(r)) {
+        double left = fmax(1 - best->explained, 1e-9);          /* in per cent it has two digits: 99.98 */
+        fprintf(out, "%s %%", ss_number_fixed(part, 100 * (1 - left), (int)fmax(ceil(-log10(left)) - 2, 0) + 1));
+    }
+    fputs(r->verdict == SS_NAMED ? " of the signal's power" : "", out);
+    if (fclose(out) == 0)
+        return text;
+    free(text);
+    return NULL;
 }
 
 /* Write "# key: name number, name number" for the criteria first ... last - 1. */
@@ -134,24 +135,26 @@ worst_of(const ss_rank_row *row)
 }
 
 static void
-write_row(struct rows *rows, const ss_ranking *r, size_t i, const char *const *scene, int brief)
+write_row(struct rows *rows, const ss_ranking *r, size_t i, const ss_ranking_text *about, const char *answer)
 {
     const ss_rank_row *row = &r->row[i];
     int compared = !isnan(row->total);
     ss_rows_number(rows, "rank", "", r->verdict == SS_NAMED && compared ? (double)(i + 1) : NAN);
-    ss_rows_word(rows, "scene", scene[row->scene]);
+    ss_rows_word(rows, "scene", about->scene[row->scene]);
     ss_rows_rounded(rows, "total", "", compared ? row->total : NAN, DIGITS);
-    if (brief) {
+    if (about->brief) {
         ss_rows_rounded(rows, "residual", "dB", compared ? row->value[SS_BY_RESIDUAL] : NAN, DIGITS);
         ss_rows_word(rows, "worst", compared ? worst_of(row) : "-");
     }
-    for (int k = 0; k < SS_CRITERIA && !brief; k++) {
+    for (int k = 0; k < SS_CRITERIA && !about->brief; k++) {
         const criterion_rule *rule = &ss_criterion_rules[k];
         char score[64];
         snprintf(score, sizeof score, "%s_score", rule->name);
         ss_rows_rounded(rows, rule->name, rule->unit, compared ? row->value[k] : NAN, DIGITS);
         ss_rows_rounded(rows, score, "", compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN, DIGITS);
     }
+    if (!rows->format->has_notes)
+        ss_rows_whole_word(rows, "answer", answer);
     ss_rows_end(rows);
 }
 
@@ -170,24 +173,27 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
     if (st != SS_OK)
         return st;
     size_t *order = calloc(ranking->n, sizeof *order);
-    if (order == NULL)
-        return ss_fail_memory(err, NULL);
-    st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, err);
+    char *answer = answer_of(ranking, about->scene);
+    if (order == NULL || answer == NULL)
+        st = ss_fail_memory(err, NULL);
+    if (st == SS_OK)
+        st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, err);
     if (st == SS_OK) {
         int notes = rows.format->has_notes, all = notes && !about->brief;
         if (notes)
-            write_answer(out, ranking, about->scene);
+            ss_rows_whole_word(&rows, "answer", answer);
         if (all)
             write_notes(out, ranking, about, &own);
         if (notes)
             write_unfit(out, ranking, about);
         if (all && is_compared(ranking))
             write_orders(out, ranking, about->scene, order);
-        write_row(&rows, ranking, 0, about->scene, about->brief);       /* the names */
+        write_row(&rows, ranking, 0, about, answer);       /* the names */
         for (size_t i = 0; i < ranking->n; i++)
-            write_row(&rows, ranking, i, about->scene, about->brief);
+            write_row(&rows, ranking, i, about, answer);
         st = ss_rows_finish(&rows, err);
     }
+    free(answer);
     free(order);
     return st;
 }

@@ -699,6 +699,18 @@ ss_steps_free(ss_steps *steps)
 /* --- writing ------------------------------------------------------------------------------- */
 
 static void
+write_answer(struct rows *rows, const ss_step *s)
+{
+    char answer[256], ahead[SS_NUMBER_MAX];
+    if (s->answer == SS_STEP_NONE || s->answer == SS_STEP_UNDECIDED)
+        snprintf(answer, sizeof answer, "%s: %s", s->answer == SS_STEP_NONE ? "none of these" : "cannot tell", s->why);
+    else
+        snprintf(answer, sizeof answer, "%s is likelier by a factor of e^%s", ss_step_law_names[s->best],
+                 ss_number_rounded(ahead, s->law[s->best].log_likelihood - s->law[1 - s->best].log_likelihood, 2));
+    ss_rows_whole_word(rows, "answer", answer);
+}
+
+static void
 write_row(struct rows *rows, size_t rank, const ss_step *s, size_t law)
 {
     const ss_step_law *l = &s->law[law];
@@ -710,6 +722,11 @@ write_row(struct rows *rows, size_t rank, const ss_step *s, size_t law)
     ss_rows_value(rows, "critical_slip_distance", "m", l->critical_slip_distance);
     ss_rows_value(rows, "stiffness", "1/m", l->stiffness);
     ss_rows_value(rows, "drift", "1/m", l->drift);
+    ss_rows_rounded(rows, "step", "s", s->at, 9);
+    ss_rows_rounded(rows, "before", "m/s", s->before, 3);
+    ss_rows_rounded(rows, "after", "m/s", s->after, 3);
+    if (!rows->format->has_notes)
+        write_answer(rows, s);
     ss_rows_end(rows);
 }
 
@@ -718,14 +735,10 @@ note_step(struct rows *rows, const ss_step *s)
 {
     enum { DIGITS = 6 };
     const ss_step_law *best = &s->law[s->best];
-    char at[SS_NUMBER_MAX], before[SS_NUMBER_MAX], after[SS_NUMBER_MAX], ahead[SS_NUMBER_MAX];
+    char at[SS_NUMBER_MAX], before[SS_NUMBER_MAX], after[SS_NUMBER_MAX];
     ss_rows_note(rows, "step: at %s s, from %s to %s m/s", ss_number_rounded(at, s->at, 9),
                  ss_number_rounded(before, s->before, 3), ss_number_rounded(after, s->after, 3));
-    if (s->answer == SS_STEP_NONE || s->answer == SS_STEP_UNDECIDED)
-        ss_rows_note(rows, "answer: %s: %s", s->answer == SS_STEP_NONE ? "none of these" : "cannot tell", s->why);
-    else
-        ss_rows_note(rows, "answer: %s is likelier by a factor of e^%s", ss_step_law_names[s->best],
-                     ss_number_rounded(ahead, best->log_likelihood - s->law[1 - s->best].log_likelihood, 2));
+    write_answer(rows, s);
     ss_rows_note_value(rows, "direct_effect", best->direct_effect, "", DIGITS);
     ss_rows_note_value(rows, "evolution_effect", best->evolution_effect, "", DIGITS);
     ss_rows_note_value(rows, "critical_slip_distance", best->critical_slip_distance, "m", DIGITS);
@@ -742,7 +755,7 @@ ss_steps_write(const ss_steps *steps, FILE *out, ss_format format, ss_error *err
     ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, err);
     if (st != SS_OK)
         return st;
-    for (size_t i = 0; i < steps->n; i++)
+    for (size_t i = 0; i < steps->n && rows.format->has_notes; i++)
         note_step(&rows, &steps->step[i]);
     write_row(&rows, 0, &steps->step[0], 0);
     for (size_t i = 0; i < steps->n; i++)

@@ -8,6 +8,8 @@
 #include "signal/header.h"
 #include "io/record.h"
 
+enum { KEY_MAX = 48 };          /* bytes of the longest name of a number, as all_NAME */
+
 ss_status
 ss_rows_begin(struct rows *rows, FILE *out, ss_format format, ss_kind kind, ss_error *err)
 {
@@ -48,6 +50,26 @@ ss_rows_note_value(struct rows *rows, const char *key, ss_value v, const char *u
                  digits > 0 ? ss_number_rounded(value, v.value, digits) : ss_number_text(value, v.value),
                  digits > 0 ? ss_number_rounded(error, v.error, digits / 2) : ss_number_text(error, v.error),
                  unit[0] != '\0' ? " " : "", unit);
+}
+
+void
+ss_rows_whole_word(struct rows *rows, const char *key, const char *text)
+{
+    if (rows->format->has_notes)
+        ss_rows_note(rows, "%s: %s", key, text);
+    else
+        ss_rows_word(rows, key, text);
+}
+
+void
+ss_rows_whole_value(struct rows *rows, const char *key, ss_value v, const char *unit, int digits)
+{
+    char name[KEY_MAX];
+    snprintf(name, sizeof name, "all_%s", key);
+    if (rows->format->has_notes)
+        ss_rows_note_value(rows, key, v, unit, digits);
+    else
+        ss_rows_value(rows, name, unit, v);
 }
 
 void
@@ -130,7 +152,7 @@ ss_rows_rounded(struct rows *rows, const char *name, const char *unit, double x,
 void
 ss_rows_value(struct rows *rows, const char *name, const char *unit, ss_value v)
 {
-    char error[64];
+    char error[KEY_MAX + sizeof "_error"];
     snprintf(error, sizeof error, "%s_error", name);
     ss_rows_number(rows, name, unit, v.value);
     ss_rows_number(rows, error, unit, v.error);

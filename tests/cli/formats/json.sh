@@ -33,6 +33,24 @@ same ss-morlet -c a --fmin 5 run.tsv
 same ss-morlet -c a --fmin 20 --stream run.tsv
 same ss-plot --spectrum run.tsv
 same ss-rank run.tsv
+# What is said of the whole result stands in each row: the answer as the note has it, and its numbers.
+answers() {
+    same "$@"
+    "$@" | sed -n 's/^# \(answer\|mechanism\|decay\): //p; s/^# friction: \([^ ]*\).*/\1/p' > note.txt
+    python3 - <<'END'
+import json
+one = json.loads(open("out.json").readline())
+words = open("note.txt").read().splitlines()
+print(words and words == [one[key] if key != "all_friction" else f"{one[key]:.5g}"
+                          for key in ("answer", "mechanism", "decay", "all_friction") if key in one])
+END
+}
+answers ss-rank run.tsv coulomb
+answers ss-rank run.tsv --column f --motion x
+answers ss-backbone -c a run.tsv
+printf '%s\n' model=coulomb mass=1 stiffness=40 damping=.05 friction=.002 x0=.01 duration=60 rate=50 |
+    ss-sim - | ss-noise --snr 40 > decay.tsv
+answers ss-backbone -c x decay.tsv
 same ss-sweep coulomb --vary friction=1:2:3
 ss-sim --columns t,x,v coulomb --set duration=.002 --format json
 ss-cat run.tsv -o run.json && ss-cat run.tsv --format json | cmp - run.json
