@@ -210,6 +210,56 @@ parameters_and_scenes_are_those_of_the_rig(void **state)
     }
 }
 
+/* The errors of a law's numbers are on the average 1 to 1.5 of the least that white noise of variance v a sample allows
+ * for viscous friction (Cramer and Rao: of s and of w the square root of 16 s^3 v / rate each, for an amplitude of 1 at the
+ * start); dry friction is known to .5 %.  They hold: over the draws, z has the root mean square of as many normal
+ * numbers, to 2.5 deviations. */
+static void
+numbers_of_a_law_know_what_the_record_knows(void **state)
+{
+    enum { DRAWS = 8, RATE = 400 };
+    const double s = .01 * 20 * PI, bound = sqrt(16 * s * s * s * .01 * .01 / RATE);
+    double squares[2] = { 0 }, sum[2] = { 0 };
+    (void)state;
+    for (size_t rig = 0; rig < 2; rig++)
+        for (int draw = 0; draw < DRAWS; draw++) {
+            decay_turn *turn;
+            size_t turns;
+            seed = 31 + 100 * (uint64_t)draw;
+            ss_signal *signal = record(&rigs[rig], .01, "m", &turn, &turns);
+            ss_backbone *b = find(signal, NULL);
+            double f_error = 0, error = 0, f = number(b, "frequency", &f_error);
+            double of = number(b, rig == 0 ? "damping_ratio" : "friction_over_stiffness", &error);
+            squares[rig] += pow((f - 10) / f_error, 2) + pow((of - .01) / error, 2);
+            sum[0] += rig == 0 ? f_error * 2 * PI / bound : 0;
+            sum[1] += rig == 0 ? error * 20 * PI / bound : 0;
+            assert_true(error < (rig == 1 ? .005 : .01) * of);
+            ss_backbone_free(b);
+            ss_signal_free(signal);
+            free(turn);
+        }
+    print_message("errors %.2f and %.2f of the least\n", sum[0] / DRAWS, sum[1] / DRAWS);
+    for (size_t k = 0; k < 2; k++)
+        assert_true(fabs(sum[k] / DRAWS - 1.25) < .25);
+    for (size_t rig = 0; rig < 2; rig++)
+        assert_true(fabs(sqrt(squares[rig] / (2 * DRAWS)) - 1) < 2.5 / sqrt(4 * DRAWS));
+}
+
+/* Of 200 points a period the mean of some has less of the oscillation: the amplitude does not. */
+static void
+many_points_a_period_leave_the_amplitude(void **state)
+{
+    ss_signal *signal = new_signal(40000, 2000, 100, "x", "m");
+    (void)state;
+    for (size_t i = 0; i < signal->n; i++)
+        signal->values[i] = exp(-.2 * (double)i / 2000) * cos(20 * PI * (double)i / 2000);
+    ss_backbone *b = find(signal, NULL);
+    for (size_t i = 0; i < b->n; i++)
+        assert_true(fabs(b->row[i].amplitude / exp(-.2 * b->row[i].t) - 1) < 1e-5);
+    ss_backbone_free(b);
+    ss_signal_free(signal);
+}
+
 /* Contacts so stiff that some five cycles of slip take nine tenths of the amplitude, then stick. */
 static void
 sliders_that_stop_soon_are_known(void **state)
@@ -520,6 +570,7 @@ main(void)
         cmocka_unit_test(long_decays_without_noise_have_their_damping),
         cmocka_unit_test(rows_are_smooth_where_the_amplitude_grows), cmocka_unit_test(bands_hold_and_mechanisms_are_named),
         cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
+        cmocka_unit_test(numbers_of_a_law_know_what_the_record_knows), cmocka_unit_test(many_points_a_period_leave_the_amplitude),
         cmocka_unit_test(sliders_that_stop_soon_are_known), cmocka_unit_test(an_offset_is_no_growth),
         cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),
         cmocka_unit_test(levels_give_the_damping), cmocka_unit_test(long_blocks_and_two_modes),

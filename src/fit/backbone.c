@@ -141,13 +141,14 @@ take_record(decay *d, const double *x, size_t n)
         hi = fmax(hi, x[i]);
     }
     double margin = FLAT * (hi - lo), period = 2 * M_PI * (double)d->group / d->w;
+    double kept = sin(d->w / 2) / sin(d->w / 2 / (double)d->group);     /* of an oscillation, by a sum */
     lo = is_flat(x, n, lo + margin, -1, period) ? lo + margin : at_lo < 3 ? -INFINITY : lo;
     hi = is_flat(x, n, hi - margin, 1, period) ? hi - margin : at_hi < 3 ? INFINITY : hi;
     for (size_t i = 0; i < d->n; i++) {
         double sum = 0;
         for (size_t k = i * d->group; k < (i + 1) * d->group; k++)
             sum += x[k] > lo && x[k] < hi ? x[k] : NAN;
-        d->x[i] = sum / (double)d->group;
+        d->x[i] = sum / kept;
     }
     return SS_OK;
 }

@@ -142,6 +142,8 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
         whole = whole * ease + weight;
         for (size_t i = 0; i < states; i++) {
             end->x[i] = end->x[i] * ease + weight * at[n - 1].x[i];
+            end->of_walk[i][w][0] = at[n - 1].x[i];
+            end->of_walk[i][w][1] = sqrt(fmax(at[n - 1].p[i][i], 0));
             for (size_t j = 0; j < states; j++)
                 end->p[i][j] = end->p[i][j] * ease
                     + weight * (at[n - 1].p[i][j] + at[n - 1].x[i] * at[n - 1].x[j]);
@@ -188,8 +190,10 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
     for (size_t i = 0; i < n; i++)
         for (int o = 0; o < 3; o++)
             mix(&at[i].mean[o], &at[i].error[o], at[i].of_walk[o], weights);
-    for (size_t i = 0; i < states; i++)
+    for (size_t i = 0; i < states; i++) {
+        mix(&end->mean[i], &end->error[i], end->of_walk[i], weights);
         end->x[i] /= whole;
+    }
     for (size_t i = 0; i < states; i++)
         for (size_t j = 0; j < states; j++)
             end->p[i][j] = end->p[i][j] / whole - end->x[i] * end->x[j];

@@ -486,12 +486,12 @@ typedef struct mixed {
 /* Add what is smooth through the blocks about the mechanism f, whose unknowns are constants beside: each track
  * twice, as what the other one finds of the constants is where it starts. */
 static ss_status
-smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, double unit, double weight)
+smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit, double weight)
 {
     size_t n = of->n, states = 3, which[UNKNOWNS];
     double start[STATES][STATES] = { { 0 } }, x[STATES] = { 0 };
     told *at = calloc(n, sizeof *at), *by = calloc(n, sizeof *by);
-    place *p = calloc(2 * n, sizeof *p), end[TRACKS];
+    place *p = calloc(2 * n, sizeof *p), end[TRACKS], both;
     if (at == NULL || by == NULL || p == NULL || tell(at, of, f->u) != SS_OK) {
         free(at), free(by), free(p);
         return SS_ENOMEM;
@@ -541,14 +541,25 @@ smooth_about(mixed *sum, const trial *of, const fitted *f, const block *b, doubl
     for (size_t c = 0; c < of->tracks; c++)
         ss_blocks_track(&p[c * n], n, states, x, start, &end[c]);
     for (size_t c = 0; of->tracks > 1 && c < of->tracks; c++) {
-        place ignore, *other = &end[1 - c];
+        place *other = &end[1 - c];
         for (size_t j = 0; j < 3; j++) {
             other->x[j] = 0;
             for (size_t k = 0; k < states; k++)
                 other->p[j][k] = other->p[k][j] = 0;
         }
-        ss_blocks_track(&p[c * n], n, states, other->x, other->p, &ignore);
+        ss_blocks_track(&p[c * n], n, states, other->x, other->p, &both);
     }
+    const place *known = of->tracks > 1 ? &both : end;
+    double error[STATES];
+    for (size_t j = 3; j < states; j++) {
+        const size_t k = which[j - 3];
+        double sigma = sqrt(f->covariance[k * UNKNOWNS + k]);
+        f->u[k] += sigma * known->mean[j];
+        error[j] = sigma * known->error[j] / sqrt(known->p[j][j]);
+    }
+    for (size_t j = 3; j < states; j++)
+        for (size_t i = 3; i < states; i++)
+            f->covariance[which[j - 3] * UNKNOWNS + which[i - 3]] = error[i] * error[j] * known->p[i][j];
     for (size_t i = 0; i < n; i++) {
         const place *level = &p[i], *phase = of->tracks > 1 ? &p[n + i] : level;
         double mean[3] = { at[i].rate[LEVEL] + level->mean[1], at[i].rate[PHASE] + phase->mean[1],
@@ -594,7 +605,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         *f = f->bic < by_law.bic ? *f : by_law;
         of.is_exact = f->is_exact;
     }
-    const fitted *best = f;
+    fitted *best = f;
     while (best < f + SS_MECHANISMS - 1 && best->p < REJECT)
         best++;
     best = best->p < REJECT ? f : best;
@@ -612,7 +623,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     mixed *sum = calloc(n, sizeof *sum);
     double whole = 0, error[3];
     st = sum != NULL ? SS_OK : SS_ENOMEM;
-    for (const fitted *x = best; st == SS_OK && !is_other && x < f + SS_MECHANISMS; x++) {
+    for (fitted *x = best; st == SS_OK && !is_other && x < f + SS_MECHANISMS; x++) {
         int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY;
         unsigned is_more = laws[x->kind].contains >> best->kind & 1;
         if (is_more)

@@ -5,8 +5,8 @@
  * A row a mechanism and noise level (amplitude at the start over the noise's standard deviation), then one a
  * disturbance at 40 dB over all mechanisms, of those that close modes and a modulation have time to beat twice:
  * records, rows, the share of damping ratios and of frequencies within 1 and 2 of their errors, the median and rms
- * relative error of the damping ratio in percent; and of records how many were named rightly, not told, other, and
- * wrongly.
+ * relative error of the damping ratio in percent; of records how many were named rightly, not told, other, and
+ * wrongly; and the share of the numbers of laws that are named rightly within 1 and 2 of their errors.
  * usage: cover_backbone [RECORDS [SEED [CONDITION]]] */
 #include <complex.h>
 #include <math.h>
@@ -58,7 +58,7 @@ draw(ss_mechanism kind)
 }
 
 typedef struct score {
-    size_t records, rows, in[4], named[4];
+    size_t records, rows, in[4], named[4], numbers, known[2];
     double *error, square;
     size_t room;
 } score;
@@ -158,6 +158,19 @@ truth(const decay *of, const decay_turn *turn, size_t turns, const double *x, si
     return 1;
 }
 
+/* What a number of a law should be; those of microslip have no closed form. */
+static double
+true_number(const decay *of, const char *name)
+{
+    const struct { const char *name; long double value; } is[] = {
+        { "frequency", of->w / 2 / PI }, { "damping_ratio", of->zeta }, { "friction_over_stiffness", of->drag },
+        { "drag_over_mass", of->quadratic }, { "contact_stiffness_ratio", of->kappa[0] }, { "slip_amplitude", of->d[0] } };
+    size_t i = 0;
+    while (strcmp(is[i].name, name) != 0)
+        i++;
+    return (double)is[i].value;
+}
+
 static void
 run(score *s, ss_mechanism kind, double decibels, int condition)
 {
@@ -230,6 +243,10 @@ run(score *s, ss_mechanism kind, double decibels, int condition)
     if (condition >= CLOSE && b->n_mechanisms > 0)
         named = &s->named[b->n_mechanisms > 1 ? 1 : 3];
     (*named)++;
+    for (size_t i = 0; i < b->n_numbers && named == s->named && kind != SS_MICROSLIP; i++) {
+        double z = fabs(b->number[i].value.value - true_number(&of, b->number[i].name)) / b->number[i].value.error;
+        s->numbers++, s->known[0] += z <= 1, s->known[1] += z <= 2;
+    }
     ss_backbone_free(b);
     ss_signal_free(signal);
     ss_header_free(head);
@@ -242,10 +259,11 @@ print(const char *what, const char *level, score *s)
 {
     double n = (double)s->rows / 100;
     qsort(s->error, s->rows, sizeof *s->error, compare);
-    printf("| %s | %s | %zu | %zu | %.0f | %.0f | %.0f | %.0f | %.2f | %.2f | %zu | %zu | %zu | %zu |\n", what, level, s->records,
+    printf("| %s | %s | %zu | %zu | %.0f | %.0f | %.0f | %.0f | %.2f | %.2f | %zu | %zu | %zu | %zu | %.0f | %.0f |\n", what, level, s->records,
            s->rows, (double)s->in[0] / n, (double)s->in[1] / n, (double)s->in[2] / n, (double)s->in[3] / n,
            s->rows > 0 ? 100 * s->error[s->rows / 2] : NAN, 100 * sqrt(s->square / (double)s->rows), s->named[0], s->named[1],
-           s->named[2], s->named[3]);
+           s->named[2], s->named[3], 100. * (double)s->known[0] / (double)s->numbers,
+           100. * (double)s->known[1] / (double)s->numbers);
     fflush(stdout);
     free(s->error);
 }
@@ -259,7 +277,7 @@ main(int argc, char *argv[])
     verbose = argc > 6;
     static const double levels[] = { 60, 40, 25, 20 };
     printf("| mechanism | dB | records | rows | damping <= 1 | <= 2 | frequency <= 1 | <= 2 | median | rms | right "
-           "| not told | other | wrong |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+           "| not told | other | wrong | numbers <= 1 | <= 2 |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int c = 0; c < CONDITIONS; c++)
         for (int k = 0; k < SS_MECHANISMS && (only < 0 || only == c); k++)
             for (int l = 0; l < 4; l++) {
