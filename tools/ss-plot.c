@@ -296,6 +296,8 @@ main(int argc, char *argv[])
     opts.from = reading.from;           /* so that lines reach the border */
     opts.to = reading.to;
     reading.opts.from = reading.opts.to = 0;
+    /* a whole loop alone needs no clock */
+    reading.opts.stamps = xy.n > 0 && n_others == 0 && !tool_given("from") && !tool_given("to") && !tool_given("gaps");
     if (map != NULL && (xy.n > 0 || wanted.n > 0 || reading.given))
         tool_usage("--map excludes --xy, --column and the options of reading");
     if (over != NULL && map != NULL)

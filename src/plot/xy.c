@@ -95,7 +95,9 @@ read_path(path *p, ss_reader *reader, const size_t column[2], double start, cons
     size_t n = 1;
     unsigned char *crossed = calloc((size_t)CELLS * CELLS, 1);
     *p = (path){ .extent = { SCRIPT_NO_EXTENT, SCRIPT_NO_EXTENT } };
-    ss_status st = ss_series_begin(&s, reader, column, 2, start, opts, err);
+    /* the last column, since rows that bring their times must be read with these */
+    const size_t read[] = { column[0], column[1], ss_reader_header(reader)->n_columns - 1 };
+    ss_status st = ss_series_begin(&s, reader, read, 3, start, opts, err);
     if (st == SS_OK)
         st = crossed != NULL ? ss_series_rewind(&s, err) : ss_fail_memory(err, NULL);
     while (st == SS_OK && n > 0) {

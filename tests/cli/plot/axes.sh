@@ -13,6 +13,9 @@ for how in split interpolate; do
     ss-plot -c x --gaps $how gap.csv | sed -n '/^\$panel1 /,/^EOD/p'
 done
 ss-plot --xy x,y --gaps split gap.csv | sed -n '/^\$path /,/^EOD/p'
+# A path needs no clock: stamps may have any spacing.
+printf 't (s),x (m),y\n0,1,1\n.1,2,4\n.35,3,5\n.4,4,6\n.9,5,6\n' > uneven.csv
+ss-plot --xy x,y uneven.csv | sed -n '/^\$path/,/^EOD/p'
 ss-plot --gaps split --from 2.1 --to 2.9 gap.csv > none.gp || echo $?
 
 # Contours end with the record.

@@ -13,7 +13,7 @@ for options in '--levels 0' '--levels 101' '--span 0' '--palette jet' '--fmin 0'
 done
 ss-contour -c a - < /dev/null || echo $?
 ss-plot -c force run.tsv || echo $?
-ss-plot --xy t,a run.tsv || echo $?
+ss-plot --from 0 --xy t,a run.tsv || echo $?
 ss-plot -c t run.tsv || echo $?
 ss-plot absent.tsv || echo $?
 ss-contour --signal run.tsv run.tsv || echo $?
