@@ -403,7 +403,8 @@ write_law(const job *j, const ss_motion_ranking *r)
         if (strstr(r->number[i].name, "_negative") != NULL && isnan(ss_scene_get(&scene, r->number[i].name)))
             tool_warn("the scene lacks %s: its model has the same on both sides", r->number[i].name);
     FILE *out = tool_output(j->output);
-    fprintf(out, "# %s, by %s.\n", r->answer, j->signal_name);
+    fprintf(out, "# %s, by %s.\n# Something must move it: base_amplitude and base_frequency, or ss-sim --base=FILE.\n",
+            r->answer, j->signal_name);
     tool_check(ss_scene_write(&scene, out, &err), &err);
 }
 
@@ -496,6 +497,8 @@ fit_load(job *j)
     if (strcmp(signal->head->column[friction].unit, normal >= 0 ? signal->head->column[normal].unit : "") != 0)
         tool_die("column %s is in '%s': friction has no unit, and --normal-stress has that of its shear stress",
                  signal->head->column[friction].name, signal->head->column[friction].unit);
+    if (signal->head->column[load].unit[0] == '\0')
+        tool_die("column %s has no unit: --unit %s=um says that it is in um", j->load, j->load);
     tool_check(ss_steps_new(&steps, signal, load, friction, normal, stiffness, &err), &err);
     for (size_t i = 0; i < steps->n; i++)
         tool_note("step at %.9g s: %zu rows, noise of %.2g", steps->step[i].at, steps->step[i].n,
