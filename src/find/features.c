@@ -42,17 +42,19 @@ find_maxima(search *s)
     const ss_scale *last = &s->map->scale[shortest];
     int l1 = s->opts->norm == SS_NORM_L1;
     double *level = malloc((last->n + 1) * sizeof *level);
-    ss_status st = level == NULL ? SS_ENOMEM
+    const stream_lesson *known = s->part->known;
+    ss_status st = level == NULL ? SS_ENOMEM : known != NULL ? SS_OK
         : ss_map_read(s->map, &(ss_map_part){ shortest, 0, last->n, NULL, level }, 1, NULL);
-    for (size_t k = 0; st == SS_OK && k < last->n; k++)
+    for (size_t k = 0; st == SS_OK && known == NULL && k < last->n; k++)
         if (!ss_gaps_near(s->gap, s->n_gaps, ss_scale_b(last, k), ROW_REACH * last->a))
             level[n++] = level[k];
-    double rms = n == 0 ? 0 : ss_levels_middle(level, n) * sqrt((l1 ? last->a : 1) / M_LN2);
+    double rms = known != NULL ? known->rms
+        : n == 0 ? 0 : ss_levels_middle(level, n) * sqrt((l1 ? last->a : 1) / M_LN2);
     out->noise = rms * sqrt(s->rate);
     free(level);
     if (st == SS_OK)
         st = ss_maxima_above(&s->found, &s->n_found, s->map, fmin(SLIGHT, s->opts->threshold),
-                             1.5 * rms / (l1 ? sqrt(last->a) : 1), &s->top);
+                             1.5 * rms / (l1 ? sqrt(last->a) : 1), s->at, &s->top);
     if (st != SS_OK)
         return st;
     out->maximum = malloc((s->n_found + 1) * sizeof *out->maximum);
@@ -75,6 +77,13 @@ find_maxima(search *s)
 static ss_status
 find_repetition(search *s)
 {
+    const stream_lesson *known = s->part->known;
+    if (known != NULL) {
+        s->cycles = known->cycles;
+        s->cycles.n = (size_t)((double)s->cycles.n * (double)s->n / known->length);
+        s->out->number[SS_REPETITION_FREQUENCY] = known->repetition;
+        return SS_OK;
+    }
     ss_status st = ss_cycles_find(s->x, s->n, s->part->period * s->rate, &s->cycles);
     say(s->out, SS_REPETITION_FREQUENCY, s->cycles.why);
     if (st != SS_OK || s->cycles.why != NULL)
@@ -113,6 +122,13 @@ find(search *s, double *x, size_t column, ss_error *err)
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin       /* the lowest usable frequency */
         : ROW_CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n) * (1 + 1e-9);
     opts.progress = (ss_progress){ report_transform, s };
+    const stream_lesson *known = s->part->known;
+    row_noises noises = { .n = 0 };
+    if (known != NULL) {            /* ground below the oscillation joins its maxima */
+        opts.fmax = fmin(known->highest, known->label * 2);
+        noises = known->noises;
+        noises.is_known = 1;
+    }
     ss_range flat = { 0, s->rate };             /* what a filter has changed is no contact */
     ss_header_flat(s->signal->head, &flat);
     opts.fmin = fmax(opts.fmin, flat.from);
@@ -126,21 +142,27 @@ find(search *s, double *x, size_t column, ss_error *err)
     if (st != SS_OK)
         return st;
 
+    const double highest = s->map->scale[s->map->n_scales - 1].f;
     ss_gaps_bridge(x, s->n, s->rate, s->gap, s->n_gaps);        /* zeros in a gap are steep */
     for (size_t i = 0; i < s->n; i++)
         s->largest = fmax(s->largest, fabs(x[i]));
     for (size_t i = 0; i < s->n; i++)
         s->x[i] = s->largest > 0 ? x[i] / s->largest : 0;
+    noises.unit = s->largest;
 
     /* what needs no map comes before the map takes its memory */
     st = find_repetition(s);
+    if (st == SS_OK && known != NULL && (st = ss_map_begin(s->map, x, NULL)) == SS_OK)
+        st = ss_ringing_places(s);
     if (st == SS_OK)
         st = ss_row_source_init(s->rows, s->x, s->n, s->rate, s->gap, s->n_gaps, NULL);
     s->rows->plans = s->part->plans;
+    s->rows->noises = &noises;
+    s->rows->at = s->at;
     s->rows->keeps_heads = isnan(s->out->number[SS_REPETITION_FREQUENCY].value);  /* single events may be sought */
     if (st == SS_OK)
         st = ss_spikes_find(&s->out->spikes, s->rows, NULL);
-    if (st == SS_OK)
+    if (st == SS_OK && known == NULL)
         st = ss_map_begin(s->map, x, NULL);
     if (st == SS_OK)
         st = find_maxima(s);
@@ -154,6 +176,12 @@ find(search *s, double *x, size_t column, ss_error *err)
         st = ss_slip_rate_find(s);
     if (st == SS_OK && s->part->period == 0)
         st = ss_numbers_find(s);
+    s->rows->noises = NULL;
+    if (s->part->learnt != NULL)
+        *s->part->learnt = (stream_lesson){
+            .label = s->is_cleaned ? 0 : s->label, .rms = s->out->noise / sqrt(s->rate), .largest = s->largest,
+            .highest = highest, .length = (double)s->n, .cycles = s->cycles,
+            .repetition = s->out->number[SS_REPETITION_FREQUENCY], .noises = noises };
     for (size_t i = 0; i < s->n && s->is_cleaned; i++)
         x[i] = s->x[i] * s->largest;
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
@@ -235,6 +263,7 @@ ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, c
         st = found == NULL ? ss_fail_memory(err, NULL) : n > 0 ? find(&s, x, column, err) : SS_ESCALE;
         again = s.is_cleaned && !s.is_second;
         ss_coefficients_free(s.map);
+        free(s.at.span);
         free(s.found);
     }
     if (st == SS_ESCALE && !(opts.fmin > 0))            /* it is too short to have features */

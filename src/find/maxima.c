@@ -67,6 +67,7 @@ typedef struct line {
 typedef struct flood {
     const ss_coefficients *map;
     size_t first, rows;         /* the rows that are searched */
+    search_places at;           /* the rest of the map is dry */
     double floor;               /* |W| >= 0; points that are not above it are dry: they belong to no basin */
     double outside, all;        /* the largest levels so far: outside the cone of influence, of all */
     line *line;                 /* one a row, and one behind the last */
@@ -111,9 +112,9 @@ scale_of(const flood *f, size_t row)
     return &f->map->scale[f->first + row];
 }
 
-/* Move all rows on to their points up to time t, and make room for them. */
+/* Move all rows on to their points up to time t, and make room for them, if they are not dry. */
 static ss_status
-next_strip(flood *f, double t)
+next_strip(flood *f, double t, int is_dry)
 {
     size_t n = 0;
     for (size_t row = 0; row < f->rows; row++) {
@@ -125,9 +126,11 @@ next_strip(flood *f, double t)
         l->lo = l->from > HALO ? l->from - HALO : 0;
         l->at = n;
         n += l->end - l->lo;
+        for (size_t k = 0; k < HALO && is_dry; k++)
+            l->before[k] = NONE;
     }
     f->line[f->rows].at = n;
-    if (n <= f->room)
+    if (n <= f->room || is_dry)
         return SS_OK;
     free(f->level);
     free(f->label);
@@ -408,16 +411,23 @@ survey(flood *f)
     double total = 0, length = (double)f->map->n / f->map->head->rate;
     for (size_t row = 0; row < f->rows; row++)
         total += (double)scale_of(f, row)->n;
-    size_t strips = (size_t)(total / STRIP) + 1;
+    size_t strips = (size_t)(total / STRIP) + 1, place = 0;
     ss_status st = SS_OK;
-    for (size_t i = 1; st == SS_OK && i <= strips; i++) {
-        st = next_strip(f, i < strips ? length * (double)i / (double)strips : INFINITY);
-        if (st != SS_OK || (st = read_strip(f)) != SS_OK)
-            break;
-        climb(f);
-        if (!f->failed)
+    for (size_t i = 1; st == SS_OK && i <= strips;) {
+        double to = i < strips ? length * (double)i / (double)strips : INFINITY, next = INFINITY;
+        int is_dry = f->at.span != NULL && (place / 2 == f->at.n || place % 2 == 0);
+        if (f->at.span != NULL && place / 2 < f->at.n)
+            next = is_dry ? f->at.span[place / 2].from : f->at.span[place / 2].to;
+        place += next < to;
+        i += !(next < to);
+        st = next_strip(f, fmin(next, to), is_dry);
+        if (st != SS_OK || is_dry)
+            continue;
+        if ((st = read_strip(f)) == SS_OK)
+            climb(f);
+        if (st == SS_OK && !f->failed)
             find_borders(f);
-        st = f->failed ? SS_ENOMEM : ss_map_progress(f->map, (double)i / (double)strips);
+        st = st != SS_OK ? st : f->failed ? SS_ENOMEM : ss_map_progress(f->map, (double)(i - 1) / (double)strips);
     }
     for (size_t i = 0; i < RECENT; i++)
         if (f->recent[i].q > 0)
@@ -513,7 +523,7 @@ earlier_first(const void *a, const void *b)
  * highest of them, in dB re top, in time order.  *top, if 0, becomes ss_coefficients_max of these rows. */
 static ss_status
 find(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t first, size_t rows, double floor,
-     double range, double min_prominence, double *top)
+     double range, double min_prominence, search_places at, double *top)
 {
     flood *f = calloc(1, sizeof *f);
     double *saddle = NULL, highest = 0, highest_kept = -INFINITY;
@@ -523,7 +533,7 @@ find(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t first, size
         free(f);
         return SS_ENOMEM;
     }
-    f->map = map, f->first = first, f->rows = rows, f->floor = floor, f->outside = -1;
+    f->map = map, f->first = first, f->rows = rows, f->floor = floor, f->at = at, f->outside = -1;
     ss_status st = survey(f);
     if (st == SS_OK) {
         *top = *top > 0 ? *top : f->outside >= 0 ? f->outside : f->all;
@@ -565,17 +575,17 @@ find(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t first, size
 
 ss_status
 ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *map, double min_prominence,
-                double floor, double *top)
+                double floor, search_places at, double *top)
 {
     *top = 0;
-    return find(out, n, map, 0, map->n_scales, floor, INFINITY, min_prominence, top);
+    return find(out, n, map, 0, map->n_scales, floor, INFINITY, min_prominence, at, top);
 }
 
 ss_status
 ss_maxima_of_row(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t row, double top,
-                 double range, double min_prominence)
+                 double range, double min_prominence, search_places at)
 {
-    return find(out, n, map, row, 1, 0, range, min_prominence, &top);
+    return find(out, n, map, row, 1, 0, range, min_prominence, at, &top);
 }
 
 ss_status
@@ -585,7 +595,7 @@ ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
     double top;
     if (out == NULL || n == NULL || coefficients == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_maxima_above(out, n, coefficients, min_prominence, 0, &top);
+    ss_status st = ss_maxima_above(out, n, coefficients, min_prominence, 0, (search_places){ NULL, 0 }, &top);
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
 }
 
@@ -598,6 +608,6 @@ ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients
     if (scale >= coefficients->n_scales)
         return ss_fail(err, SS_EINVAL, "scale %zu of %zu", scale + 1, coefficients->n_scales);
     ss_status st = ss_maxima_of_row(out, n, coefficients, scale, ss_coefficients_max(coefficients), range,
-                                    min_prominence);
+                                    min_prominence, (search_places){ NULL, 0 });
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
 }

@@ -176,21 +176,29 @@ refine(search *s, const ss_maximum *swell, double f)
     return st;
 }
 
+/* The scale whose label is nearest to f. */
+static size_t
+scale_nearest(const search *s, double f)
+{
+    size_t nearest = 0;
+    for (size_t i = 1; i < s->map->n_scales; i++)
+        if (fabs(log(s->map->scale[i].f / f)) < fabs(log(s->map->scale[nearest].f / f)))
+            nearest = i;
+    return nearest;
+}
+
 ss_status
 ss_ringing_find(search *s, double prominence)
 {
     ss_features *out = s->out;
     ss_maximum *swell = NULL;
-    size_t n = 0, nearest = 0;
-    double label;
-    ss_status st = find_recurrent(s, prominence, &label);
+    size_t n = 0;
+    double label = s->part->known != NULL ? s->part->known->label : 0;
+    ss_status st = label > 0 ? SS_OK : find_recurrent(s, prominence, &label);
     say(out, SS_TRANSITION_FREQUENCY, "no oscillation swells again and again");
     if (st != SS_OK || label == 0)
         return st;
-    for (size_t i = 1; i < s->map->n_scales; i++)
-        if (fabs(log(s->map->scale[i].f / label)) < fabs(log(s->map->scale[nearest].f / label)))
-            nearest = i;
-    st = ss_maxima_of_row(&swell, &n, s->map, nearest, s->top, RANGE, s->opts->threshold);
+    st = ss_maxima_of_row(&swell, &n, s->map, scale_nearest(s, label), s->top, RANGE, s->opts->threshold, s->at);
     if (st == SS_OK)
         st = ss_transitions_new(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
@@ -202,11 +210,37 @@ ss_ringing_find(search *s, double prominence)
     }
     if (!recurs)
         out->n = out->recurring = 0;
+    s->label = recurs ? label : 0;
     if (st == SS_OK && out->recurring > 0)
         st = read_raw(s);
     if (st == SS_OK && recurs)
         st = refine(s, swell, true_frequency(s, label));
     free(swell);
+    return st;
+}
+
+/* The level of the row of the oscillation is above SIGMAS of the noise there, or a wavelet's reach away. */
+ss_status
+ss_ringing_places(search *s)
+{
+    const size_t index = scale_nearest(s, s->part->known->label);
+    const ss_scale *scale = &s->map->scale[index];
+    const double reach = ROW_REACH * scale->a;
+    const double least = SIGMAS * s->part->known->rms / (s->opts->norm == SS_NORM_L1 ? sqrt(scale->a) : 1);
+    double *level = malloc((scale->n + 1) * sizeof *level);
+    ss_span *span = s->at.span = malloc((scale->n + 1) * sizeof *span);
+    ss_status st = level != NULL && span != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK)
+        st = ss_map_read(s->map, &(ss_map_part){ index, 0, scale->n, NULL, level }, 1, NULL);
+    for (size_t k = 0; st == SS_OK && k < scale->n; k++) {
+        double from = fmax(0, ss_scale_b(scale, k) - reach), to = ss_scale_b(scale, k) + reach;
+        if (!(level[k] > least))
+            continue;
+        if (s->at.n == 0 || from > span[s->at.n - 1].to)
+            span[s->at.n++].from = from;
+        span[s->at.n - 1].to = to;
+    }
+    free(level);
     return st;
 }
 

@@ -168,37 +168,91 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
     return rms_of(source, ss_levels_middle(level, left));
 }
 
-/* Find the peaks of the row whose |W| source->level holds.  Levels before t = 0 and behind the record are
- * not the record's own. */
-static ss_status
-fill_row(scale_row *r, row_source *source, const ss_spikes *loud, const ss_scale *scale,
-         double margin)
+/* The scale is 2^(this / ROW_VOICES) s. */
+static double
+number_of(double f)
 {
-    double *level = source->level;
-    double step = scale->b_num / scale->b_den, cone = sqrt(2) * r->a;
-    double length = (double)(source->n - 1) / source->rate;
-    size_t first = (size_t)ceil((margin + cone) / step);
-    size_t last = (size_t)floor((margin + length - cone) / step);
-    r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak);
-    if (r->peak == NULL)
-        return SS_ENOMEM;
-    for (size_t k = first; k <= last; k++) {
+    return round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f)));
+}
+
+/* The row nearest to f; NULL: there is none. */
+static const scale_row *
+row_of(const scale_row *row, size_t n, double f)
+{
+    for (size_t i = 0; i < n; i++)
+        if (number_of(row[i].f) == number_of(f))
+            return &row[i];
+    return NULL;
+}
+
+/* The translations of a scale outside the cone of influence; of a span, if there is one. */
+static ss_window
+translations(const row_source *source, const ss_scale *scale, const ss_span *span)
+{
+    double step = scale->b_num / scale->b_den, margin = (double)source->margin / source->rate;
+    double from = sqrt(2) * scale->a, to = (double)(source->n - 1) / source->rate - from;
+    if (span != NULL)
+        from = fmax(from, span->from), to = fmin(to, span->to);
+    double first = ceil((margin + from) / step), end = floor((margin + to) / step) + 1;
+    return (ss_window){ (size_t)first, (size_t)fmax(first, end) };
+}
+
+/* Read these |W|, with one more on either side, into source->level, and add their peaks to the row. */
+static ss_status
+add_peaks(scale_row *r, const row_source *source, size_t index, ss_window win)
+{
+    const ss_scale *scale = &source->rows->scale[index];
+    const double *level = source->level, margin = (double)source->margin / source->rate;
+    const size_t first = win.first - 1;
+    const ss_map_part part = { index, first, win.end + 1 - first, NULL, source->level + first };
+    ss_status st = ss_map_read(source->rows, &part, 1, NULL);
+    for (size_t k = win.first; st == SS_OK && k < win.end; k++) {
         if (!((level[k] > level[k - 1]) & (level[k] >= level[k + 1])))  /* one branch, which is seldom taken */
             continue;
         double t = ss_scale_b(scale, k) - margin;
         if (ss_gaps_near(source->gap, source->n_gaps, t, ROW_REACH * r->a))
             continue;
-        r->peak[r->n] = summit(level + k - 1, t, step);
+        r->peak[r->n] = summit(level + k - 1, t, scale->b_num / scale->b_den);
         r->top = most(r->top, r->peak[r->n++].level);
     }
-    r->rms = noise_of(source, loud, level + first, last - first + 1,
-                      ss_scale_b(scale, first) - margin, step, r->a);
+    return st;
+}
+
+/* Find the peaks of a row and its noise.  Levels before t = 0 and behind the record are not the record's own. */
+static ss_status
+fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
+{
+    const ss_scale *scale = &source->rows->scale[index];
+    const ss_window all = translations(source, scale, NULL);
+    const size_t n = ss_window_length(all);
+    row_noises *noises = source->noises;
+    const scale_row *known = noises != NULL && noises->is_known ? row_of(noises->row, noises->n, r->f) : NULL;
+    double *level = source->level + all.first;
+    ss_status st = (r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak)) != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && known != NULL && i < source->at.n; i++) {
+        ss_window win = translations(source, scale, &source->at.span[i]);
+        st = ss_window_length(win) > 0 ? add_peaks(r, source, index, win) : SS_OK;
+    }
+    if (st == SS_OK && known == NULL)
+        st = add_peaks(r, source, index, all);
+    if (st != SS_OK)
+        return st;
+    if (known != NULL) {
+        r->rms = known->rms / noises->unit;
+        r->top = most(r->top, known->top / noises->unit);
+        return SS_OK;
+    }
+    r->rms = noise_of(source, loud, level, n, ss_scale_b(scale, all.first) - (double)source->margin / source->rate,
+                      scale->b_num / scale->b_den, r->a);
+    if (noises != NULL && !noises->is_known && noises->n < ROW_HEADS)
+        noises->row[noises->n++] = (scale_row){ .a = r->a, .f = r->f, .rms = r->rms * noises->unit,
+                                                .top = r->top * noises->unit };
     if (source->keeps_heads && source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
         scale_row *head = &source->head[source->n_heads++];
         *head = *r;
         head->peak = NULL;
         if (loud != NULL && loud->n > 0)
-            head->rms = rms_of(source, ss_levels_middle(level + first, last - first + 1));
+            head->rms = rms_of(source, ss_levels_middle(level, n));
     }
     return SS_OK;
 }
@@ -234,13 +288,6 @@ make_room(row_source *source, size_t n)
     return source->level != NULL ? SS_OK : SS_ENOMEM;
 }
 
-/* The scale is 2^(this / ROW_VOICES) s. */
-static double
-number_of(double f)
-{
-    return round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f)));
-}
-
 ss_status
 ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud, ss_error *err)
 {
@@ -255,17 +302,13 @@ ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud, ss
     if (scale->n + 1 > source->room && (st = make_room(source, scale->n + 1)) != SS_OK)
         return st;
     *r = (scale_row){ .a = scale->a, .f = scale->f };
-    st = ss_map_read(source->rows, &(ss_map_part){ index, 0, scale->n, NULL, source->level }, 1, NULL);
-    return st == SS_OK ? fill_row(r, source, loud, scale, (double)source->margin / source->rate) : st;
+    return fill_row(r, source, loud, index);
 }
 
 const scale_row *
 ss_row_head(const row_source *source, double f)
 {
-    for (size_t i = 0; i < source->n_heads; i++)
-        if (number_of(source->head[i].f) == number_of(f))
-            return &source->head[i];
-    return NULL;
+    return row_of(source->head, source->n_heads, f);
 }
 
 void

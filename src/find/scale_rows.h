@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/spikes.h>
+#include "find/window.h"
 #include "map/map.h"
 
 #define ROW_CENTER 6.0
@@ -26,6 +27,14 @@ typedef struct scale_row {
 
 enum { ROW_HEADS = 32 };
 
+/* What the rows of a record teach about those of a part of it. */
+typedef struct row_noises {
+    int is_known;               /* 0: they are learnt */
+    double unit;                /* of the levels, re those of the samples */
+    size_t n;
+    scale_row row[ROW_HEADS];   /* without peaks */
+} row_noises;
+
 typedef struct row_source {
     const double *x;
     size_t n;
@@ -45,6 +54,8 @@ typedef struct row_source {
     int keeps_heads;            /* 1: the first rows are kept when their peaks are freed */
     scale_row head[ROW_HEADS];        /* these rows, with the noise of the whole row and without their peaks */
     size_t n_heads;
+    row_noises *noises;         /* may be NULL */
+    search_places at;           /* where rows whose noise is known are read */
 } row_source;
 
 /* Prepare a source, and check the samples and the rate. */

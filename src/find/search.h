@@ -8,8 +8,8 @@
 #include "find/cycles.h"
 #include "find/judgement.h"
 #include "find/levels.h"
-#include "map/map.h"
 #include "find/quantity.h"
+#include "find/scale_rows.h"
 #include "find/window.h"
 
 #define STRONG 20.0             /* [dB] range of the spikes that begin or end a transition */
@@ -29,11 +29,13 @@ typedef struct search {
     const ss_features_opts *opts;
     ss_coefficients *map;       /* computed where it is read */
     double top;                 /* its largest outside the cone of influence */
-    struct row_source *rows;    /* of x (scale_rows.h) */
+    row_source *rows;           /* of x */
     ss_maximum *found;          /* all maxima, also slight ones */
     size_t n_found;
     column_quantity quantity;
     const struct stream_part *part;     /* all 0: the signal is no part */
+    search_places at;           /* where the map and the rows are read */
+    double label;               /* of the oscillation that recurs [Hz]; 0: none is found */
     ss_cycles cycles;
     int is_cleaned;             /* x has lost a steady hum: it is not the column any more */
     int is_second;              /* it lost that in a first search */
@@ -78,12 +80,25 @@ cycle_rate(const search *s)
     return (ss_value){ s->rate * s->cycles.frequency.value, s->rate * s->cycles.frequency.error };
 }
 
+/* What a signal teaches about a part of it.  The label of the oscillation that recurs is 0 if there is none. */
+typedef struct stream_lesson {
+    double label, rms;          /* [Hz], noise of |W| [a^1/2 of the samples] */
+    double largest;             /* of the samples */
+    double highest;             /* label of a scale [Hz] */
+    double length;              /* [samples] */
+    ss_cycles cycles;
+    ss_number repetition;
+    row_noises noises;
+} stream_lesson;
+
 /* A signal that is a part of a longer one. */
 typedef struct stream_part {
     double period;              /* [s] of the cycles of the longer one, or NaN if it does not repeat itself: of the
                                    part only the transitions are found; 0: not known */
     map_plans *plans;           /* for parts of the same length; may be NULL */
     int is_contact;             /* what rings in the longer one is the contact's */
+    const stream_lesson *known; /* only what rings so is sought, where it swells; NULL: nothing is known */
+    stream_lesson *learnt;      /* to be filled in; may be NULL */
 } stream_part;
 /* As ss_features_find. */
 ss_status ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, const ss_features_opts *opts,
@@ -98,6 +113,9 @@ void ss_loadings_forget(ss_features *out);
 
 /* Make room for n transitions of which nothing is known, in place of those before. */
 ss_status ss_transitions_new(ss_features *out, size_t n);
+
+/* Find where the oscillation that is known swells above the noise, into s->at.  The search frees it. */
+ss_status ss_ringing_places(search *s);
 
 /* Find the transitions, in time order, and the frequency and damping of their ringing, if they ring, into
  * s->out, which has spikes and repetition_frequency.  If there are none, s->out->n is 0. */

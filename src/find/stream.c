@@ -23,7 +23,9 @@ enum { PERIODS = 64, FIRST = 16, LEAST = 8 };   /* in a whole window, before row
 #define DELAY 0.18              /* [s] after two periods a row is written at the latest, but for the work */
 #define BEHIND 1.25             /* periods behind the end of a transition after which it is known: a wavelet's reach */
 #define SAME 2.                 /* samples between times that are the same */
+#define LOUDER 2.               /* times the largest sample of a window: it taught nothing about those */
 enum { ENOUGH = 8 };            /* transitions show what recurs as well as all of a window do */
+enum { MANY = 16, RARELY = 16 };        /* windows are searched as they come, and of the others one in so many */
 
 struct mean {
     double weight, value, squares;      /* squares: weighted, about the value (West 1979) */
@@ -42,7 +44,9 @@ struct ss_features_stream {
     size_t n, window, first, few, hop, behind;  /* [samples] */
     size_t part;                /* of the window, in which rows are searched */
     int is_still;               /* 1: the last whole window had no transition */
-    stream_part known;          /* of it, to searches of a part */
+    int is_changed;             /* 1: a part since then was not as it taught */
+    stream_lesson lesson;       /* of it */
+    stream_part known;          /* to searches of a part */
     map_plans plans;
     uint64_t seen, searched;    /* samples so far, and at the last search of a whole window */
     double written;             /* [s] the end of the last transition, on the source's clock */
@@ -141,7 +145,7 @@ is_due(const ss_features_stream *s, const ss_transition *tr, double start, doubl
 
 /* Find the features of the last n samples, which begin at *start [s]. */
 static ss_status
-find_last(ss_features_stream *s, size_t n, int whole, ss_features **f, double *start, ss_error *err)
+find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features **f, double *start, ss_error *err)
 {
     ss_signal *now = NULL;
     ss_status st = ss_signal_new(&now, s->head, n, err);
@@ -150,10 +154,20 @@ find_last(ss_features_stream *s, size_t n, int whole, ss_features **f, double *s
     *start = now->head->start += (double)(s->seen - n) / s->head->rate;
     for (size_t c = 0; c < s->head->n_columns; c++)
         memcpy(now->values + c * n, s->x[c] + s->n - n, n * sizeof *now->values);
-    stream_part nothing = { .plans = &s->plans };
-    st = ss_features_of_part(f, now, s->column, &s->opts, whole ? &nothing : &s->known, err);
+    st = ss_features_of_part(f, now, s->column, &s->opts, part, err);
     ss_signal_free(now);
     return st;
+}
+
+/* Is there nothing of what is known in these features of the last n samples, or more? */
+static int
+is_new(const ss_features_stream *s, const ss_features *f, size_t n)
+{
+    const double *x = s->x[s->column] + s->n - n;
+    for (size_t i = 0; i < n; i++)
+        if (fabs(x[i]) > LOUDER * s->lesson.largest)
+            return 1;
+    return f->n == 0;
 }
 
 /* Write the transitions that are known now, or all at the end. */
@@ -164,15 +178,25 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     double start, until = last ? INFINITY
         : s->head->start + (double)(s->seen - s->behind) / s->head->rate;
     size_t all = s->n < s->window ? s->n : s->window, due = 0;
-    int whole = last || s->seen - s->searched >= s->window;
+    size_t apart = s->windows < MANY || s->is_changed || s->known.known == NULL ? s->window : RARELY * s->window;
+    int whole = last || s->seen - s->searched >= apart;
     size_t n = whole || s->part > all ? all : s->part;
-    ss_status st = find_last(s, n, whole, &f, &start, err);
+    const stream_part afresh = { .plans = &s->plans, .learnt = whole ? &s->lesson : NULL };
+    ss_status st = find_last(s, n, whole ? &afresh : &s->known, &f, &start, err);
+    if (st == SS_OK && !whole && s->known.known != NULL && is_new(s, f, n)) {
+        stream_part part = s->known;
+        part.known = NULL;
+        s->is_changed = 1;
+        ss_features_free(f);
+        f = NULL;
+        st = find_last(s, n, &part, &f, &start, err);
+    }
     for (size_t i = 0; st == SS_OK && i < f->n; i++)
         due += is_due(s, &f->transition[i], start, until);
     if (due > 0 && n < all && s->is_still) {
         ss_features_free(f);
         f = NULL;
-        st = find_last(s, all, 1, &f, &start, err);
+        st = find_last(s, all, &afresh, &f, &start, err);
     }
     if (st == SS_ESCALE && !last)
         return SS_OK;                           /* too short as yet */
@@ -193,10 +217,12 @@ write_known(ss_features_stream *s, int last, ss_error *err)
         add_numbers(s, f);
         s->searched = s->seen;
         s->is_still = f->n == 0;
+        s->is_changed = 0;
+        s->known.known = s->lesson.label > 0 ? &s->lesson : NULL;
         s->known.is_contact = isfinite(f->number[SS_TRANSITION_FREQUENCY].value);
         s->part = s->hop + s->behind + s->few;
         while (s->part < s->window && f->n * s->part < ENOUGH * s->window)
-            s->part += s->few;
+            s->part += s->few / LEAST;
     }
     ss_features_free(f);
     return ss_rows_finish(&s->rows, err);
