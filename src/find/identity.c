@@ -288,7 +288,8 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     /* a damping ratio above one half */
     *why = 3 * pow(r->all[1].value, 2) > pow(r->all[0].value, 2)
         ? "what recurs is damped so much that a filter may make it"
-        : !(r->all[1].value > 0) ? "what recurs does not decay"
+        : !(r->all[1].value > (s->out->reverses ? 0 : SIGMAS * r->all[1].error))
+            ? "what recurs is not shown to decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
     const int is_known = *why != NULL || s->out->reverses || s->part->is_contact;
     ss_status st = is_known ? SS_OK : is_sensor(s, r, &s->of_sensor);

@@ -56,7 +56,7 @@ ss_status
 ss_rests_find(const double *x, size_t n, ss_rests *out)
 {
     double level = 0, deviation = 0;
-    *out = (ss_rests){ 0, calloc(n / 2 + 1, sizeof *out->rest), 0 };
+    *out = (ss_rests){ .rest = calloc(n / 2 + 1, sizeof *out->rest) };
     ss_status st = out->rest != NULL ? find_level(x, n, &level, &deviation) : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         ss_window in = { n, n };
@@ -73,6 +73,8 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
         else
             out->is_doubtful |= length >= beside + 2;
     }
-    out->is_doubtful |= BAND * deviation > CLEAR;
+    out->level = level;
+    out->band = BAND * deviation;
+    out->is_doubtful |= out->band > CLEAR;
     return st;
 }

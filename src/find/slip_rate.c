@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include "find/numbers.h"
 #include "find/rests.h"
+#include "find/scale_rows.h"
 #include "find/search.h"
 #include "signal/gaps.h"
 
@@ -239,15 +240,47 @@ repeat_slips(search *s, times slip, size_t each)
     }
 }
 
+/* Are the samples within a time of t all on one side of the level of rests? */
+static int
+is_off_level(const search *s, const ss_rests *rests, double t, double within)
+{
+    double low = INFINITY, high = -INFINITY;
+    size_t end = (size_t)fmin((t + within) * s->rate, (double)s->n - 1);
+    for (size_t i = (size_t)fmax((t - within) * s->rate, 0); i <= end; i++)
+        low = fmin(low, s->x[i]), high = fmax(high, s->x[i]);
+    return low > rests->level + rests->band || high < rests->level - rests->band;
+}
+
+/* Does one of four slips or more, at this rate [Hz], have a jump or kink in a range [dB] that is none of the places,
+ * in time order, at which a rest or a transition begins or ends?  So a motion shows that stops too briefly to be
+ * seen at rest.  One that turns while it slides keeps off the level of rests. */
+static int
+hides_stops(const search *s, times place, const ss_rests *rests, double rate, double range)
+{
+    const ss_spikes *found = s->out->spikes;
+    size_t off = 0, i = 0;
+    for (size_t k = 0; k < found->n; k++) {
+        const ss_spike *spike = &found->spike[k];
+        double reach = 2 * ROW_CENTER / (2 * M_PI * spike->f), within = JITTER / rate + reach;
+        while (i < place.n && place.t[i] < spike->t - within)
+            i++;
+        off += is_event(spike) && spike->level >= -range && (i == place.n || place.t[i] > spike->t + within)
+            && !is_off_level(s, rests, spike->t, reach + EVEN / rate);
+    }
+    return (double)off >= (1 - MOST) * rate * (double)s->n / s->rate;
+}
+
 /* Count the onsets of motion behind rests. */
 static void
-count_motions(search *s, times motion)
+count_motions(search *s, times motion, times place, const ss_rests *rests)
 {
     ss_features *out = s->out;
     size_t each = slips_in_cycle(s, motion);
     out->number[SS_SLIPS].value = (double)motion.n;
     know(out, SS_SLIP_RATE, mean_rate(s, motion));
-    if (each > 0)
+    if (hides_stops(s, place, rests, out->number[SS_SLIP_RATE].value, INFINITY))
+        forget_slips(out, "sharp events lie within motions or rests, as where a motion stops for a short time");
+    else if (each > 0)
         repeat_slips(s, motion, each);
     else if (!isnan(out->number[SS_REPETITION_FREQUENCY].value))
         forget_slips(out, "the motions between rests do not repeat with the cycle");
@@ -255,7 +288,7 @@ count_motions(search *s, times motion)
 
 /* Count the transitions, which are sharp events, if they repeat with the cycle. */
 static void
-count_events(search *s, double *t)
+count_events(search *s, double *t, const ss_rests *rests)
 {
     ss_features *out = s->out;
     size_t each = slips_in_cycle(s, onsets(s, t));
@@ -267,7 +300,9 @@ count_events(search *s, double *t)
     }
     if (each == 0)
         count_cycles(s);
-    else if (is_doubtful(s, onsets(s, t), each))
+    else if (is_doubtful(s, onsets(s, t), each)
+        || (rests->rest != NULL && s->quantity == QUANTITY_MOTION
+            && hides_stops(s, onsets(s, t), rests, (double)each * cycle_rate(s).value, STRONG)))
         forget_slips(out, "of several sharp events a cycle some may be no slips of their own, or some hide");
     else
         repeat_slips(s, onsets(s, t), each);
@@ -283,19 +318,22 @@ ss_slip_rate_find(search *s)
     }
     int repeats = !isnan(out->number[SS_REPETITION_FREQUENCY].value);
     int rings = !isnan(out->number[SS_TRANSITION_FREQUENCY].value);
-    ss_rests rests = { 0, NULL, 0 };
+    ss_rests rests = { .rest = NULL };
     int has_level = out->loading == NULL && !out->reverses && !rings && s->quantity != QUANTITY_DISPLACEMENT;
     ss_status st = has_level ? ss_rests_find(s->x, s->n, &rests) : SS_OK;
-    double *t = malloc((out->n + rests.n + 1) * sizeof *t);
+    double *t = malloc((out->n + 3 * rests.n + 1) * sizeof *t);
     if (st != SS_OK || t == NULL) {
         free(rests.rest);
         free(t);
         return SS_ENOMEM;
     }
-    times event = onsets(s, t), motion = { t + out->n, 0 };
-    for (size_t i = 0; i < rests.n; i++)
+    times event = onsets(s, t), motion = { t + out->n, 0 }, end = { motion.t + rests.n, 2 * rests.n };
+    for (size_t i = 0; i < rests.n; i++) {
+        end.t[2 * i] = (double)rests.rest[i].first / s->rate;
+        end.t[2 * i + 1] = (double)rests.rest[i].end / s->rate;
         if (rests.rest[i].end < s->n)
-            motion.t[motion.n++] = (double)rests.rest[i].end / s->rate;
+            motion.t[motion.n++] = end.t[2 * i + 1];
+    }
     out->number[SS_SLIPS].value = (double)out->n;
     know(out, SS_SLIP_RATE, mean_rate(s, event));
     if (out->loading != NULL)
@@ -303,11 +341,11 @@ ss_slip_rate_find(search *s)
     else if (s->of_sensor)
         forget_slips(out, "what rings is a sensor's: short sticks may hide in it");
     else if (motion.n >= FEW && !rests.is_doubtful)
-        count_motions(s, motion);
+        count_motions(s, motion, end, &rests);
     else if (motion.n >= FEW && out->n > 0)
         forget_slips(out, "the signal rests at a level that it also crosses so slowly that rests are not certain");
     else if (repeats)
-        count_events(s, t);
+        count_events(s, t, &rests);
     else if (out->n == 0)
         forget_slips(out, "nothing stands out: slips that are smooth or weak are not seen");
     else if (rings || (out->n == 1 && out->transition[0].end > out->transition[0].onset))

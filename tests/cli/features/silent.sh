@@ -107,3 +107,20 @@ awk 'BEGIN { print "t,v [m/s]"; for (k = 0; k < 12; k++) from[k] = 1 + k + .2 * 
     for (i = 0; i < 14000; i++) { t = i / 1000; if (k < 11 && t > from[k] + .4) k++
         x = t >= from[k] && t < from[k] + .3 ? 1 - cos(20.94395102 * (t - from[k])) : 0
         print t "," x + (i % 4001 == 700 ? 3 : 0) + 1e-4 * sin(i * i) } }' | ss-features | grep '^# slips:'
+# two sticks in each half of a cycle, of which a low-pass or a hum leaves one: half of the slips; a hum decays not
+slider='-s mass=.526514301 -s stiffness=2205.70533 -s friction=.120784707 -s base_amplitude=.00010915256
+    -s base_frequency=1.1732508 -s settle=34 -s duration=8 -s rate=2633'
+# shellcheck disable=SC2086
+ss-sim $slider coulomb | awk '/^#/ { next } { x[n++] = $4 } END { print "t,a"; for (i = 0; i < n; i++) {
+    y += .25 * (x[i] - y); z += .25 * (y - z); printf "%.17g,%.6g\n", i / 2633, z } }' | ss-features | none slips
+hum() { awk -v by="$1" -v f="$2" -v rate="$3" '/^#/ { next } { x[n++] = $4; s += $4 * $4 }
+    END { print "t,a"; for (i = 0; i < n; i++)
+        printf "%.17g,%.9g\n", i / rate, x[i] + by * sqrt(2 * s / n) * sin(6.28318530718 * f * i / rate) }'; }
+ss-sim -s mass=3.05502173 -s stiffness=36.0695481 -s damping=.0627733794 -s friction=.0058492632 \
+    -s base_amplitude=.000337120418 -s base_frequency=.0635527247 -s settle=630 -s duration=158 -s rate=240 coulomb |
+    hum .1 50 240 | ss-features > found
+none slips < found
+none slip_rate < found
+ss-sim -s mass=.180759816 -s stiffness=5.95226974 -s friction=.000405116891 -s base_amplitude=9.02294357e-05 \
+    -s base_frequency=.139321594 -s settle=287 -s duration=153 -s rate=309.448 coulomb |
+    hum .316 60 309.448 | ss-features | none transition_frequency
