@@ -50,6 +50,8 @@ struct ss_features_stream {
     map_plans plans;
     uint64_t seen, searched;    /* samples so far, and at the last search of a whole window */
     double written;             /* [s] the end of the last transition, on the source's clock */
+    ss_features *before;        /* what the last search found, in a part from before_start [s] on */
+    double before_start;
     size_t transitions, windows;
     struct mean mean[SS_FEATURE_NUMBERS];
     ss_number last[SS_FEATURE_NUMBERS];
@@ -101,6 +103,7 @@ ss_features_stream_free(ss_features_stream *s)
     if (s == NULL)
         return;
     ss_header_free(s->head);
+    ss_features_free(s->before);
     ss_map_plans_free(&s->plans);
     free(s->x);
     free(s);
@@ -135,20 +138,55 @@ begin(ss_features_stream *s, const ss_features *f)
     s->begun = 1;
 }
 
+/* Is it a lone maximum, whose extent is not known yet? */
+static int
+is_lone(const ss_transition *tr)
+{
+    return !(tr->end > tr->onset || tr->spikes > 0);
+}
+
 /* Is a transition new, and known up to a time [s] on the source's clock? */
 static int
 is_due(const ss_features_stream *s, const ss_transition *tr, double start, double until)
 {
-    return start + tr->onset > s->written + SAME / s->head->rate && start + tr->end <= until
-        && (tr->end > tr->onset || tr->spikes > 0);     /* the extent of a lone maximum is not known yet */
+    return start + tr->onset > s->written + SAME / s->head->rate && start + tr->end <= until;
 }
 
-/* Find the features of the last n samples, which begin at *start [s]. */
+/* How many of them are, lone maxima or others? */
+static size_t
+count_due(const ss_features_stream *s, const ss_features *f, int lone, double start, double until)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < f->n; i++)
+        n += is_lone(&f->transition[i]) == lone && is_due(s, &f->transition[i], start, until);
+    return n;
+}
+
+/* Give lone maxima the extent and the ringing that the last search found there: a fit of few transitions leaves out
+ * now one, now another. */
+static void
+recall(const ss_features_stream *s, ss_features *f, double start)
+{
+    double off = s->before_start - start, same = SAME / s->head->rate;
+    for (size_t i = 0, k = 0; s->before != NULL && i < f->n; i++) {
+        const ss_transition *old = s->before->transition, *now = &f->transition[i];
+        while (k < s->before->n && old[k].end + off < now->onset - same)
+            k++;
+        if (!is_lone(now) || k == s->before->n || is_lone(&old[k]) || old[k].onset + off > now->onset + same)
+            continue;
+        f->transition[i] = old[k];
+        f->transition[i].onset += off, f->transition[i].end += off, f->transition[i].maximum.t += off;
+    }
+}
+
+/* Find the features of the last n samples, which begin at *start [s], in place of those that are there. */
 static ss_status
 find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features **f, double *start, ss_error *err)
 {
     ss_signal *now = NULL;
     ss_status st = ss_signal_new(&now, s->head, n, err);
+    ss_features_free(*f);
+    *f = NULL;
     if (st != SS_OK)
         return st;
     *start = now->head->start += (double)(s->seen - n) / s->head->rate;
@@ -156,6 +194,8 @@ find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features 
         memcpy(now->values + c * n, s->x[c] + s->n - n, n * sizeof *now->values);
     st = ss_features_of_part(f, now, s->column, &s->opts, part, err);
     ss_signal_free(now);
+    if (st == SS_OK)
+        recall(s, *f, *start);
     return st;
 }
 
@@ -177,7 +217,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     ss_features *f = NULL;
     double start, until = last ? INFINITY
         : s->head->start + (double)(s->seen - s->behind) / s->head->rate;
-    size_t all = s->n < s->window ? s->n : s->window, due = 0;
+    size_t all = s->n < s->window ? s->n : s->window;
     size_t apart = s->windows < MANY || s->is_changed || s->known.known == NULL ? s->window : RARELY * s->window;
     int whole = last || s->seen - s->searched >= apart;
     size_t n = whole || s->part > all ? all : s->part;
@@ -187,25 +227,20 @@ write_known(ss_features_stream *s, int last, ss_error *err)
         stream_part part = s->known;
         part.known = NULL;
         s->is_changed = 1;
-        ss_features_free(f);
-        f = NULL;
         st = find_last(s, n, &part, &f, &start, err);
     }
-    for (size_t i = 0; st == SS_OK && i < f->n; i++)
-        due += is_due(s, &f->transition[i], start, until);
-    if (due > 0 && n < all && s->is_still) {
-        ss_features_free(f);
-        f = NULL;
+    if (st == SS_OK && n < all && count_due(s, f, 1, start, until) > 0)
+        st = find_last(s, 2 * n < all ? 2 * n : all, &s->known, &f, &start, err);
+    if (st == SS_OK && n < all && s->is_still && count_due(s, f, 0, start, until) > 0)
         st = find_last(s, all, &afresh, &f, &start, err);
-    }
     if (st == SS_ESCALE && !last)
         return SS_OK;                           /* too short as yet */
     if (st != SS_OK)
         return st;
-    if (!s->begun && (due > 0 || last))
+    if (!s->begun && (last || count_due(s, f, 0, start, until) > 0))
         begin(s, f);
     for (size_t i = 0; i < f->n; i++)
-        if (is_due(s, &f->transition[i], start, until)) {
+        if (!is_lone(&f->transition[i]) && is_due(s, &f->transition[i], start, until)) {
             ss_features_row(&s->rows, f, i, start, s->has);
             s->written = start + f->transition[i].end;
             s->transitions++;
@@ -224,7 +259,9 @@ write_known(ss_features_stream *s, int last, ss_error *err)
         while (s->part < s->window && f->n * s->part < ENOUGH * s->window)
             s->part += s->few / LEAST;
     }
-    ss_features_free(f);
+    ss_features_free(s->before);
+    s->before = f;
+    s->before_start = start;
     return ss_rows_finish(&s->rows, err);
 }
 
