@@ -147,7 +147,7 @@ agrees_with_other_methods(const trial *t)
         agrees_with_another_method(t, "taylor", 1e-12, BUDGET);
     } else if (ss_model_has_events(t->scene.model) && strcmp(t->method, "rk8pd") != 0) {
         agrees_with_another_method(t, "rk8pd", 1e-12, LONG_BUDGET);
-    } else if (strcmp(t->method, "bsimp") == 0) {
+    } else if (strcmp(t->method, "radau") == 0) {
         agrees_with_another_method(t, "rk4imp", 1e-8, 2 * RANDOM_STEPS);
     } else {
         agrees_with_another_method(t, "rkck", 1e-10, 2 * RANDOM_STEPS);

@@ -46,11 +46,11 @@ cycles_have_the_known_digits(void **unused)
           { .218276236022, .02034409128259, .0674333444419, .006196666105741 } },
         { { 15.22062821, .07161155591, .149026635, .00622700604675 },
           { 10.09465167059, .0464031064637, .096120901988, .005969775974669 } } };
-    static const char *const method[] = { NULL, "bsimp" };
+    static const char *const method[] = { NULL, "bsimp", "radau" };
     const unsigned all = BIT(SS_CYCLE_TIME) | BIT(SS_PEAK_VELOCITY) | BIT(SS_FORCE_DROP) | BIT(SS_X_MAX)
         | BIT(SS_PERIOD);
     (void)unused;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 12; i++) {
         int lab = i & 1, slip = i >> 1 & 1;
         const double *is = truth[lab][slip];
         ss_scene s = scene_of(lab, slip);
@@ -134,7 +134,7 @@ leaves_an_unstable_slide_when_it_must(void **unused)
         s.base_velocity = ldexp(1, -13);
         for (int k = 0; k < 2; k++) {
             s.v0 = s.base_velocity * (1 + ldexp(1, -20 - 8 * k));
-            run r = run_with(&s, "bsimp", 1e-12, 0);
+            run r = run_with(&s, "radau", 1e-12, 0);
             growth = growth_at(s, s.stiffness);
             assert_int_equal(r.status, SS_OK);
             for (size_t i = 1; i < r.n && isnan(at[k]); i++) {
@@ -161,7 +161,7 @@ keeps_an_accuracy_of_1e_8(void **unused)
     ss_sim_opts_init(&opts, sizeof opts);
     if (ss_trade_choose(&opts, &s, 1e-8, &err) != SS_OK)
         fail_msg("%s", err.text);
-    assert_string_equal(opts.method, "bsimp");
+    assert_string_equal(opts.method, "radau");
 }
 
 /* Without mass the slider of the inversion is the same law by another program, in ln V and ln theta.  Its load
@@ -186,7 +186,7 @@ slides_without_inertia_as_the_inversion_does(void **unused)
         ss_scene_set(&s, "evolution_effect", .007, NULL);
         ss_scene_set(&s, "reference_velocity", U, NULL);
         s.x0 = -(.6 + .01 * log(10)) / s.stiffness;
-        run r = run_with(&s, "bsimp", 1e-12, 0);
+        run r = run_with(&s, "radau", 1e-12, 0);
         assert_int_equal(r.status, SS_OK);
         load[1] = .01 * log(10) / s.stiffness;
         for (int i = 1; i < N; i++) {
@@ -203,7 +203,7 @@ slides_without_inertia_as_the_inversion_does(void **unused)
     }
 }
 
-/* The inside of a long step of bsimp against Taylor's, which is the same series as its step.  At 1e-12 a step may
+/* The inside of a long step of radau against Taylor's, which is the same series as its step.  At 1e-12 a step may
  * leave 1e-12 of a N/k and of w, which is ln V; a second has a hundred steps. */
 static void
 the_inside_of_steps_agrees_with_taylor(void **unused)
@@ -212,7 +212,7 @@ the_inside_of_steps_agrees_with_taylor(void **unused)
     for (int law = 0; law < 2; law++) {
         ss_scene s = scene_of(0, law);
         s.settle = 0;
-        run a = run_with(&s, "taylor", 1e-13, 0), b = run_with(&s, "bsimp", 1e-12, 0);
+        run a = run_with(&s, "taylor", 1e-13, 0), b = run_with(&s, "radau", 1e-12, 0);
         assert_true(a.status == SS_OK && b.status == SS_OK && a.n == b.n && a.n == 2000);
         double x = 0, V = 0, f = 0;
         for (size_t i = 0; i < a.n; i++) {
@@ -220,9 +220,9 @@ the_inside_of_steps_agrees_with_taylor(void **unused)
             V = fmax(V, fabs(b.sample[i].v / a.sample[i].v - 1));
             f = fmax(f, fabs(a.sample[i].f - b.sample[i].f));
         }
-        near("x", x, 0, 1e-14);
-        near("V", V, 0, 1e-10);
-        near("f", f, 0, 1e-11);
+        near("x", x, 0, 1e-15);
+        near("V", V, 0, 1e-12);
+        near("f", f, 0, 1e-13);
         run_free(&a);
         run_free(&b);
     }
@@ -246,17 +246,19 @@ samples_do_not_depend_on_the_rate(void **unused)
     run_free(&coarse);
 }
 
-/* 53 s took 8 ms in 1e5 right-hand sides; that of a sample costs a few products. */
+/* 53 s take 7 ms in 9,200 right-hand sides (slip 11,000); that of a sample costs a few products.  A loose
+ * tolerance needs more tries of Newton's method, but no more steps. */
 static void
 a_laboratory_minute_costs_little(void **unused)
 {
     (void)unused;
-    for (int law = 0; law < 2; law++) {
-        ss_scene s = scene_of(1, law);
+    for (int i = 0; i < 8; i++) {
+        const double tol = i < 2 ? 1e-8 : i < 4 ? 1e-6 : i < 6 ? 1e-4 : 1e-2;
+        ss_scene s = scene_of(1, i & 1);
         s.rate = 1 / s.duration;
-        run r = run_with(&s, NULL, 1e-8, 0);
+        run r = run_with(&s, NULL, tol, 0);
         print_message("%lu steps, %lu right-hand sides\n", r.stats.steps, r.stats.rhs);
-        assert_true(r.status == SS_OK && r.stats.rhs < 120000);
+        assert_true(r.status == SS_OK && r.stats.steps < 400 && r.stats.rhs < (i < 2 ? 12000 : 25000));
         run_free(&r);
     }
 }

@@ -271,7 +271,8 @@ touching_the_limit_is_no_release(void **state)
     static const struct { const char *method; double tol; } how[] = {
         { "exact", 1e-12 }, { "taylor", 1e-12 }, { "taylor", 1e-8 }, { "rk8pd", 1e-12 },
         { "rk8pd", 1e-7 }, { "rkf45", 1e-12 },
-        { "rkf45", 1e-8 }, { "rk4", 1e-10 }, { "bsimp", 1e-10 }, { "msbdf", 1e-9 } };
+        { "rkf45", 1e-8 }, { "rk4", 1e-10 }, { "bsimp", 1e-10 }, { "radau", 1e-10 },
+        { "msbdf", 1e-9 } };
     static const ss_event_kind kind[] = { SS_SLIP, SS_STICK, SS_SLIP, SS_STICK };
     ss_scene s = scene_named("compliant-light", 10, 20);
     (void)state;

@@ -184,7 +184,8 @@ keeps_the_accuracy_on_shipped_scenes(void **state)
                 if (strcmp(name, "exact") == 0 && s.model == ss_model_named("state-variable"))
                     continue;
                 int no = refuses(&s, events, name, accuracies[k], ss_shipped_scenes[i].name);
-                int able = strstr("rk8pd bsimp exact taylor", name) != NULL || (k <= 2 && strstr("rkf45 rkck", name) != NULL);
+                int able = strstr("rk8pd bsimp radau exact taylor", name) != NULL
+                    || (k <= 2 && strstr("rkf45 rkck", name) != NULL);
                 if (no && able)
                     fail_msg("%s refuses %g on %s", name, accuracies[k], ss_shipped_scenes[i].name);
             }
@@ -290,7 +291,7 @@ refuses_an_accuracy_that_cannot_be(void **state)
 static void
 the_closed_form_is_not_its_own_witness(void **state)
 {
-    static const char *const able[] = { NULL, "taylor", "bsimp", "rk8pd" };
+    static const char *const able[] = { NULL, "taylor", "bsimp", "radau", "rk8pd" };
     ss_scene s = ss_scene_defaults;
     (void)state;
     ss_scene_set_text(&s, "model", "coulomb", NULL);
@@ -331,7 +332,7 @@ measures_every_method(void **state)
         ss_trade *trade = NULL;
         int linear = s.model != ss_model_named("state-variable");
         assert_int_equal(ss_trade_measure(&trade, &s, &opts, NULL), SS_OK);
-        assert_int_equal(trade->n, 12 * 12 + linear);
+        assert_int_equal(trade->n, 13 * 12 + linear);
         assert_int_equal(trade->samples, 2000);
         assert_true(trade->known_x < 1e-12);
         for (size_t k = 0; k < trade->n; k++) {

@@ -15,7 +15,7 @@ static const char usage[] =
 "  -e, --events          write the events in the record, not the samples\n"
 "  -m, --method=NAME     a GSL step type, taylor: a series, or exact: closed form\n"
 "                        (default rk8pd; taylor where there is no closed form,\n"
-"                        bsimp for a stiff state variable)\n"
+"                        radau for stiff friction)\n"
 "  -t, --tol=TOL         relative local error of a step (default 1e-12)\n"
 "  -a, --accuracy=TOL    global error of x over max|x|: chooses --tol and,\n"
 "                        if none is given, --method\n"

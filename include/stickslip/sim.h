@@ -69,7 +69,7 @@ void ss_sim_row(const ss_sim_columns *columns, const ss_sample *sample, double *
 ss_status ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err);
 
 const char *ss_sim_method_name(size_t i);               /* the i-th method; NULL after the last */
-/* The method for a scene that has passed ss_scene_check: bsimp, an implicit method, if the scene
+/* The method for a scene that has passed ss_scene_check: radau, an implicit method, if the scene
  * is so stiff that this costs least; else taylor, if the model is not linear and has a Taylor
  * series; else rk8pd.  *why, unless why is NULL, becomes the reason in words. */
 const char *ss_sim_method_for(const ss_scene *scene, const char **why);

@@ -1,4 +1,5 @@
-/* engine.h -- an engine carries a motion from one event to the next: a GSL stepper or a closed form. */
+/* engine.h -- an engine carries a motion from one event to the next: a GSL stepper, a series, collocation or a
+ * closed form. */
 #ifndef ENGINE_H
 #define ENGINE_H
 
@@ -58,9 +59,10 @@ struct engine {
 };
 
 /* Make the engine of a method that can move the scene, for the motion in its present state.  name is that
- * of a GSL stepper; in taylor.c it serves messages. */
+ * of a GSL stepper; elsewhere it serves messages. */
 ss_status ss_ode_new(engine **out, motion *m, const char *name, int multistep, double tol, ss_error *err);
 ss_status ss_taylor_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
+ss_status ss_radau_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
 ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
 void ss_engine_free(engine *e);                     /* NULL is allowed */
 

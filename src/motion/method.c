@@ -4,7 +4,8 @@
 #include <string.h>
 #include "base/error.h"
 
-enum { EXACT, TAYLOR, RK8PD, RKF45, RKCK, RK4, RK2, RK1IMP, RK2IMP, RK4IMP, BSIMP, MSADAMS, MSBDF, METHODS };
+enum { EXACT, TAYLOR, RK8PD, RKF45, RKCK, RK4, RK2, RK1IMP, RK2IMP, RK4IMP, BSIMP, RADAU, MSADAMS, MSBDF,
+       METHODS };
 
 static const struct method list[METHODS] = {
     [EXACT] = { "exact", CLOSED_FORM, 0, 0 },
@@ -18,6 +19,7 @@ static const struct method list[METHODS] = {
     [RK2IMP] = { "rk2imp", ONE_STEP, 3.5, 9 },
     [RK4IMP] = { "rk4imp", ONE_STEP, 3.3, 17 },
     [BSIMP] = { "bsimp", ONE_STEP, 3, 50 },
+    [RADAU] = { "radau", COLLOCATION, 8, 30 },
     [MSADAMS] = { "msadams", MULTISTEP, 4.6, 3 },
     [MSBDF] = { "msbdf", MULTISTEP, 6.4, 3 },
 };
@@ -69,14 +71,14 @@ ss_method_for(const ss_scene *scene, wish wanted)
     if (wanted == BEST && has_closed_form(scene))
         return &list[EXACT];
     if (is_stiff(scene))
-        return &list[BSIMP];
+        return &list[RADAU];
     return &list[!model->linear && has_series(scene) ? TAYLOR : RK8PD];
 }
 
 const char *
 ss_method_best_names(const ss_scene *scene)
 {
-    return has_closed_form(scene) ? "exact" : "taylor, bsimp where stiff";
+    return has_closed_form(scene) ? "exact" : "taylor, radau where stiff";
 }
 
 int
@@ -119,7 +121,7 @@ ss_method_named(const struct method **how, const char *name, const ss_scene *sce
     if (i < RK1IMP && model->from_pull && is_stiff(scene))
         return ss_fail(err, SS_EINVAL, "method %s: its steps would be millions, as between slips the friction of "
                        "this scene follows the force within %.2g s; %s is implicit", name,
-                       1 / model->quickest(scene), list[BSIMP].name);
+                       1 / model->quickest(scene), list[RADAU].name);
     *how = &list[i];
     return SS_OK;
 }
@@ -129,6 +131,7 @@ ss_engine_new(engine **out, motion *m, const struct method *how, double tol, ss_
 {
     switch (how->kind) {
     case CLOSED_FORM: return ss_exact_new(out, m, err);
+    case COLLOCATION: return ss_radau_new(out, m, how->name, tol, err);
     case SERIES:      return ss_taylor_new(out, m, how->name, tol, err);
     default:          return ss_ode_new(out, m, how->name, how->kind == MULTISTEP, tol, err);
     }

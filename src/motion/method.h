@@ -7,6 +7,7 @@
 typedef enum method_kind {
     CLOSED_FORM,            /* only rounding limits its accuracy: it has no tolerance */
     SERIES,                 /* the model's Taylor series */
+    COLLOCATION,            /* implicit, and known inside its steps */
     ONE_STEP,               /* a GSL stepper that can repeat a step to know the state inside it */
     MULTISTEP               /* one that cannot */
 } method_kind;

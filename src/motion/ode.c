@@ -23,9 +23,6 @@
 /* A curve has room for as many parts of the state as fill a vector register. */
 enum { LANES = 4 };
 
-/* The inside of a long step is a polynomial through its ends and so many steps within. */
-enum { NODES = 12 };
-
 typedef struct ode {
     engine base;
     gsl_odeiv2_system system;
@@ -34,10 +31,6 @@ typedef struct ode {
     int multistep;
     int has_curve;                          /* of the last step; asked for by the first at() in it */
     double curve[2 * ORDERS + 2][LANES];    /* its coefficients in s / h */
-    int has_nodes;                          /* 1: the polynomial keeps the tolerance; -1: it does not; 0: not
-                                               known */
-    double place[NODES + 1], node[NODES + 1][MAX_DIM];
-    double scale[MAX_DIM];
     double h_next;
     double tol;
     double shortest;                        /* the shortest step allowed [s] */
@@ -202,7 +195,7 @@ ode_step(engine *e, double h_max, ss_error *err)
     }
     e->h = h;
     e->steps++;
-    o->has_curve = o->has_nodes = 0;
+    o->has_curve = 0;
     return SS_OK;
 }
 
@@ -223,47 +216,6 @@ step_to(ode *o, double s, double q[])
         from_units(o, y, q);
         if (at < s)
             rates(o, e->m->now.u + at, q, dqdt);
-    }
-}
-
-/* The polynomial through the nodes, which lie as the extrema of a Chebyshev polynomial do (Berrut and Trefethen,
- * SIAM Rev. 46, 501, 2004). */
-static void
-read_nodes(const ode *o, double x, double q[])
-{
-    double sum[MAX_DIM] = { 0 }, all = 0;
-    for (int j = 0; j <= NODES; j++) {
-        double far = x - o->place[j], weight = (j % 2 == 0 ? 1 : -1) / (j % NODES == 0 ? 2 * far : far);
-        if (far == 0) {
-            memcpy(q, o->node[j], sizeof o->node[j]);
-            return;
-        }
-        all += weight;
-        for (int i = 0; i < MAX_DIM; i++)
-            sum[i] += weight * o->node[j][i];
-    }
-    for (int i = 0; i < MAX_DIM; i++)
-        q[i] = sum[i] / all;
-}
-
-/* Take the steps, and two more in the widest gaps, where the polynomial serves if it keeps a step's tolerance. */
-static void
-find_nodes(ode *o)
-{
-    const engine *e = &o->base;
-    double q[MAX_DIM], read[MAX_DIM], relative = ss_motion_relative(&e->m->now, o->tol);
-    memcpy(o->node[0], e->m->now.q, sizeof e->q1);
-    memcpy(o->node[NODES], e->q1, sizeof e->q1);
-    for (int j = 1; j < NODES; j++)
-        step_to(o, o->place[j] * e->h, o->node[j]);
-    o->has_nodes = 1;
-    for (int j = NODES / 2; j <= NODES / 2 + 1; j++) {
-        double x = (o->place[j - 1] + o->place[j]) / 2;
-        step_to(o, x * e->h, q);
-        read_nodes(o, x, read);
-        for (size_t i = 0; i < o->system.dimension; i++)
-            if (!(fabs(read[i] - q[i]) <= o->tol * o->scale[i] / ss_motion_finer(o->tol) + relative * fabs(q[i])))
-                o->has_nodes = -1;
     }
 }
 
@@ -326,11 +278,7 @@ ode_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
     const state *m = &e->m->now;
     (void)where;
     int inside = s > 0 && s < e->h && !e->lands_on_samples;
-    if (inside && o->side != NULL && m->model->from_pull && o->has_nodes == 0)
-        find_nodes(o);
-    if (inside && o->has_nodes > 0) {
-        read_nodes(o, s / e->h, q);
-    } else if (inside && o->side != NULL) {
+    if (inside && o->side != NULL) {
         step_to(o, s, q);
     } else if (inside) {
         if (!o->has_curve)
@@ -417,10 +365,7 @@ ss_ode_new(engine **out, motion *of, const char *name, int multistep, double tol
     o->multistep = multistep;
     o->tol = tol;
     o->h_next = fmax(ss_step_cap(m), ss_step_floor(m));
-    for (int j = 0; j <= NODES; j++)
-        o->place[j] = pow(sin(M_PI / 2 * j / NODES), 2);
     for (size_t k = 0; k < m->model->dim; k++) {
-        o->scale[k] = scale[k];
         o->unit[k] = ldexp(1, ilogb(scale[k]));
         scale[k] /= o->unit[k];
     }

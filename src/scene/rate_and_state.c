@@ -254,7 +254,7 @@ quickest(const ss_scene *s)
     return quickest_of(s, &pause);
 }
 
-/* bsimp takes as long for a cycle as 2,000 steps of Taylor, each of which is about 5 / the rate. */
+/* An implicit method takes as long for a cycle as 2,000 steps of Taylor, each of which is about 5 / the rate. */
 static int
 stiff(const ss_scene *s)
 {

@@ -88,11 +88,11 @@ fastest(const state *m, const char **what)
 }
 
 /* While v creeps within the front, the friction responds with the roots of s^2 + g s + g b,
- * b = goal alpha / m.  There a step of an explicit method is at most 5.2 / |s| (rk8pd, measured).  The
+ * b = goal alpha / m.  There a step of an explicit method is at most 5.2 / |s| (rk8pd, measured).  GSL's
  * implicit bsimp follows the creep in some 100 steps a period of the slow motion, and each costs as much
  * as 40 of rk8pd.  Both cost the same at |s| = 5.2 x 40 x 100 / (2 pi) times the slow frequency.  Roots
  * that swing far more than they decay slow down bsimp as well: at alpha = 1e9 it takes 1.6 times rk8pd's
- * work for a damping of 0.02, and a hundredth of it for 0.07. */
+ * work for a damping of 0.02, and a hundredth of it for 0.07.  (radau takes 1/2 to 1/7 of bsimp's.) */
 #define STIFF_RATIO 3000
 #define STIFF_DAMPING 0.03
 

@@ -4,4 +4,4 @@ grep -rnE --include='*.[ch]' 'SS_(COULOMB|STATE_VARIABLE|COMPLIANT)\b' src tools
 # And a scene knows nothing of what moves it.
 grep -rnE --include='*.[ch]' 'include "(motion|morlet|features|study|stream|store|plot)/' src/scene || true
 # What a method is stands in the list of methods: no other file names one.
-grep -rnE --include='*.[ch]' '"(exact|taylor|rk8pd|rkf45|rkck|rk[124](imp)?|bsimp|ms(adams|bdf))\b' src tools | grep -vE '^src/motion/method.c|"exact-bits"' || true
+grep -rnE --include='*.[ch]' '"(exact|taylor|rk8pd|rkf45|rkck|rk[124](imp)?|bsimp|radau|ms(adams|bdf))\b' src tools | grep -vE '^src/motion/method.c|"exact-bits"' || true

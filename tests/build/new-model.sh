@@ -83,7 +83,7 @@ refused bin/ss-sweep --vary contact_damping=1:2:2 copied.scene
 echo '-- a model with events that is not linear'
 ss-sim --list coulomb > original.scene
 bin/ss-sim --list -s model=stepped original.scene > stepped.scene
-for method in rk8pd rk4imp bsimp; do        # event times to 1e-6 of an interval between two
+for method in rk8pd rk4imp bsimp radau; do        # event times to 1e-6 of an interval between two
     for scene in stepped original; do
         bin/ss-sim -s settle=0 -s duration=1 -m $method -t 1e-9 --events $scene.scene | grep -v '^# ' > $scene.tsv
     done

@@ -21,12 +21,14 @@ typedef struct choice {
     double known, accuracy;
     unsigned long user_steps;       /* the limit of opts */
     double max_steps;               /* a method may take so many */
+    double least;                   /* work of the cheapest method so far */
     double tol, reached;            /* the last method's tolerance, and the least error it reached */
 } choice;
 
-/* Find the loosest tolerance at which the method keeps the accuracy; SS_ETOL: there is none. */
+/* Find the loosest tolerance at which the method keeps the accuracy; SS_ETOL: there is none; SS_EBUDGET: by then
+ * it is no cheaper than another.  cost: of a right-hand side. */
 static ss_status
-loosest(choice *s, const char *method, unsigned long max_steps, ss_error *err)
+loosest(choice *s, const char *method, double cost, unsigned long max_steps, ss_error *err)
 {
     ss_status st = SS_ETOL;
     s->reached = INFINITY;
@@ -36,6 +38,8 @@ loosest(choice *s, const char *method, unsigned long max_steps, ss_error *err)
         st = ss_trade_run(&s->run, &s->p, method, ss_trade_tolerance[i], max_steps, err);
         if (st != SS_OK)
             return st;
+        if (cost * (double)s->run.stats.rhs >= s->least)
+            return SS_EBUDGET;
         double error = fmax(ss_trade_error_x(&s->run, &s->ref), s->known);
         s->reached = fmin(s->reached, error);
         s->tol = ss_trade_tolerance[i];
@@ -48,7 +52,7 @@ loosest(choice *s, const char *method, unsigned long max_steps, ss_error *err)
 static ss_status
 choose_given(choice *s, const char *method, ss_error *err)
 {
-    ss_status st = loosest(s, method, (unsigned long)s->max_steps, err);
+    ss_status st = loosest(s, method, 0, (unsigned long)s->max_steps, err);
     if (st == SS_EBUDGET && isfinite(s->reached))
         return ss_fail(err, st, "%s needs more than %.0f steps for an accuracy of %g, %d times the error with "
                        "every event in place; with fewer x was %.2g of its maximum off", method,
@@ -64,28 +68,26 @@ choose_given(choice *s, const char *method, ss_error *err)
 static ss_status
 choose_cheapest(choice *s, ss_sim_opts *opts, ss_error *err)
 {
-    double least = INFINITY;
     const struct method *usual = ss_method_for(&s->p.scene, USUAL), *how = usual;
     for (size_t i = 0; how != NULL; how = ss_method_at(i++)) {
         if (how->kind == CLOSED_FORM || (how == usual && i > 0))
             continue;
-        double most = least / how->cost / how->rhs_a_step;
+        double most = s->least / how->cost / how->rhs_a_step;
         if (how->kind == ONE_STEP)
             most -= (double)ss_scene_samples(&s->p.scene);
         most = fmin(most, s->max_steps);
         if (!(most >= 1))
             continue;
-        ss_status st = loosest(s, how->name, (unsigned long)most, err);
-        double work = how->cost * (double)s->run.stats.rhs;
-        if (st == SS_OK && work < least) {
-            least = work;
+        ss_status st = loosest(s, how->name, how->cost, (unsigned long)most, err);
+        if (st == SS_OK) {
+            s->least = how->cost * (double)s->run.stats.rhs;
             opts->method = how->name;
             opts->tol = s->tol;
         } else if (st == SS_STOP || st == SS_ENOMEM) {
             return st;
         }
     }
-    if (isfinite(least))
+    if (isfinite(s->least))
         return SS_OK;
     return ss_fail(err, SS_ETOL, "no method keeps an accuracy of %g in this scene", s->accuracy);
 }
@@ -153,7 +155,7 @@ ss_trade_choose(ss_sim_opts *opts, const ss_scene *scene, double accuracy, ss_er
     if (st != SS_OK)
         return st;
     const run empty = { .progress = known.progress };
-    choice s = { .p = ss_trade_probe(scene), .ref = empty, .run = empty, .accuracy = accuracy,
+    choice s = { .p = ss_trade_probe(scene), .ref = empty, .run = empty, .accuracy = accuracy, .least = INFINITY,
                  .user_steps = known.max_steps };
     st = choose(&s, opts, err);
     ss_trade_run_free(&s.ref);

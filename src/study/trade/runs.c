@@ -233,10 +233,9 @@ ss_trade_refer(run *ref, run *other, const probe *p, const char *method[2], unsi
     nudged.scene.mass *= 1 + DBL_EPSILON;
     ss_status st = SS_ETOL;
     for (int i = TOLERANCES - 1; st == SS_ETOL && i >= 0 && ss_trade_tolerance[i] <= 1e-10; i--) {
-        int same = strcmp(method[0], method[1]) == 0;       /* no other one serves: it confirms itself */
         st = ss_trade_run(ref, p, method[0], ss_trade_tolerance[i], max_steps, err);
         if (st == SS_OK)
-            st = ss_trade_run(other, &nudged, method[1], ss_trade_tolerance[i - same], max_steps, err);
+            st = ss_trade_run(other, &nudged, method[1], ss_trade_tolerance[i], max_steps, err);
         ss_print_to(text, 64, "%s and %s at tol %g", method[0], method[1], ss_trade_tolerance[i]);
     }
     other->p = p;
