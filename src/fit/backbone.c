@@ -179,7 +179,8 @@ find_extent(decay *d)
         if (i + 1 < width)
             continue;
         size_t k = i + 1 - width;
-        size[k] = cabs(sum - plain * one) * 2 / (double)width;
+        double complex left = sum - plain * one;
+        size[k] = sqrt(creal(left) * creal(left) + cimag(left) * cimag(left)) * 2 / (double)width;
         if (size[k] > size[d->first]) {
             d->first = k;
             least = INFINITY;

@@ -58,18 +58,18 @@ typedef struct place {          /* of a block */
     double x[STATES], p[STATES][STATES];        /* mean and variance by what this place and those before tell */
     double h[2][STATES], gain[2][STATES], news[2], sure[2];     /* of the filter's steps */
     double of_walk[STATES][WALKS][2];   /* of y, its rate, its bend and constants: mean, standard deviation */
-    double mean[STATES], error[STATES];     /* over all walks, by likelihood: mean, and 68 % lie within the error */
+    double mean[STATES], error[STATES];     /* over all walks, by likelihood: mean, and 68 % lie within it */
 } place;
 
 /* What a block tells of y and of its rate [unit/sample], each less what the states do not hold. */
 void ss_place_see(place *at, const block *b, int track, double y, double rate, double unit);
 /* The walk over v e-folds, by turn. */
 void ss_place_walk(place *at, double v);
-/* Set mean and error of all places, from a mean and a variance at the first one; end takes x and p of the last, over
- * all walks, and mean and error of its states.
+/* From a mean and a variance at the first one, set mean and error of all places, if is_smooth; end takes x and p of
+ * the last, over all walks, and mean and error of its states.
  * Returns the ln likelihood of what is seen. */
 double ss_blocks_track(place *at, size_t n, size_t states, const double x[], double start[STATES][STATES],
-                       place *end);
+                       place *end, int is_smooth);
 
 /* Draw smooth s and w, with errors, through n blocks whose noise is known: at, error and level; at.s and at.w
  * must be near.  has_phase 0: there is no w. */

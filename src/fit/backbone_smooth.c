@@ -14,10 +14,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PASSES = 4, MOST_PASSES = 20, PARTS = 4 };
+enum { PASSES = 20, PARTS = 4 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
 #define KNOWN 1e-14             /* variance of ln A and phase of a block, at least: rounding hides less */
 #define FAR 1.0                 /* the most by which ln s and p change in a pass */
+#define NEAR .1                /* of the error of ln s: a pass that changes it by less is the last */
 #define ONE_SIGMA .682689       /* of a normal distribution lie within its standard deviation */
 #define EXACT 3.0               /* times as likely as not a law is exact */
 #define SMALL .005              /* damping over its mean below which its logarithm is none */
@@ -109,7 +110,8 @@ mix(double *mean, double *error, double of[WALKS][2], const double weight[WALKS]
 }
 
 double
-ss_blocks_track(place *at, size_t n, size_t states, const double x[], double start[STATES][STATES], place *end)
+ss_blocks_track(place *at, size_t n, size_t states, const double x[], double start[STATES][STATES], place *end,
+                int is_smooth)
 {
     double best = -INFINITY, whole = 0, weights[WALKS];
     memset(end, 0, sizeof *end);
@@ -148,7 +150,7 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
                 end->p[i][j] = end->p[i][j] * ease
                     + weight * (at[n - 1].p[i][j] + at[n - 1].x[i] * at[n - 1].x[j]);
         }
-        for (size_t i = n; i-- > 0;) {          /* backward, the form without inverses (Bierman 1973) */
+        for (size_t i = is_smooth ? n : 0; i-- > 0;) {      /* backward, without inverses (Bierman 1973) */
             double with[STATES];
             for (int o = 0; o < 3; o++) {
                 double mean = dot(at[i].see[o], at[i].x, states), square = 0;
@@ -187,7 +189,7 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
     }
     for (int w = 0; w < WALKS; w++)
         weights[w] /= whole;
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; is_smooth && i < n; i++)
         for (int o = 0; o < 3; o++)
             mix(&at[i].mean[o], &at[i].error[o], at[i].of_walk[o], weights);
     for (size_t i = 0; i < states; i++) {
@@ -237,7 +239,7 @@ ss_place_walk(place *at, double v)
     memcpy(at->walk, w, sizeof w);
 }
 
-/* One pass through ln A: the curve is moved to what is smooth about it.  Returns 1 if some should move farther. */
+/* One pass through ln A: the curve is moved to what is smooth about it.  Returns 1 if some is not near it. */
 static int
 smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], double (*lost)[2], int derivative)
 {
@@ -268,12 +270,12 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
             p[i].shift[r] = x[r] - dot(p[i].turn[r], level[i], 3);
         ss_place_walk(&p[i], lost[i][0]);
     }
-    ss_blocks_track(p, n, 3, (double[STATES]){ b->y[LEVEL], asinh(b->at.s / small) }, start, &end);
+    ss_blocks_track(p, n, 3, (double[STATES]){ b->y[LEVEL], asinh(b->at.s / small) }, start, &end, 1);
     for (size_t i = 0; i < n; i++) {
         double *to = level[i], gain = hypot(b[i].at.s, small);
         to[0] = b[i].level = p[i].mean[0];
         double by = -p[i].mean[1] / gain - to[1];
-        is_far |= fabs(by) > FAR;
+        is_far |= fabs(by) > NEAR * p[i].error[1] / gain;
         to[1] += fmax(fmin(by, FAR), -FAR);
         to[2] += fmax(fmin(p[i].mean[2] - to[2], FAR), -FAR);
         b[i].at.s = small * sinh(to[1]);
@@ -302,7 +304,7 @@ smooth_phase(place *p, block *b, size_t n, double unit, double (*lost)[2])
         ss_place_see(&p[i], &b[i], PHASE, last, b[i].rate[PHASE] - w, 1);
         ss_place_walk(&p[i], lost[i][0]);
     }
-    ss_blocks_track(p, n, 3, (double[STATES]){ p->seen[0] }, start, &end);
+    ss_blocks_track(p, n, 3, (double[STATES]){ p->seen[0] }, start, &end, 1);
     for (size_t i = 0; i < n; i++) {
         b[i].phase = p[i].mean[0] + w * (b[i].t - b->t);
         b[i].at.w = w + p[i].mean[1];
@@ -338,7 +340,7 @@ ss_blocks_smooth(block *b, size_t n, int has_phase, int derivative)
         level[i][0] = b[i].y[LEVEL];
         level[i][1] = asinh(b[i].at.s / (SMALL * unit));
     }
-    for (int pass = 0, is_far = 0; has_room && (pass < PASSES || (is_far && pass < MOST_PASSES)); pass++)
+    for (int pass = 0, is_far = 0; has_room && (pass == 0 || (is_far && pass < PASSES)); pass++)
         is_far = smooth_level(p, b, n, SMALL * unit, level, lost, derivative);
     if (has_room && has_phase)
         smooth_phase(p, b, n, unit, lost);

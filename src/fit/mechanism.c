@@ -41,12 +41,13 @@ const char *const ss_mechanism_names[SS_MECHANISMS + 1] = {
 static const struct law {
     int free[UNKNOWNS];
     unsigned contains;          /* the mechanisms that are cases of it, as bits */
-    double shape[5];            /* to start from, up to 0 */
+    double shape[5];            /* the power of A, or where Jenkins slips: to start from, up to 0 */
     ss_range shapes;
 } laws[LAWS] = {
     [SS_VISCOUS] = { { 1, 1, 1, 1 }, 0, { 1 }, { 1, 1 } },
-    [SS_COULOMB_DAMPING] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
-    [SS_VISCOUS_AND_COULOMB] = { { 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING, { 1 }, { 1, 1 } },
+    [SS_COULOMB_DAMPING] = { { 1, 1, 1, 0, 1 }, 0, { -1 }, { -1, -1 } },
+    [SS_VISCOUS_AND_COULOMB] = { { 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING, { -1 },
+                                 { -1, -1 } },
     [SS_JENKINS] = { { 1, 1, 1, 1, 1, 1 },     /* of a stiff spring it is Coulomb's */
                      1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING | 1 << SS_VISCOUS_AND_COULOMB,
                      { .05, .1, .2, .4, .7 }, { .01, 1 } },
@@ -75,37 +76,24 @@ typedef struct trial {
     const decay_source *source;
 } trial;
 
-/* s = u[S] + u[C] g(A), with a factor near 1 for Jenkins, whose spring of stiffness u[C] of->w re the mass makes
- * both. */
-static double
-shape_of(int kind, double shape, double a)
+/* At ln A: s and w, and their slopes over ln A.  s = u[S] + u[C] A^u[SHAPE] and w = of->w + u[W] - u[BEND]
+ * A^u[SHAPE]; or those of Jenkins, whose spring of stiffness u[C] of->w re the mass slips at u[SHAPE]. */
+static void
+law_at(const trial *of, const double u[UNKNOWNS], double ln_a, double s[2], double w[2])
 {
-    switch (kind) {
-    case SS_COULOMB_DAMPING: case SS_VISCOUS_AND_COULOMB: return 1 / a;
-    case SS_JENKINS: return a > shape ? 2 / M_PI * shape / a * (1 - shape / a) : 0;
-    case SS_MICROSLIP: return pow(a, shape);
-    case SS_QUADRATIC: return a;
-    default: return 0;
+    const double free_w = of->w + u[W], k = u[C] * of->w;
+    if (of->kind != SS_JENKINS) {
+        double g = exp(u[SHAPE] * ln_a);
+        s[0] = u[S] + u[C] * g, s[1] = u[SHAPE] * u[C] * g;
+        w[0] = free_w - u[BEND] * g, w[1] = -u[SHAPE] * u[BEND] * g;
+        return;
     }
-}
-
-static double
-frequency(const trial *of, const double u[UNKNOWNS], double a)
-{
-    double w = of->w + u[W];
-    if (of->kind == SS_MICROSLIP || of->kind == GEOMETRY)
-        return w - u[BEND] * pow(a, u[SHAPE]);
-    if (of->kind != SS_JENKINS)
-        return w;
-    double turn = a > u[SHAPE] ? acos(1 - 2 * u[SHAPE] / a) : M_PI;
-    return sqrt(w * w + u[C] * of->w / M_PI * (turn - sin(2 * turn) / 2));
-}
-
-static double
-losses(const trial *of, const double u[UNKNOWNS], double a)
-{
-    double of_jenkins = of->kind == SS_JENKINS ? of->w / frequency(of, u, a) : 1;
-    return u[S] + u[C] * of_jenkins * shape_of(of->kind, u[SHAPE], a);
+    double stuck = fmin(u[SHAPE] * exp(-ln_a), 1), sine = 2 * sqrt(stuck * (1 - stuck)), cosine = 1 - 2 * stuck;
+    w[0] = sqrt(free_w * free_w + k / M_PI * (acos(cosine) - sine * cosine));
+    w[1] = -2 * k / M_PI * stuck * sine / w[0];
+    s[0] = k / (2 * M_PI) * sine * sine / w[0];
+    s[1] = stuck < 1 ? -2 * k / M_PI * stuck * cosine / w[0] - s[0] * w[1] / w[0] : 0;
+    s[0] += u[S];
 }
 
 /* The rates of ln A and of the phase, less of->w, at ln A; and what damping takes from the square of w: s^2 + s',
@@ -114,20 +102,15 @@ losses(const trial *of, const double u[UNKNOWNS], double a)
 static void
 rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS], double lag[2])
 {
-    const double h = .01;
-    double a = exp(fmax(fmin(ln_a, 20), -40)), s[3], w[3];
-    for (int i = 0; i < 3; i++) {
-        double at = a * exp((i - 1) * h);
-        w[i] = frequency(of, u, at);
-        s[i] = losses(of, u, at);
-    }
-    double fall = s[1] / (1 + (w[2] - w[0]) / (4 * h) / w[1]), s_dot = -fall * (s[2] - s[0]) / (2 * h);
-    lag[0] = of->kind == SS_JENKINS || of->kind == SS_MICROSLIP ? s[1] * s[1] + s_dot
-        : of->kind == SS_QUADRATIC ? .183 * s[1] * s[1] : u[S] * u[S] + 3 * (s[1] - u[S]) * s[1];
+    double s[2], w[2];
+    law_at(of, u, fmax(fmin(ln_a, 20), -40), s, w);
+    double fall = s[0] / (1 + w[1] / (2 * w[0])), s_dot = -fall * s[1], own = s[0] - u[S];
+    lag[0] = of->kind == SS_JENKINS || of->kind == SS_MICROSLIP ? s[0] * s[0] + s_dot
+        : of->kind == SS_QUADRATIC ? .183 * s[0] * s[0] : u[S] * u[S] + 3 * own * s[0];
     lag[0] -= given_back(of->source->derivative, s_dot);
-    lag[1] = hypot(not_known(of->source->derivative, s_dot), (lag[0] - u[S] * u[S]) * s[1] / w[1]);
+    lag[1] = hypot(not_known(of->source->derivative, s_dot), (lag[0] - u[S] * u[S]) * s[0] / w[0]);
     rate[LEVEL] = -fmin(fall, 1e4);
-    rate[PHASE] = sqrt(fmax(w[1] * w[1] - lag[0], 0)) - of->w;
+    rate[PHASE] = sqrt(fmax(w[0] * w[0] - lag[0], 0)) - of->w;
 }
 
 /* What a mechanism says of a block: ln A and phase, and their rates. */
@@ -290,11 +273,13 @@ begin(const trial *of, double u[UNKNOWNS])
     const struct law *law = &laws[of->kind];
     const block *b = of->b;
     const double unit = of->unit, ln_a = of->ln_a;
-    double left = 0, sum[6] = { 0 };
+    const double only[UNKNOWNS] = { [C] = 1, [SHAPE] = u[SHAPE] };
+    double left = 0, sum[5] = { 0 }, of_c[2], w[2];
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < of->n; i++) {
-            double a = exp(b[i].level - ln_a), s = b[i].at.s / unit, g = shape_of(of->kind, u[SHAPE], a);
-            double weight = 1 / (pow(b[i].error[LEVEL] / unit, 2) + pow(TRUST * s, 2)), off = s - u[S] - u[C] * g;
+            law_at(of, only, b[i].level - ln_a, of_c, w);
+            double s = b[i].at.s / unit, g = of_c[0], off = s - u[S] - u[C] * g;
+            double weight = 1 / (pow(b[i].error[LEVEL] / unit, 2) + pow(TRUST * s, 2));
             left += pass * weight * off * off;
             sum[0] += weight, sum[1] += weight * g, sum[2] += weight * g * g;
             sum[3] += weight * s, sum[4] += weight * s * g;
@@ -307,15 +292,16 @@ begin(const trial *of, double u[UNKNOWNS])
         u[S] = !law->free[S] ? 0 : both ? fmax((sum[3] - u[C] * sum[1]) / sum[0], 1e-3) : sum[3] / sum[0];
     }
     const bend *first = &b->at, *last = &b[of->n - 1].at;
-    double a = exp(b[of->n - 1].level - ln_a);
+    double end = b[of->n - 1].level - ln_a;
     u[LN_A] = b->level - ln_a;
     u[TURN] = b->phase;
     u[W] = u[BEND] = 0;
     if (law->free[BEND])
-        u[BEND] = (last->w - first->w) / unit / (1 - pow(a, u[SHAPE]));
+        u[BEND] = (last->w - first->w) / unit / (1 - exp(u[SHAPE] * end));
     if (of->kind == SS_MICROSLIP)
         u[BEND] = fmax(u[BEND], 0);
-    u[W] = last->w / unit - frequency(of, u, a);
+    law_at(of, u, end, of_c, w);
+    u[W] = last->w / unit - w[0];
     return left;
 }
 
@@ -384,7 +370,8 @@ fit(fitted *f, const trial *of)
         unknowns += is_free;
     }
     least of_fit = { .rows = 2 * of->tracks * of->n, .unknowns = UNKNOWNS, .model = leave, .user = (void *)of,
-                     .range = range, .difference = difference, .steps = 60, .tol = 1e-7, .noise = 1 };
+                     .range = range, .difference = difference, .costly = !of->is_exact, .steps = 60, .tol = 1e-7,
+                     .noise = 1 };
     ss_status st = ss_least_fit(&end, &of_fit, f->u, NULL, f->covariance);
     f->is_exact = of->is_exact;
     f->squares = end.squares;
@@ -403,7 +390,7 @@ fit_first(fitted *f, trial *of, int kind)
     f->kind = of->kind = kind;
     if (kind == TWO_MODES)
         begin_two(of->p, of->b, of->n, of->ln_a, of->w * of->unit, f->u);
-    for (size_t i = 0; kind != TWO_MODES && i < 5 && law->shape[i] > 0; i++) {
+    for (size_t i = 0; kind != TWO_MODES && i < 5 && law->shape[i] != 0; i++) {
         double u[UNKNOWNS] = { [SHAPE] = law->shape[i] }, left = begin(of, u);
         if (left < least_left) {
             least_left = left;
@@ -539,7 +526,7 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
         states++;
     }
     for (size_t c = 0; c < of->tracks; c++)
-        ss_blocks_track(&p[c * n], n, states, x, start, &end[c]);
+        ss_blocks_track(&p[c * n], n, states, x, start, &end[c], of->tracks == 1);
     for (size_t c = 0; of->tracks > 1 && c < of->tracks; c++) {
         place *other = &end[1 - c];
         for (size_t j = 0; j < 3; j++) {
@@ -547,7 +534,7 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
             for (size_t k = 0; k < states; k++)
                 other->p[j][k] = other->p[k][j] = 0;
         }
-        ss_blocks_track(&p[c * n], n, states, other->x, other->p, &both);
+        ss_blocks_track(&p[c * n], n, states, other->x, other->p, &both, 1);
     }
     const place *known = of->tracks > 1 ? &both : end;
     double error[STATES];
@@ -602,7 +589,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     if (of.is_exact) {
         const fitted by_law = *f;
         st = fit(f, &of);
-        *f = f->bic < by_law.bic ? *f : by_law;
+        *f = f->bic < by_law.bic || f->p >= REJECT ? *f : by_law;
         of.is_exact = f->is_exact;
     }
     fitted *best = f;
@@ -656,11 +643,12 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         return st;
     of.kind = best->kind;
     for (size_t i = 0; i < n; i++) {
-        double rate[TRACKS], ignore[2], at = frequency(&of, best->u, exp(b[i].level - ln_a));
-        int is_named = out->n_mechanisms == 1 && source->has_phase;
-        rates(&of, best->u, b[i].level - ln_a, rate, ignore);
-        out->row[i].named[0] = is_named ? at * unit * source->rate / (2 * M_PI) : NAN;
-        out->row[i].named[1] = out->n_mechanisms == 1 ? -rate[LEVEL] / hypot(rate[LEVEL], at) : NAN;
+        double s[2], at[2];
+        law_at(&of, best->u, b[i].level - ln_a, s, at);
+        double fall = s[0] / (1 + at[1] / (2 * at[0]));
+        int is_named = out->n_mechanisms == 1;
+        out->row[i].named[0] = is_named && source->has_phase ? at[0] * unit * source->rate / (2 * M_PI) : NAN;
+        out->row[i].named[1] = is_named ? fall / hypot(fall, at[0]) : NAN;
     }
     if (out->n_mechanisms > 0)
         add_numbers(out, best, source, w / unit, unit * source->rate, exp(ln_a) * source->unit);
