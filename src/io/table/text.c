@@ -240,7 +240,7 @@ read_cell(struct text *x, size_t i, double *value, ss_error *err)
     if (c->kind == COLUMN_TEXT)
         return kind != CELL_NUMBER ? SS_OK : ss_fail(err, SS_EGAPS, "%s:%lu: column %s: '' is not a number",
                                                      x->t.name, x->first, name);
-    int missing = kind == CELL_NOT_FINITE || cell[0] == '\0';
+    int missing = kind == CELL_NOT_FINITE || cell[strspn(cell, "-")] == '\0';
     if (c->spare && kind != CELL_NUMBER) {
         if (!c->incomplete)
             ss_sheet_warn(&x->t, SS_OK, "%s:%lu: column %s has no number here; it is not needed, and read as 0 "
@@ -426,7 +426,7 @@ is_heading(struct text *x, const char *line, int *yes)
     return SS_OK;
 }
 
-/* Are the lines from a heading to the end of the file nothing but words, in other columns than those of rows? */
+/* Are the lines from a heading to the end of the file nothing but words, in more or fewer cells than rows have? */
 static ss_status
 is_footer(struct text *x, int *yes)
 {
@@ -436,7 +436,10 @@ is_footer(struct text *x, int *yes)
         char *shape = ss_text_shape(x, x->head[i].text, x->separator, &numbers);
         if (shape == NULL)
             return SS_ENOMEM;
-        *yes = strlen(shape) != x->t.n_columns && strchr(shape, 'n') == NULL;
+        size_t filled = strlen(shape);
+        while (filled > 0 && shape[filled - 1] == 'e')
+            filled--;
+        *yes = filled != x->t.n_columns && strchr(shape, 'n') == NULL;
         free(shape);
     }
     return SS_OK;

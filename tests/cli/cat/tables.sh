@@ -26,6 +26,10 @@ printf 't,x\n0,1\n0.5,2\n\nEnd of data\nNot averaged\n' | ss-cat
 for end in 'End,of' 'Max,2' 'End\n1,3' 'End 5'; do
     printf "t,x\n0,1\n0.5,2\n$end\n" | ss-cat -q || echo $?
 done
+printf 't;x;y\n0;1;2\n0,5;3;4\nEnde der Messung;;\nProbe 7;;\n' | ss-cat
+printf 't;x;y\n0;1;2\n0,5;-;4\n1;---;6\n1,5;7;8\n' > dashes.csv
+ss-cat dashes.csv || echo $?
+ss-cat --gaps split dashes.csv
 echo '-- dates of spreadsheets'
 for second in 04/05 03/06 03/07; do
     printf 'when;x\n03/05/2024 23:59:59,5;1\n%s/2024 0:00:00,0;2\n' $second | ss-cat || echo $?
