@@ -195,7 +195,7 @@ kind_hint(ss_kind found, ss_kind wanted)
     };
     static const char *const makes[SS_KIND_HDF5 + 1] = {
         [SS_KIND_COEFFICIENTS] = "; ss-morlet makes coefficients of a signal, and ss-contour those of a file by itself",
-        [SS_KIND_SWEEP] = "; ss-sweep makes one",
+        [SS_KIND_SWEEP] = "; ss-sweep -o FILE.tsv makes one",
     };
     const char *hint = found != SS_KIND_UNKNOWN ? reads[found] : makes[wanted];
     return hint != NULL ? hint : "";

@@ -212,6 +212,8 @@ ss_clean_unit(const char *unit)
     if (depth != 0 || lowest < 0)
         for (char *p = clean; (p = strpbrk(p, "()")) != NULL; )
             *p = ' ';
+    if (strcmp(clean, "1") == 0 || strcmp(clean, "-") == 0)     /* a ratio has none */
+        *clean = '\0';
     return clean;
 }
 

@@ -30,6 +30,7 @@ printf 't;x;y\n0;1;2\n0,5;3;4\nEnde der Messung;;\nProbe 7;;\n' | ss-cat
 printf 't;x;y\n0;1;2\n0,5;-;4\n1;---;6\n1,5;7;8\n' > dashes.csv
 ss-cat dashes.csv || echo $?
 ss-cat --gaps split dashes.csv
+printf 't (s),mu (-),r (1)\n0,1,2\n1,2,3\n' | ss-cat -c mu -c r --unit mu=1 | grep columns
 echo '-- dates of spreadsheets'
 for second in 04/05 03/06 03/07; do
     printf 'when;x\n03/05/2024 23:59:59,5;1\n%s/2024 0:00:00,0;2\n' $second | ss-cat || echo $?
