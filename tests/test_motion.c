@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+#include "fit/verdict.h"
 #include "new_signal.h"
 #include "scene/model.h"
 #include "uniform.h"
@@ -412,6 +413,80 @@ names_dry_friction_by_a_coarse_encoder(void **unused)
     ss_signal_free(r.signal);
 }
 
+/* Friction that is 6 % larger on one side, and hardly any noise: nothing shows a gap. */
+static void
+names_a_slider_that_is_uneven(void **unused)
+{
+    recording r = record();
+    (void)unused;
+    double y = 0;
+    for (int i = 0; i < ROWS; i++) {
+        double f = 3 * slider(&y, i > 0 ? r.x[i] - r.x[i - 1] : 0, 0.5) / 0.5;
+        r.f[i] = f * (f > 0 ? 1.03 : 0.97) * (1 + 0.02 * r.x[i]);
+    }
+    add_noise(r.f, 0.003, 11);
+    ss_motion_ranking *k = rank(&r, 0, NULL);
+    assert_named(k, "compliant");
+    assert_number(k, "contact_stiffness", 6, "kN/mm");
+    assert_number(k, "unevenness", 0.03, "1");
+    assert_number(k, "unevenness_by_place", 0.02, "1/mm");
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
+/* The record ends where the motion turns: as a delay may be anything to a row, the force may have jumped. */
+static void
+names_dry_friction_that_ends_at_a_turn(void **unused)
+{
+    (void)unused;
+    recording r = record();
+    double noise = 0;
+    add_noise(r.f, 0.02, 11);
+    for (int i = 0; i < ROWS; i++) {
+        double t = 20 * M_PI * i / ROWS + 11;
+        noise = 0.9 * noise + r.f[i];
+        r.x[i] = 2 * sin(t);
+        r.f[i] = (cos(t) > 0 ? 2 : -2) + 0.4 * cos(t) + noise;
+    }
+    add_noise(r.x, 2e-4, 111);
+    assert_law(&r, "coulomb", 2);
+}
+
+/* --- the verdict ---------------------------------------------------------------------------- */
+
+/* Two laws, neither a limit of the other, of which one leaves 2 % more, and shows less noise beside it. */
+static void
+cannot_tell_laws_that_leave_the_same(void **unused)
+{
+    char answer[200];
+    size_t best;
+    candidate c[] = {
+        { .name = "null", .law = 1, .left = 1, .fitted = 1, .noise = 1, .rough = 1, .work = 1 },
+        { .name = "one", .law = 2, .contains = 1, .left = 2.04e-3, .fitted = 2.04e-3, .noise = 0.95e-3, .rough = 1,
+          .better = 4, .work = 1 },
+        { .name = "other", .law = 4, .contains = 1, .left = 2e-3, .fitted = 2e-3, .noise = 1.1e-3, .rough = 1,
+          .better = 1, .work = 1 },
+        { .left = 1 } };
+    double block[4][BLOCKS];
+    (void)unused;
+    for (int i = 0; i < 4; i++) {
+        c[i].block = block[i];
+        for (int b = 0; b < BLOCKS; b++)
+            block[i][b] = c[i].left / BLOCKS * (1 + 0.001 * (b % 2));
+    }
+    assert_int_equal(ss_verdict_find(answer, sizeof answer, c, 3, 1, &best), SS_UNDECIDED);
+    assert_string_equal(answer, "cannot tell: one, other");
+    c[2].contains = 3;          /* now one is a limit of the other */
+    assert_int_equal(ss_verdict_find(answer, sizeof answer, c, 3, 1, &best), SS_NAMED);
+    assert_string_equal(answer, "one explains 0.9980 of the force that was held out, no less than other");
+    c[1].left = c[1].fitted = 1;        /* and explains nothing */
+    c[2].better = 4;
+    assert_int_equal(ss_verdict_find(answer, sizeof answer, c, 3, 1, &best), SS_NONE_FITS);
+    assert_string_equal(answer, "none of these: a free law predicts more; other explains 0.9980 of the force that was "
+                        "held out, and leaves 2.105 times the noise");
+    assert_true(fabs(c[2].excess - 2.105) < 1e-3);
+}
+
 /* --- no law --------------------------------------------------------------------------------- */
 
 static void
@@ -519,6 +594,9 @@ main(void)
         cmocka_unit_test(knows_a_converter),
         cmocka_unit_test(names_friction_that_wanders),
         cmocka_unit_test(names_dry_friction_by_a_coarse_encoder),
+        cmocka_unit_test(names_a_slider_that_is_uneven),
+        cmocka_unit_test(names_dry_friction_that_ends_at_a_turn),
+        cmocka_unit_test(cannot_tell_laws_that_leave_the_same),
         cmocka_unit_test(does_not_judge_what_tells_nothing),
         cmocka_unit_test(names_none_of_these),
         cmocka_unit_test(writes_what_it_found),

@@ -163,7 +163,8 @@ ss_driven_new(driven *d, const double t[], const double motion[], const double f
         d->t[i] = t[i] - t[0];
         d->f[i] = force[i];
         d->row[i] = i;
-        d->used[i] = d->t[i] >= UNKNOWN_MEMORY * (t[n - 1] - t[0]);
+        d->used[i] = d->t[i] >= UNKNOWN_MEMORY * (t[n - 1] - t[0])      /* and the motion is known, if it is late */
+            && (double)i + d->most_delay < (double)n;
         d->x[i] = out[0];
         d->v[i] = out[1];
         d->a[i] = out[2];
@@ -199,9 +200,9 @@ ss_driven_new(driven *d, const double t[], const double motion[], const double f
         }
         memset(d->used + first, 0, end - first);
     }
-    for (size_t i = 1; i < n && d->most_delay > 0; i++)
-        if ((d->v[i] > 0) != (d->v[i - 1] > 0) && force_jumps(force, n, i))
-            d->used[i - 1] = d->used[i] = 0;        /* it may do so a row earlier or later */
+    for (size_t i = 1; i + 1 < n && d->most_delay > 0; i++)
+        if (((d->v[i] > 0) != (d->v[i - 1] > 0) || fabs(d->v[i]) <= d->slow) && force_jumps(force, n, i))
+            memset(d->used + i - 1, 0, 3);      /* it may do so a row earlier or later */
     const double time = d->length / d->speed;
     for (size_t i = 0; i < n; i++) {
         d->f[i] *= d->sign / d->force;

@@ -10,8 +10,10 @@
 /* The unknowns on which the force does not depend linearly.  Lengths are in units of the rms motion, speeds in
  * units of the rms speed, DELAY in rows; all but BETA and DELAY are logarithms. */
 enum { LENGTH, OTHER_LENGTH, GAP, EXPONENT, BETA, RISE, SPEED, SHAPE, DELAY, UNKNOWNS };
-/* The columns of the force, which is linear in them.  The law's parts and the viscous part are not negative. */
-enum { PART, VISCOUS = PART + DRIVEN_PARTS, TILT, INERTIA, SINE, COSINE, BY_SIDE, OFFSET, DRIFT, COLUMNS };
+/* The columns of the force, which is linear in them.  The law's parts and the viscous part are not negative.  No rig
+ * is as even as a law: its force may be larger on one side (UNEVEN), and grow with the place (PLACE). */
+enum { PART, VISCOUS = PART + DRIVEN_PARTS, TILT, INERTIA, SINE, COSINE, BY_SIDE, UNEVEN, PLACE, OFFSET, DRIFT,
+       COLUMNS };
 enum { LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
 enum { DRIVEN_ROWS = 4000 };        /* rows that fits look at */
 #define DRIVEN_TURN 0.1             /* of the rms motion: a turn that a contact remembers */
@@ -23,6 +25,7 @@ typedef struct driven_law {
     const char *word[2];            /* a key of its scene, and its word; or NULL */
     unsigned free;                  /* a bit for each unknown that is free */
     double held[UNKNOWNS];          /* the others, as a larger law has them that this one is a limit of */
+    int is_even;                    /* it is elastic, and has one size for both sides: a rig has two */
     size_t parts;                   /* forces whose amplitudes are its own; 1: the sum of the model's parts */
     struct { const char *name, *unit; } number[LAW_NUMBERS];    /* keys of scenes */
     void (*numbers)(double number[], const double u[], const double c[]);   /* c: amplitudes of its parts */
@@ -75,6 +78,7 @@ typedef struct driven_result {
     driven_fit fit[FOLDS + 1];      /* each without the rows of a fold, and of all */
     double loss;                    /* mean square left of each row by the fit without its fold */
     double block[BLOCKS];           /* the parts of this of blocks of time */
+    double fitted[BLOCKS];          /* the same of what the fit of all rows leaves */
     double *left, *own;             /* by the fit of all: what is left of each row, and the law's own force */
     double covariance[UNKNOWNS + COLUMNS][UNKNOWNS + COLUMNS];      /* of the fit of all */
 } driven_result;
@@ -86,20 +90,18 @@ ss_status ss_driven_fit(driven_result *out, const driven_law *law, const driven 
 /* What a fit makes of each row. */
 ss_status ss_driven_predict(double out[], const driven_law *law, const driven *d, const driven_fit *fit);
 
-/* Upper bounds of the mean square of the noise, and what is left beside it. */
+/* What is left of a law, beside noise. */
 typedef struct driven_noise {
-    double rough, unshared, unexplained;    /* by its roughness, by repetition, by a free law */
-    double steady;                  /* what is left, but for a wandering size of the law's force */
-    double better;                  /* errors by which the free law predicts more than the law */
+    double most, rough;             /* upper bounds of the mean square of the noise; rough: if the law is right */
+    double better;                  /* errors by which a free law predicts more than the law */
     double repeat;                  /* correlation of what is left with that of the nearest other passage */
 } driven_noise;
 /* driven_noise.c: for each row the row of another passage that is nearest to it, or the row itself if it is left
  * out; SS_ENOMEM. */
 ss_status ss_driven_partners(const driven *d, size_t *partner);
-/* What a free law leaves of blocks of time to which it was not fitted, and what the law itself leaves, whose own force
- * this is; own NULL: a spring of any shape and a damper instead of a free law.  SS_ENOMEM. */
-ss_status ss_driven_free_law(double free_law[BLOCKS], double law[BLOCKS], const driven *d, const double *left,
-                             const double *own);
+/* What a free law leaves, of blocks of time to which it was not fitted, of what a law leaves whose own force this
+ * is; own NULL: a spring of any shape and a damper instead of a free law.  SS_ENOMEM. */
+ss_status ss_driven_free_law(double free_law[BLOCKS], const driven *d, const double *left, const double *own);
 /* The noise by what a law leaves; rows: the record d of `turns` turns, thinned, to which the law was fitted. */
 ss_status ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner,
                           const driven *d, const double *predicted, size_t turns);

@@ -43,6 +43,17 @@ typedef struct problem {
     driven_fit now;                 /* evaluated last */
 } problem;
 
+static int
+has_column(const driven_law *law, const driven *d, int k)
+{
+    switch (k) {
+    case SINE: case COSINE: case BY_SIDE: return d->angle != 0;
+    case UNEVEN: return law->is_even;
+    case PLACE: return law->parts > 0;
+    default: return k >= VISCOUS || k < (int)law->parts;
+    }
+}
+
 static ss_status
 problem_new(problem *p, const driven_law *law, const driven *d, const char *fold)
 {
@@ -51,7 +62,7 @@ problem_new(problem *p, const driven_law *law, const driven *d, const char *fold
     if (p->room == NULL)
         return SS_ENOMEM;
     for (int k = 0; k < COLUMNS; k++)
-        if (k < (int)law->parts || (k >= VISCOUS && (k < SINE || k > BY_SIDE || d->angle != 0)))
+        if (has_column(law, d, k))
             p->column[k] = p->room + (size_t)k * d->n;
     p->x = p->column[TILT];
     p->v = p->column[VISCOUS];
@@ -105,6 +116,7 @@ fill_columns(problem *p, const double u[UNKNOWNS])
 {
     static const double ones[DRIVEN_PARTS] = { 1, 1, 1 };
     const driven *d = p->d;
+    const int has_sides = (int)(p->law->free >> GAP & 1);
     double memory = 0, part[DRIVEN_PARTS] = { 0 };
     ss_scene scene = ss_scene_defaults;
     double number[LAW_NUMBERS];
@@ -124,9 +136,13 @@ fill_columns(problem *p, const double u[UNKNOWNS])
             q.h -= h;
         }
         scene.model->drive(&scene, &memory, &q, part);
-        p->column[PART][i] = p->law->parts > 1 ? part[0] : part[0] + part[1];
+        const double own = p->law->parts > 1 && !has_sides ? part[0] : part[0] + part[1];
+        p->column[PART][i] = has_sides ? part[0] : own;
         for (size_t k = 1; k < p->law->parts; k++)
             p->column[PART + k][i] = part[k];
+        if (p->column[UNEVEN] != NULL)
+            p->column[UNEVEN][i] = fabs(own);
+        p->column[PLACE][i] = own * p->x[i];
     }
     for (int k = 0; k < OFFSET; k++)
         if (p->column[k] != NULL)
@@ -472,6 +488,8 @@ ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const 
         for (size_t k = PART; k < law->parts; k++)
             for (size_t i = 0; i < d->n; i++)
                 out->own[i] += out->fit[ALL].c[k] * p.column[k][i];
+        for (size_t i = 0; i < d->n; i++)
+            out->fitted[i * BLOCKS / d->n] += d->used[i] * out->left[i] * out->left[i] / rows;
         find_covariance(&p, out, slopes);
     }
     free(p.room);

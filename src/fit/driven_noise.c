@@ -2,9 +2,9 @@
  *
  * * The noise is unknown, but at most the least of three estimates.  Motions that repeat: what differs between
  * rows of two passages through nearly the same place, by position, speed and the last two turns; a law's memory is
- * no longer than that.  Laws that are not in the list: what a free law leaves of blocks of time to which it was not
- * fitted.  Other motions: noise of short memory is as rough as its power says, and what a law fails to explain is
- * smoother. */
+ * no longer than that.  Laws that are not in the list: what a free law leaves of blocks of time to which it was
+ * not fitted.  Other motions: noise of short memory is as rough as its power says, and what a law fails to explain
+ * is smoother, but friction that wanders from cycle to cycle, which stands beside it. */
 #include "fit/driven.h"
 #include "fit/verdict.h"
 #include "fit/wander.h"
@@ -66,7 +66,7 @@ hat(double x, double k)
 /* The terms of a free law: free functions of the place, speed, its square, and acceleration, as a spring of any
  * shape and a damper have them; sliders of many lengths; free functions of the speed, alone and times the law's
  * own force, and of this force in either direction; and its rate. */
-enum { PLACES = 8, SPRING = PLACES + 3, SLIDERS = 8, SPEEDS = 6, FORCES = 8 };
+enum { PLACES = 8, SPRING = PLACES + 3, SLIDERS = 16, SPEEDS = 6, FORCES = 8 };
 enum { TERMS = SPRING + SLIDERS + 2 * SPEEDS + 2 * FORCES + 1 };
 
 static void
@@ -89,7 +89,7 @@ fill_terms(double (*term)[TERMS], const driven *d, const double *own)
         *at++ = d->v[i];
         *at++ = d->v[i] * fabs(d->v[i]);
         *at++ = d->a[i];
-        for (int k = 0; k < SLIDERS; k++, length *= 2)
+        for (int k = 0; k < SLIDERS; k++, length *= M_SQRT2)
             *at++ = slider[k] = fmax(-1, fmin(slider[k] + (i > 0 ? d->x[i] - d->x[i - 1] : 0) / length, 1));
         for (int k = 0; k < SPEEDS; k++) {
             *at++ = copysign(hat(speed, k), d->v[i]);
@@ -114,8 +114,7 @@ add_products(double sum[TERMS + 1][TERMS], double (*term)[TERMS], int terms, con
 }
 
 ss_status
-ss_driven_free_law(double free_law[BLOCKS], double law[BLOCKS], const driven *d, const double *left,
-                   const double *own)
+ss_driven_free_law(double free_law[BLOCKS], const driven *d, const double *left, const double *own)
 {
     const int terms = own != NULL ? TERMS : SPRING;
     double (*term)[TERMS] = malloc(d->n * sizeof *term), sum[TERMS + 1][TERMS] = { { 0 } }, count = 0;
@@ -136,13 +135,12 @@ ss_driven_free_law(double free_law[BLOCKS], double law[BLOCKS], const driven *d,
         gsl_vector_view C = gsl_vector_view_array(others[terms], (size_t)terms);
         gsl_linalg_cholesky_decomp1(&A.matrix);
         gsl_linalg_cholesky_svx(&A.matrix, &C.vector);
-        free_law[b] = law[b] = 0;
+        free_law[b] = 0;
         for (size_t i = from; i < end; i++) {
             double rest = left[i];
             for (int k = 0; k < terms; k++)
                 rest -= others[terms][k] * term[i][k];
             free_law[b] += d->used[i] * rest * rest / count;
-            law[b] += d->used[i] * left[i] * left[i] / count;
         }
     }
     free(term);
@@ -190,9 +188,10 @@ find_repeat(const driven *d, const size_t *partner, const double *left, double *
     return squares > 0 ? products / squares : NAN;
 }
 
-/* The mean square that is left if the law's own force has another size in each two cycles, as friction wanders. */
+/* By how much less is left, in the mean square, if the law's own force has another size in each two cycles, as
+ * friction wanders. */
 static double
-find_steady(const driven *d, const double *left, const double *own, size_t turns)
+find_wander(const driven *d, const double *left, const double *own, size_t turns)
 {
     const size_t parts = turns / 4 + 1;
     double sum = 0, n = 0;
@@ -202,10 +201,9 @@ find_steady(const driven *d, const double *left, const double *own, size_t turns
             if (d->used[i]) {
                 product += left[i] * own[i];
                 squares += own[i] * own[i];
-                sum += left[i] * left[i];
                 n++;
             }
-        sum -= product * product / squares;
+        sum += product * product / squares;
     }
     return sum / n;
 }
@@ -215,14 +213,14 @@ ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, c
                 const driven *d, const double *predicted, size_t turns)
 {
     double room[DRIVEN_ROWS];
-    double free_law[BLOCKS], law[BLOCKS];
-    ss_status st = ss_driven_free_law(free_law, law, rows, r->left, r->own);
+    double free_law[BLOCKS], unshared;
+    ss_status st = ss_driven_free_law(free_law, rows, r->left, r->own);
     if (st != SS_OK)
         return st;
-    out->unexplained = ss_verdict_sum(free_law);
-    out->better = (ss_verdict_sum(law) - out->unexplained) / ss_verdict_error(law, free_law);
-    out->repeat = find_repeat(rows, partner, r->left, &out->unshared);
-    out->steady = find_steady(rows, r->left, r->own, turns);
-    out->rough = find_rough(d, predicted, turns, room);
+    const double unexplained = ss_verdict_sum(free_law);
+    out->better = (r->fit[ALL].loss - unexplained) / ss_verdict_error(r->fitted, free_law);
+    out->repeat = find_repeat(rows, partner, r->left, &unshared);
+    out->most = fmin(unexplained, unshared);
+    out->rough = find_rough(d, predicted, turns, room) + find_wander(rows, r->left, r->own, turns);
     return SS_OK;
 }

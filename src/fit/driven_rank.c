@@ -109,8 +109,9 @@ find_doubt(char *why, size_t room, const driven *d, size_t turns)
 enum { AT = UNKNOWNS + COLUMNS, BESIDE = COLUMNS - VISCOUS, LATE = LAW_NUMBERS + BESIDE, NUMBERS };
 /* What stands beside each law, and the delay. */
 static const struct { const char *name, *unit; } beside[] = {
-    { "viscous_friction", "N s/m" }, { "tilt", "N/m" }, { "inertia", "N s^2/m" }, { "sine", "N" }, { "cosine", "N" },
-    { "viscous_difference", "N s/m" }, { "offset", "N" }, { "drift", "N/s" }, { "delay", "s" } };
+    { "viscous_friction", "N s/m" }, { "tilt", "N/m" }, { "inertia", "N s^2/m" }, { "sine", "N" },
+    { "cosine", "N" }, { "viscous_difference", "N s/m" }, { "unevenness", "1" }, { "unevenness_by_place", "1/m" },
+    { "offset", "N" }, { "drift", "N/s" }, { "delay", "s" } };
 
 /* The unit in which laws are fitted over that of the recording, of a number in this unit of scenes. */
 static double
@@ -145,6 +146,8 @@ list_numbers(double number[NUMBERS], const driven_law *law, const driven *d, con
 {
     law->numbers(number, at, at + UNKNOWNS);
     memcpy(number + LAW_NUMBERS, at + UNKNOWNS + VISCOUS, BESIDE * sizeof *number);
+    for (int k = UNEVEN; k <= PLACE; k++)
+        number[LAW_NUMBERS + k - VISCOUS] /= at[UNKNOWNS + PART] > 0 ? at[UNKNOWNS + PART] : INFINITY;
     number[LATE] = at[DELAY] * d->step;
 }
 
@@ -247,14 +250,6 @@ work_of(const driven_result *r, const driven *d)
     return all > 0 ? taken / all : 1;
 }
 
-/* By how many errors is a law's gap above 0?  0: it is at the end of its range; infinite: the law has none. */
-static double
-shown_gap(const driven_result *r)
-{
-    const double variance = r->covariance[GAP][GAP];        /* of its logarithm */
-    return !(r->law->free >> GAP & 1) ? INFINITY : variance > 0 ? 1 / sqrt(variance) : 0;
-}
-
 /* Rank by a record that can show a law. */
 static ss_status
 judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven *coarse, const char *fold,
@@ -263,7 +258,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
     driven_result *r = calloc(LAWS_MOST, sizeof *r);
     candidate c[LAWS_MOST];
     size_t *partner = malloc(rows->n * sizeof *partner), n = 0, best = 0;
-    double spring[BLOCKS], linear[BLOCKS], line[2];
+    double spring[BLOCKS], line[2];
     const double power = ss_driven_line(line, rows, rows->f);
     out->predicted = malloc(signal->n * sizeof *out->predicted);
     ss_status st = r != NULL && partner != NULL && out->predicted != NULL
@@ -284,10 +279,8 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
             break;
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
             .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power,
-            .better = noise.better,
-            .work = work_of(&r[n], rows), .gap = shown_gap(&r[n]),
-            .noise = fmin(noise.unshared, noise.unexplained) / power,
-            .steady = noise.steady / power, .rough = noise.rough / power };
+            .noise = noise.most / power, .rough = noise.rough / power, .better = noise.better,
+            .work = work_of(&r[n], rows) };
         out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - c[n].left, .repeat = noise.repeat,
             .gain = 1 - r[n].loss / r[0].loss,
             .explained_error = ss_verdict_error(r[n].block, NULL) / power };
@@ -295,13 +288,13 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
     }
     out->n = n;
     if (st == SS_OK)
-        st = ss_driven_free_law(spring, linear, rows, r[0].left, NULL);
+        st = ss_driven_free_law(spring, rows, r[0].left, NULL);
     if (st == SS_OK) {
         c[n] = (candidate){ .left = ss_verdict_sum(spring) / power, .block = spring };
         out->verdict = ss_verdict_find(out->answer, sizeof out->answer, c, n, power, &best);
         for (size_t i = 0; i < n; i++) {
             out->row[i].tied = c[i].tied;
-            out->row[i].residual = c[i].fitted / ss_verdict_noise(&c[best]);
+            out->row[i].residual = c[i].excess;
         }
         st = ss_driven_predict(out->predicted, r[best].law, d, &r[best].fit[ALL]);
     }

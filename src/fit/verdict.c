@@ -2,12 +2,13 @@
  *
  * * Scenes are fitted to all samples: one explains them if it leaves no more than noise.
  *
- * * A law is judged by what it leaves where it was not fitted.  Of those as good as the best and not refuted the
- * simplest is named; if another does not contain it, nobody can tell.
+ * * A law is judged by what it leaves where it was not fitted.  Part of that is noise, one number for all laws; the
+ * rest is the law's own error.  A real contact is no law, so the best may have such an error; but by a law that is
+ * wrong by so much nobody can tell another that is hardly worse.  Of the laws as good as the best the simplest is
+ * named, if all others contain it.
  *
- * * A law is refuted if a free law predicts significantly more: then a law is missing.  A real contact is no law;
- * its friction wanders, its rig has play.  Of this a free law predicts no more; but a part of what is left must be
- * noise, or the change from cycle to cycle. */
+ * * The best law is none if most of what it leaves is no noise, or if a free law predicts significantly more: then a
+ * law is missing. */
 #include "fit/verdict.h"
 
 #include <math.h>
@@ -17,6 +18,7 @@
 #include "io/record.h"
 
 #define AS_GOOD 0.03                /* of the least loss: laws that differ by less are as good */
+#define ALIKE 0.5                   /* of the best law's error: laws whose errors differ by less are as good */
 #define EXPLAINED 0.8               /* of the power, by a law that is named */
 #define BEYOND_NOISE 4              /* times the noise is left: three quarters are an error of the law, */
 #define MISSING 2                   /* or half, if a free law predicts significantly more */
@@ -84,19 +86,6 @@ ss_verdict_append(char *text, size_t room, const char *word)
     snprintf(text + n, room - n, "%s%s", n > 0 ? ", " : "", word);
 }
 
-double
-ss_verdict_noise(const candidate *c)
-{
-    return fmax(QUIET, fmin(c->noise, c->rough));
-}
-
-/* How many times the noise it leaves. */
-static double
-excess(const candidate *c)
-{
-    return fmax(c->fitted / fmax(QUIET, c->noise), c->steady / fmax(QUIET, c->rough));
-}
-
 /* How much more a candidate leaves than the best, in errors of the difference. */
 static double
 errors_behind(const candidate *c, const candidate *best, double power)
@@ -105,55 +94,53 @@ errors_behind(const candidate *c, const candidate *best, double power)
     return (c->left - best->left) / fmax(fmin(error, best->left / 2), RESIDUE_QUIET / 2);
 }
 
-/* Does it leave more than noise and what a real contact does beside its law, is a law missing, is it a spring, or
- * has it no gap? */
-static int
-is_refuted(const candidate *c)
+/* Why the best law is none, or NULL. */
+static const char *
+find_fault(const candidate c[], size_t n, const candidate *best)
 {
-    return c->work < TAKEN || c->gap <= SIGNIFICANT
-        || excess(c) > (c->better > SIGNIFICANT ? MISSING : BEYOND_NOISE);
+    return c[0].tied ? "no law explains more than the null"
+        : c[n].tied ? "no law explains more than a spring of any shape and a damper"
+        : 1 - best->left < EXPLAINED ? "too little is explained"
+        : best->work < TAKEN ? "friction is hardly reached"
+        : best->excess > BEYOND_NOISE ? "more than noise is left"
+        : best->excess > MISSING && best->better > SIGNIFICANT ? "a free law predicts more" : NULL;
 }
 
 ss_verdict
 ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power, size_t *best)
 {
-    char names[128] = "", number[SS_NUMBER_MAX], times[SS_NUMBER_MAX];
+    char names[128] = "", others[128] = "", number[SS_NUMBER_MAX], times[SS_NUMBER_MAX];
+    double noise = INFINITY;
     size_t count = 0, simplest = 0;
     unsigned fit = 0;
     *best = 0;
-    for (size_t i = 1; i < n; i++)
-        *best = c[i].left < c[*best].left ? i : *best;
+    for (size_t i = 0; i < n; i++) {
+        *best = i == 1 || c[i].left < c[*best].left ? i : *best;
+        noise = fmin(noise, c[i].noise);
+    }
     const candidate *most = &c[*best];
+    noise = fmax(fmin(noise, most->rough), QUIET);
+    const double own = fmax(AS_GOOD * most->left, ALIKE * (most->left - noise));
     for (size_t i = 0; i <= n; i++) {
-        c[i].tied = c[i].left - most->left <= AS_GOOD * most->left || errors_behind(&c[i], most, power) <= 2;
-        fit |= c[i].tied && !is_refuted(&c[i]) ? c[i].law : 0;
+        c[i].tied = c[i].left - most->left <= own || errors_behind(&c[i], most, power) <= 2;
+        c[i].excess = c[i].fitted / noise;
+        fit |= c[i].tied ? c[i].law : 0;
     }
     for (size_t i = 0; i < n; i++)
         if ((c[i].law & fit) != 0 && (c[i].contains & fit) == 0) {
-            simplest = i;
-            count++;
+            simplest = count++ == 0 ? i : simplest;
             ss_verdict_append(names, sizeof names, c[i].name);
-        }
+        } else if ((c[i].law & fit) != 0)
+            ss_verdict_append(others, sizeof others, c[i].name);
     ss_number_fixed(number, 1 - most->left, 4);
     if (!(most->left < 1)) {
         snprintf(answer, room, "none of these: no law explains any of the force that was held out");
         return SS_NONE_FITS;
     }
-    if (c[0].tied || c[n].tied || 1 - most->left < EXPLAINED || count == 0) {
-        const double beyond = excess(most);
-        const int is_noisy = beyond > BEYOND_NOISE;
-        int length = snprintf(answer, room, "none of these: %s%s explains %s of the force that was held out",
-                              c[0].tied ? "no law explains more than the null; "
-                              : c[n].tied ? "no law explains more than a spring of any shape and a damper; " : "",
-                              most->name, number);
-        ss_number_rounded(times, is_noisy ? beyond : most->better, 3);
-        if (count == 0 && most->work < TAKEN)
-            snprintf(answer + length, room - (size_t)length, ", but its friction is hardly reached");
-        else if (count == 0 && most->gap <= SIGNIFICANT)
-            snprintf(answer + length, room - (size_t)length, ", but its gap is not shown to be above 0");
-        else if (count == 0)
-            snprintf(answer + length, room - (size_t)length, ", but %s %s %s", is_noisy ? "leaves"
-                     : "a free law predicts more, by", times, is_noisy ? "times the noise" : "errors");
+    const char *fault = find_fault(c, n, most);
+    if (fault != NULL) {
+        snprintf(answer, room, "none of these: %s; %s explains %s of the force that was held out, and leaves %s "
+                 "times the noise", fault, most->name, number, ss_number_rounded(times, most->excess, 4));
         return SS_NONE_FITS;
     }
     if (count > 1) {
@@ -161,7 +148,7 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         return SS_UNDECIDED;
     }
     *best = simplest;
-    snprintf(answer, room, "%s explains %s of the force that was held out", c[simplest].name,
-             ss_number_fixed(number, 1 - c[simplest].left, 4));
+    snprintf(answer, room, "%s explains %s of the force that was held out%s%s", c[simplest].name,
+             ss_number_fixed(number, 1 - c[simplest].left, 4), others[0] != '\0' ? ", no less than " : "", others);
     return SS_NAMED;
 }

@@ -35,19 +35,17 @@ typedef struct candidate {
     unsigned law, contains;         /* a bit of its own, and those of the laws that are limits of it */
     double left;                    /* where it was not fitted */
     const double *block;            /* the parts of this of each block, in units of the power */
-    double fitted, noise;           /* left where it was fitted, and a bound of the noise by that */
-    double steady, rough;           /* the same, if its friction may wander, and by what is rough in it */
+    double fitted;                  /* left where it was fitted */
+    double noise, rough;            /* bounds of the noise by that; rough: if it is the best law */
     double better;                  /* errors by which a free law predicts more */
     double work;                    /* the part of the work that its force takes and does not give back */
-    double gap;                     /* errors by which it is above 0: else the two sides alone explain more */
-    int tied;                       /* set: it is as good as the best */
+    int tied;                       /* set: it is as good as the best, */
+    double excess;                  /* and how many times the noise it leaves */
 } candidate;
 
 /* Find the answer; the first of the n candidates, simplest first, is the null, and another null, a spring of any
  * shape, stands behind them.  *best becomes the law that is named, or that explains most. */
 ss_verdict ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power, size_t *best);
-/* The noise beside a candidate, of which no less is known. */
-double ss_verdict_noise(const candidate *c);
 double ss_verdict_sum(const double a[BLOCKS]);
 /* The standard error of a sum over blocks, or of the difference of two; b may be NULL. */
 double ss_verdict_error(const double a[BLOCKS], const double b[BLOCKS]);

@@ -7,6 +7,9 @@
  * added to the force, 40 or 20 dB below it.  A second run leaves out the law and those that contain it: another is
  * then "close" if it is named, and its force differs from the true one by less than the noise does.
  *
+ * * Of a force of no law (IWAN, PREISACH, POWER) a law that is named counts as simpler if its force differs from the
+ * true one by less than the noise does, else as wrong.
+ *
  * * PART, as .05: the rig is no law.  By a part of up to so much the friction wanders (with a memory of a cycle),
  * changes with the place, and differs between directions; the offset drifts; the force is late by up to half a row. */
 #include <math.h>
@@ -17,17 +20,20 @@
 #include "../uniform.h"
 
 enum { ROWS = 4000, FINE = 40, LAWS = 9, RATE_AND_STATE = 8 };
+/* What is none of the laws: sliders of lengths of a power law (Iwan) or log-normal (Preisach), and z' = v |1 - z
+ * sgn v|^n (Dahl with another exponent than 1). */
+enum { IWAN = LAWS, PREISACH, POWER, KINDS, SLIDERS = 100 };
 
-static const char *const names[LAWS] = { "coulomb", "stribeck", "compliant", "dahl", "lugre", "compliant-gap",
-                                         "bouc-wen", "bouc-wen-gap", "rate-and-state" };
+static const char *const names[KINDS] = { "coulomb", "stribeck", "compliant", "dahl", "lugre", "compliant-gap",
+                                         "bouc-wen", "bouc-wen-gap", "rate-and-state", "iwan", "preisach", "dahl-power" };
 /* A law and those that contain it. */
-static const char *const within[LAWS][10] = {
+static const char *const within[KINDS][10] = {
     { "coulomb", "stribeck", "compliant", "dahl", "lugre", "compliant-gap", "bouc-wen", "bouc-wen-gap",
       "rate-and-state", NULL },
     { "stribeck", "lugre", NULL }, { "compliant", "compliant-gap", "bouc-wen", "bouc-wen-gap", NULL },
     { "dahl", "lugre", "bouc-wen", "bouc-wen-gap", NULL }, { "lugre", NULL },
     { "compliant-gap", "bouc-wen-gap", NULL }, { "bouc-wen", "bouc-wen-gap", NULL }, { "bouc-wen-gap", NULL },
-    { "rate-and-state", NULL } };
+    { "rate-and-state", NULL }, { NULL }, { NULL }, { NULL } };
 
 /* What a draw is made of; lengths in units of the rms motion, speeds of the rms speed. */
 typedef struct truth {
@@ -35,6 +41,7 @@ typedef struct truth {
     double f, d, other, gap, n, p, rise, speed, shape, damping;
     double viscous, tilt, offset, inertia;
     double a, b;                                /* of rate and state; its distance is d */
+    double length[SLIDERS], sum;                /* of sliders */
     double wander, place, side, drift, late;    /* what the law does not say */
 } truth;
 
@@ -93,6 +100,10 @@ rate_of(const truth *r, double z, double v)
 {
     if (r->law == RATE_AND_STATE)
         return 1 - fabs(v) * z / r->d;
+    if (r->law == POWER) {
+        double to = 1 - z / r->d * (v > 0 ? 1 : -1);
+        return v * pow(fabs(to), r->n) * (to > 0 ? 1 : -1);
+    }
     double way = v > 0 ? 1 : -1, g = 1 + (r->rise - 1) * exp(-v * v / (r->speed * r->speed));
     if (r->law == 3 || r->law == 4)
         return v - fabs(v) * z / (r->d * (r->law == 4 ? g : 1));
@@ -132,6 +143,7 @@ simulate(ss_signal *s, double clean[ROWS], const truth *r, int kind, double db, 
     }
     sx = sqrt(sx), sv = sqrt(sv), sa = sqrt(sa);
     s->head->rate = ROWS / cycles * sx / sv;        /* so that the rms speed is 1 */
+    double slid[SLIDERS] = { 0 };
     for (int i = 0; i < ROWS; i++) {
         double rate = 0;
         for (int k = -FINE / 2; k < FINE / 2 && r->law > 1; k++) {    /* to the time of the row */
@@ -141,6 +153,14 @@ simulate(ss_signal *s, double clean[ROWS], const truth *r, int kind, double db, 
             double step = h * sv / sx;
             if (r->law == 2 || r->law == 5) {
                 z = clip(z + step * v, -r->gap - r->d * (r->law == 5 ? r->other : 1), r->gap + r->d);
+                continue;
+            }
+            if (r->law == IWAN || r->law == PREISACH) {
+                z = 0;
+                for (int j = 0; j < SLIDERS; j++) {
+                    slid[j] = clip(slid[j] + step * v, -r->length[j], r->length[j]);
+                    z += slid[j] / r->sum * r->d;
+                }
                 continue;
             }
             rate = rate_of(r, z + step / 2 * rate_of(r, z, v), v);
@@ -179,6 +199,12 @@ draw(int law, uint64_t *seed)
     if (law == RATE_AND_STATE) {
         r.a = scaled(seed, .01, .06);
         r.b = r.a * between(seed, .3, 1.6);
+    }
+    if (law == POWER)
+        r.n = uniform(seed) < .5 ? between(seed, .3, .7) : between(seed, 1.5, 3);
+    for (int i = 0; i < SLIDERS && (law == IWAN || law == PREISACH); i++) {
+        r.length[i] = 2 * r.d * (law == IWAN ? pow((i + .5) / SLIDERS, r.p * 2) : exp(.7 * gauss(seed)));
+        r.sum += r.length[i];
     }
     r.gap = law == 5 || law == 7 ? scaled(seed, .1, .7) : 0;
     return r;
@@ -231,7 +257,7 @@ is_close(const ss_motion_ranking *k, const ss_signal *s, const double clean[])
 }
 
 static void
-count(counts *c, const truth *r, const ss_motion_ranking *k)
+count(counts *c, const truth *r, const ss_motion_ranking *k, const ss_signal *s, const double clean[])
 {
     const int law = r->law;
     int is_limit = 0;
@@ -241,6 +267,8 @@ count(counts *c, const truth *r, const ss_motion_ranking *k)
         c->untold++;
     else if (k->verdict != SS_NAMED)
         c->none++;
+    else if (law >= LAWS)
+        *(is_close(k, s, clean) ? &c->simpler : &c->wrong) += 1;
     else if (strcmp(k->row[0].law, names[law]) != 0)
         *(is_limit ? &c->simpler : &c->wrong) += 1;
     else {
@@ -277,7 +305,7 @@ main(int argc, char *argv[])
         return 1;
     puts("dB law right simpler cannot none wrong noticed close within-2-errors of");
     for (int db = 40; db >= 20; db -= 20)
-        for (int law = 0; law < LAWS; law++) {
+        for (int law = 0; law < KINDS; law++) {
             counts c = { 0 };
             for (int i = 0; i < draws && (only == NULL || strcmp(only, names[law]) == 0); i++) {
                 truth r = draw(law, &seed);
@@ -292,18 +320,18 @@ main(int argc, char *argv[])
                 if (ss_motion_ranking_new(&with, s, 0, 1, &opts, &err) != SS_OK)
                     return 1;
                 opts.without = within[law];
-                if (ss_motion_ranking_new(&without, s, 0, 1, &opts, &err) != SS_OK)
+                if (law < LAWS && ss_motion_ranking_new(&without, s, 0, 1, &opts, &err) != SS_OK)
                     return 1;
-                count(&c, &r, with);
-                c.noticed += without->verdict != SS_NAMED;
-                c.close += without->verdict == SS_NAMED && is_close(without, s, clean);
+                count(&c, &r, with, s, clean);
+                c.noticed += law < LAWS && without->verdict != SS_NAMED;
+                c.close += law < LAWS && without->verdict == SS_NAMED && is_close(without, s, clean);
                 ss_motion_ranking_free(with);
                 ss_motion_ranking_free(without);
             }
             if (c.right + c.simpler + c.untold + c.none + c.wrong > 0)
                 printf("%d %s %d %d %d %d %d %d %d %d %d\n", db, names[law], c.right, c.simpler, c.untold, c.none,
                        c.wrong, c.noticed, c.close, c.near, c.numbers);
-            wrong += c.wrong;
+            wrong += law < LAWS ? c.wrong : 0;
         }
     ss_signal_free(s);
     ss_header_free(head);
