@@ -180,7 +180,7 @@ find(search *s, double *x, size_t column, ss_error *err)
     if (s->part->learnt != NULL)
         *s->part->learnt = (stream_lesson){
             .label = s->is_cleaned ? 0 : s->label, .rms = s->out->noise / sqrt(s->rate), .largest = s->largest,
-            .highest = highest, .length = (double)s->n, .cycles = s->cycles,
+            .highest = highest, .length = (double)s->n, .slow = s->slow, .cycles = s->cycles,
             .repetition = s->out->number[SS_REPETITION_FREQUENCY], .noises = noises };
     for (size_t i = 0; i < s->n && s->is_cleaned; i++)
         x[i] = s->x[i] * s->largest;

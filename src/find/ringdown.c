@@ -211,9 +211,9 @@ ss_ringdown_fit(ringdown *r)
     ss_status st = ss_varpro_init(&k.fit, r->x, room);
     if (other.window == NULL || other.each == NULL)
         st = SS_ENOMEM;
-    if (st == SS_OK)
+    if (st == SS_OK && r->is != SLOW_FORCED)
         st = fit_all(&k, r, 0);
-    if (st == SS_OK && r->forcing > 0) {
+    if (st == SS_OK && r->forcing > 0 && r->is != SLOW_LINE) {
         st = fit_all(&k, &other, r->forcing);
         if (!isnan(other.all[0].error) && !(other.all[0].error >= r->all[0].error)) {
             memcpy(r->window, other.window, n * sizeof *r->window);

@@ -6,6 +6,9 @@
 #include <stickslip/features.h>
 #include "find/window.h"
 
+/* What is beside the oscillation in a window: a line, or a constant and a sinusoid of the forcing. */
+typedef enum slow_part { SLOW_EITHER, SLOW_LINE, SLOW_FORCED } slow_part;
+
 typedef struct ringdown {
     /* given: */
     const double *x;            /* n samples */
@@ -16,6 +19,7 @@ typedef struct ringdown {
     size_t n_bars;
     double w;                   /* per sample: where the search starts */
     double forcing;             /* per sample; 0: it is not known */
+    slow_part is;               /* the better one if SLOW_EITHER; SLOW_FORCED needs the forcing */
     double white;               /* the rms of the white noise: what is left beyond it adds to the errors */
     /* found, with room for n_anchors: */
     ss_window *window;          /* of each anchor; empty, end = first: two periods could not be fitted */

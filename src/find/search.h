@@ -9,6 +9,7 @@
 #include "find/judgement.h"
 #include "find/levels.h"
 #include "find/quantity.h"
+#include "find/ringdown.h"
 #include "find/scale_rows.h"
 #include "find/window.h"
 
@@ -36,6 +37,7 @@ typedef struct search {
     const struct stream_part *part;     /* all 0: the signal is no part */
     search_places at;           /* where the map and the rows are read */
     double label;               /* of the oscillation that recurs [Hz]; 0: none is found */
+    slow_part slow;             /* beside it */
     ss_cycles cycles;
     int is_cleaned;             /* x has lost a steady hum: it is not the column any more */
     int is_second;              /* it lost that in a first search */
@@ -86,6 +88,7 @@ typedef struct stream_lesson {
     double largest;             /* of the samples */
     double highest;             /* label of a scale [Hz] */
     double length;              /* [samples] */
+    slow_part slow;             /* beside the oscillation */
     ss_cycles cycles;
     ss_number repetition;
     row_noises noises;
