@@ -20,7 +20,6 @@
 static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement = -1, .force = -1,
                                            .threads = 1 };
 
-#define SPAN 80.0               /* [dB] of the paper's contours */
 #define SLIGHT 0.5              /* [dB] the least prominence of a maximum that shows an oscillation */
 
 /* Parts of the work that are done after each step, roughly. */

@@ -219,23 +219,26 @@ ss_ringing_find(search *s, double prominence)
     return st;
 }
 
-/* The level of the row of the oscillation is above SIGMAS of the noise there, or a wavelet's reach away. */
+/* The row of the oscillation is above SIGMAS of the noise there, and above what contours show, or a wavelet's reach
+ * away. */
 ss_status
 ss_ringing_places(search *s)
 {
     const size_t index = scale_nearest(s, s->part->known->label);
     const ss_scale *scale = &s->map->scale[index];
     const double reach = ROW_REACH * scale->a;
-    const double least = SIGMAS * s->part->known->rms / (s->opts->norm == SS_NORM_L1 ? sqrt(scale->a) : 1);
+    double least = SIGMAS * s->part->known->rms / (s->opts->norm == SS_NORM_L1 ? sqrt(scale->a) : 1);
     double *level = malloc((scale->n + 1) * sizeof *level);
     ss_span *span = s->at.span = malloc((scale->n + 1) * sizeof *span);
     ss_status st = level != NULL && span != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
         st = ss_map_read(s->map, &(ss_map_part){ index, 0, scale->n, NULL, level }, 1, NULL);
+    for (size_t k = 0; st == SS_OK && k < scale->n; k++)
+        least = fmax(least, level[k] * pow(10, -SPAN / 20));
     for (size_t k = 0; st == SS_OK && k < scale->n; k++) {
-        double from = fmax(0, ss_scale_b(scale, k) - reach), to = ss_scale_b(scale, k) + reach;
         if (!(level[k] > least))
             continue;
+        double from = fmax(0, ss_scale_b(scale, k) - reach), to = ss_scale_b(scale, k) + reach;
         if (s->at.n == 0 || from > span[s->at.n - 1].to)
             span[s->at.n++].from = from;
         span[s->at.n - 1].to = to;

@@ -13,6 +13,7 @@
 #include "find/scale_rows.h"
 #include "find/window.h"
 
+#define SPAN 80.0               /* [dB] of the paper's contours */
 #define STRONG 20.0             /* [dB] range of the spikes that begin or end a transition */
 
 static const ss_value unknown = { NAN, NAN };
