@@ -117,6 +117,7 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
 typedef struct told {
     double y[TRACKS], rate[TRACKS], lag[2];
     double slip[TRACKS];        /* what the law does not know of the rates */
+    double local[TRACKS];       /* what the rates are more in the middle than in the whole block */
 } told;
 
 /* The same of two modes that beat: of s = u[S] and w = u[W], and of u[C] and u[SHAPE] beside it. */
@@ -130,7 +131,7 @@ tell_two(told *out, const trial *of, const double u[UNKNOWNS])
         double complex sum = a + b, rate = (first * a + second * b) / sum;
         double turn = u[TURN] + carg(sum);
         out[i] = (told){ { u[LN_A] + log(cabs(sum)), turn + 2 * M_PI * round((p->y[PHASE] - turn) / (2 * M_PI)) },
-                         { creal(rate), cimag(rate) }, { 0 }, { 0 } };
+                         { creal(rate), cimag(rate) }, { 0 }, { 0 }, { 0 } };
     }
 }
 
@@ -181,14 +182,20 @@ tell_exactly(told *out, size_t *told_blocks, const trial *of, const double u[UNK
         return SS_OK;
     double *x = malloc(end * sizeof *x);
     ss_status st = x != NULL ? ss_samples_run(&scene, order, SAMPLES_FINE, x, NULL, end, &steps) : SS_ENOMEM;
-    for (block is; st == SS_OK && done < n; done++) {
-        if (!ss_block_fit(&is, x, b[done].first - b->first, b[done].end - b->first, b[done].about,
-                          &of->source->beside, b[done].steps))
+    for (block is, near; st == SS_OK && done < n; done++) {
+        size_t first = b[done].first - b->first, last = b[done].end - b->first;
+        if (!ss_block_fit(&is, x, first, last, b[done].about, &of->source->beside, b[done].steps))
             break;
+        size_t length = last - first, two = (size_t)(4 * M_PI / is.rate[PHASE]);
+        size_t cut = length > two ? (length - two) / 2 : 0;
+        if (!ss_block_fit(&near, x, first + cut, last - cut, is.at, &(lines){ 0 }, 0))
+            near = is;
         double turn = is.y[PHASE] - of->w * (of->p[done].t - of->p->t);
         turn -= 2 * M_PI * round((turn - of->p[done].y[PHASE]) / (2 * M_PI));
         out[done] = (told){ { is.y[LEVEL] - of->ln_a, turn },
-                            { is.rate[LEVEL] / of->unit, is.rate[PHASE] / of->unit - of->w }, { 0 }, { 0 } };
+                            { is.rate[LEVEL] / of->unit, is.rate[PHASE] / of->unit - of->w }, { 0 }, { 0 },
+                            { (near.rate[LEVEL] - is.rate[LEVEL]) / of->unit,
+                              (near.rate[PHASE] - is.rate[PHASE]) / of->unit } };
         rates(of, u, out[done].y[LEVEL], rate, out[done].lag);
     }
     free(x);
@@ -496,12 +503,15 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
             ss_place_see(to, &b[i], (int)c, of->p[i].y[c] - at[i].y[c], of->p[i].rate[c] - at[i].rate[c], unit);
             ss_place_walk(to, lost);
             size_t from = i > 0 ? i - 1 : 0, next = i + 1 < n ? i + 1 : i;
-            double change = fabs(at[next].rate[c] - at[from].rate[c]) / (of->p[next].t - of->p[from].t);
-            at[i].slip[c] = f->kind == SS_JENKINS ? SLIPPING * change * M_PI / (of->w + f->u[W])
+            double half = M_PI / (of->w + f->u[W]) / (of->p[next].t - of->p[from].t);       /* of a period */
+            double change = fabs(at[next].rate[c] - at[from].rate[c]) * half;
+            at[i].slip[c] = f->kind == SS_JENKINS ? SLIPPING * change
                 : c == LEVEL ? (s - f->u[S]) * pow(s / (of->w + f->u[W]), 2) : 0;      /* the next order */
             if (f->kind == SS_JENKINS) {
                 to->stir = pow(at[i].slip[c] * t, 2);
                 to->variance[1] += pow(at[i].slip[c], 2);
+                at[i].slip[c] = hypot(at[i].slip[c], at[i].local[c] / 2);
+                at[i].lag[1] = hypot(at[i].lag[1], (at[next].lag[0] - at[from].lag[0]) * half);
             }
         }
     ss_status st = SS_OK;
@@ -549,7 +559,8 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
             f->covariance[which[j - 3] * UNKNOWNS + which[i - 3]] = error[i] * error[j] * known->p[i][j];
     for (size_t i = 0; i < n; i++) {
         const place *level = &p[i], *phase = of->tracks > 1 ? &p[n + i] : level;
-        double mean[3] = { at[i].rate[LEVEL] + level->mean[1], at[i].rate[PHASE] + phase->mean[1],
+        double mean[3] = { at[i].rate[LEVEL] + at[i].local[LEVEL] + level->mean[1],
+                           at[i].rate[PHASE] + at[i].local[PHASE] + phase->mean[1],
                            at[i].lag[0] + level->mean[2] };
         double variance[3] = { pow(level->error[1], 2) + pow(at[i].slip[LEVEL], 2),
                                pow(phase->error[1], 2) + pow(at[i].slip[PHASE], 2),
