@@ -280,6 +280,8 @@ read_loading(const search *s, const double *y, const ss_drop *drop, const fall *
         if (l.slope.value > 0 && s->opts->displacement >= 0)
             l.stiffness = times(slope_of(y, s->signal->values + (size_t)s->opts->displacement * s->n, f, rises),
                                 s->largest);
+        if (!(l.stiffness.value > SIGMAS * l.stiffness.error))          /* the displacement hardly moves */
+            l.stiffness = unknown;
         if (l.slope.value > 0 && is_between)
             l.stick = times(difference(slip->onset, f[-1].slip.end), 1 / s->rate);
     }
