@@ -22,21 +22,10 @@ const criterion_rule ss_criterion_rules[SS_CRITERIA] = {
 };
 
 double
-ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor)
+ss_rank_score(const ss_rank_row *row, ss_criterion criterion)
 {
     double d = row->distance[criterion];
-    double threshold = factor * ss_criterion_rules[criterion].threshold;
-    return isnan(d) ? 1 : fmin(d / threshold, SCORE_MOST);
-}
-
-static double
-total(const ss_rank_row *row, ss_criterion moved, double factor)
-{
-    double sum = 0;
-    for (int i = 0; i < SS_CRITERIA; i++)
-        sum += ss_criterion_rules[i].weight
-               * ss_rank_score(row, (ss_criterion)i, (ss_criterion)i == moved ? factor : 1);
-    return sum;
+    return isnan(d) ? 1 : fmin(d / ss_criterion_rules[criterion].threshold, SCORE_MOST);
 }
 
 static int
@@ -48,28 +37,13 @@ less_first(const void *a, const void *b)
     return (p->scene > q->scene) - (p->scene < q->scene);
 }
 
-int
-ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor, size_t *order)
-{
-    int changed = 0;
-    for (size_t i = 0; i < ranking->n; i++) {       /* insertion */
-        double t = total(&ranking->row[i], criterion, factor);
-        size_t k = i;
-        while (k > 0 && total(&ranking->row[order[k - 1]], criterion, factor) > t) {
-            order[k] = order[k - 1];
-            k--;
-        }
-        order[k] = i;
-    }
-    for (size_t i = 0; i < ranking->n; i++)
-        changed |= order[i] != i;
-    return changed;
-}
-
 void
 ss_ranking_sort(ss_ranking *r)
 {
-    for (size_t i = 0; i < r->n; i++)
-        r->row[i].total = total(&r->row[i], SS_BY_RESIDUAL, 1);
+    for (size_t i = 0; i < r->n; i++) {
+        r->row[i].total = 0;
+        for (int k = 0; k < SS_CRITERIA; k++)
+            r->row[i].total += ss_criterion_rules[k].weight * ss_rank_score(&r->row[i], (ss_criterion)k);
+    }
     qsort(r->row, r->n, sizeof *r->row, less_first);
 }

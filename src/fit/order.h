@@ -13,12 +13,8 @@ typedef struct criterion_rule {
 extern const criterion_rule ss_criterion_rules[SS_CRITERIA];
 #define SCORE_MOST 3
 
-/* The score of a row by one criterion, if its threshold were multiplied by factor. */
-double ss_rank_score(const ss_rank_row *row, ss_criterion criterion, double factor);
-/* Order the rows as if the threshold of one criterion were multiplied by factor: their indices go
- * to order[0 ... n-1].  Returns 1 if this order differs from the present one, else 0. */
-int ss_ranking_order(const ss_ranking *ranking, ss_criterion criterion, double factor, size_t *order);
-
+/* The score of a row by one criterion. */
+double ss_rank_score(const ss_rank_row *row, ss_criterion criterion);
 /* Find the totals of the rows, and sort these by them. */
 void ss_ranking_sort(ss_ranking *r);
 

@@ -94,28 +94,6 @@ write_unfit(FILE *out, const ss_ranking *r, const ss_ranking_text *about)
                     ss_scene_is_pulled(&r->row[i].adjusted) ? "pulled" : "forced");
 }
 
-/* Write the orders of the scenes that other thresholds, 20 % lower or higher, give. */
-static void
-write_orders(FILE *out, const ss_ranking *r, const char *const *scene, size_t *order)
-{
-    static const double factor[] = { 0.8, 1.2 };
-    char text[SS_NUMBER_MAX];
-    int changes = 0;
-    for (int i = 0; i < SS_CRITERIA; i++)
-        for (size_t k = 0; k < 2; k++) {
-            if (!ss_ranking_order(r, (ss_criterion)i, factor[k], order))
-                continue;
-            changes++;
-            fprintf(out, "# order with %s x %s:", ss_criterion_rules[i].name,
-                    ss_number_rounded(text, factor[k], 2));
-            for (size_t j = 0; j < r->n; j++)
-                fprintf(out, " %s", scene[r->row[order[j]].scene]);
-            fputc('\n', out);
-        }
-    if (changes == 0)
-        fputs("# order: the same with any threshold 20 % lower or higher\n", out);
-}
-
 /* --- rows ---------------------------------------------------------------------------------- */
 
 /* The criterion of the largest score above 0, or a hyphen. */
@@ -125,7 +103,7 @@ worst_of(const ss_rank_row *row)
     const char *name = "-";
     double most = 0;
     for (int k = 0; k < SS_CRITERIA; k++) {
-        double score = ss_rank_score(row, (ss_criterion)k, 1);
+        double score = ss_rank_score(row, (ss_criterion)k);
         if (score > most) {
             most = score;
             name = ss_criterion_rules[k].name;
@@ -151,7 +129,7 @@ write_row(struct rows *rows, const ss_ranking *r, size_t i, const ss_ranking_tex
         char score[64];
         snprintf(score, sizeof score, "%s_score", rule->name);
         ss_rows_rounded(rows, rule->name, rule->unit, compared ? row->value[k] : NAN, DIGITS);
-        ss_rows_rounded(rows, score, "", compared ? ss_rank_score(row, (ss_criterion)k, 1) : NAN, DIGITS);
+        ss_rows_rounded(rows, score, "", compared ? ss_rank_score(row, (ss_criterion)k) : NAN, DIGITS);
     }
     if (!rows->format->has_notes)
         ss_rows_whole_word(rows, "answer", answer);
@@ -172,9 +150,8 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
         st = ss_fail(err, SS_EINVAL, "no scene is ranked");
     if (st != SS_OK)
         return st;
-    size_t *order = calloc(ranking->n, sizeof *order);
     char *answer = answer_of(ranking, about->scene);
-    if (order == NULL || answer == NULL)
+    if (answer == NULL)
         st = ss_fail_memory(err, NULL);
     if (st == SS_OK)
         st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, err);
@@ -186,14 +163,11 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
             write_notes(out, ranking, about, &own);
         if (notes)
             write_unfit(out, ranking, about);
-        if (all && is_compared(ranking))
-            write_orders(out, ranking, about->scene, order);
         write_row(&rows, ranking, 0, about, answer);       /* the names */
         for (size_t i = 0; i < ranking->n; i++)
             write_row(&rows, ranking, i, about, answer);
         st = ss_rows_finish(&rows, err);
     }
     free(answer);
-    free(order);
     return st;
 }

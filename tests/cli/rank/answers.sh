@@ -19,8 +19,6 @@ ss-sim compliant-light | answer -c f
 # not in SI units, and named otherwise
 ss-sim coulomb --columns a | awk 'BEGIN { print "g" } !/^#/ { print $1 * 0.1 + 3 }' > g.csv
 ss-cat --rate 2000 g.csv | answer -c g
-# the order under thresholds that move is said either way
-grep -c '^# order' rows
 # the quantity by name, by unit, by the unit a name ends in; V may be volts: nothing tells
 for name in F displacement_in Friction-Force_kip slip_velocity_mm_s acc_raw slip_mm 'load (kN)' \
             load_kN table_mm_s2 V stress_MPa; do
