@@ -161,8 +161,8 @@ parse(request *req, int argc, char *argv[])
         tool_usage("--resume needs a file: what went to standard output cannot be read again");
     if (req->resume != NULL && req->path != NULL)
         tool_usage("--resume and --output exclude each other");
-    if (req->resume != NULL && req->text.format == SS_JSON)
-        tool_usage("--resume goes on with .tsv or .csv, not with JSON");
+    if (req->resume != NULL && req->text.format != SS_TSV)
+        tool_usage("--resume goes on with .tsv, whose notes say of what sweep it is");
 }
 
 /* --- the scene ---------------------------------------------------------------------------- */

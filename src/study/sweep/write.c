@@ -181,14 +181,12 @@ check_row(const ss_sweep_text *sweep, size_t index, const char *line, double val
 }
 
 /* Count the whole rows behind the header, which must be those of the points in their order.  The last point is
- * left out if it may have several rows, as some of them may be missing, or if the format has no notes, so that
- * only its numbers tell whether it is of this sweep. */
+ * left out if it may have several rows, as some of them may be missing. */
 static ss_status
 count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t number, size_t *rows, long *end,
            ss_error *err)
 {
     const ss_sweep_opts *opts = sweep->opts;
-    int leaves_last = opts->steady->strobe > 0 || !ss_format_table(sweep->format)->has_notes;
     size_t points = 0, all, room = 0;
     long at = *end;
     char *line = NULL;
@@ -212,7 +210,7 @@ count_rows(const ss_sweep_text *sweep, FILE *in, const char *name, size_t number
     }
     free(value);
     free(line);
-    if (st == SS_OK && !leaves_last) {
+    if (st == SS_OK && opts->steady->strobe == 0) {
         *rows = points;
         *end = at;
     }
@@ -244,7 +242,6 @@ typedef struct writing {
     own_text own;
     FILE *out;
     const char *name;           /* of a file that is gone on with, or NULL */
-    char *due;                  /* the row that must come next, as it stands there, or NULL */
     ss_sweep_done *done;
     ss_status status;
     ss_error *err;
@@ -259,42 +256,11 @@ write_point(FILE *out, const ss_sweep_text *sweep, const ss_sweep_row *row)
         write_row(&rows, sweep, row, n > 0 ? &row->steady.strobe[i] : NULL);
 }
 
-/* Let the file end here. */
-static ss_status
-cut(const writing *w, long at)
-{
-    return fseek(w->out, at, SEEK_SET) == 0 && ftruncate(fileno(w->out), at) == 0 ? SS_OK
-        : ss_fail_errno(w->err, w->name, errno);
-}
-
-/* A file without notes does not say of what scene it is: its last row is computed again, and must be the same. */
-static ss_status
-check_due(writing *w, const ss_sweep_row *row)
-{
-    char *text = NULL;
-    size_t length;
-    FILE *again = open_memstream(&text, &length);
-    if (again != NULL)
-        write_point(again, &w->own.text, row);
-    ss_status st = again != NULL && fclose(again) == 0 ? SS_OK : ss_fail_memory(w->err, NULL);
-    if (st == SS_OK && strncmp(text, w->due, strlen(w->due)) != 0)
-        st = ss_fail(w->err, SS_EDATA, "%s: another sweep than this: its last point, %zu, has other numbers",
-                     w->name, row->index);
-    free(text);
-    free(w->due);
-    w->due = NULL;
-    return st == SS_OK ? cut(w, ftell(w->out)) : st;
-}
-
 /* Rows of a file that is gone on with must outlive a kill. */
 static int
 take_point(const ss_sweep_row *row, void *user)
 {
     writing *w = user;
-    if (w->due != NULL)
-        w->status = check_due(w, row);
-    if (w->status != SS_OK)
-        return 1;
     w->done->rows++;
     w->done->failed += row->status != SS_OK;
     write_point(w->out, &w->own.text, row);
@@ -303,23 +269,16 @@ take_point(const ss_sweep_row *row, void *user)
     return w->status != SS_OK;
 }
 
-/* Go to where the file is gone on with; the line there, if it is whole and there are no notes, is due. */
+/* Go to where the file is gone on with, and let it end there. */
 static ss_status
 go_on(writing *w, const char *header, long *end)
 {
-    size_t room = 0;
+    if (!ss_format_table(w->own.text.format)->has_notes)
+        return ss_fail(w->err, SS_EINVAL, "%s: this format has no notes, which say of what sweep it is", w->name);
     ss_status st = find_end(&w->own.text, w->out, w->name, header, &w->done->kept, end, w->err);
-    if (st != SS_OK)
-        return st;
     w->own.opts.first = w->done->kept;
-    if (*end > 0 && !ss_format_table(w->own.text.format)->has_notes && fseek(w->out, *end, SEEK_SET) == 0) {
-        ssize_t n = getline(&w->due, &room, w->out);
-        if (fseek(w->out, *end, SEEK_SET) == 0 && n > 0 && w->due[n - 1] == '\n')
-            return SS_OK;
-        free(w->due);
-        w->due = NULL;
-    }
-    return cut(w, *end);
+    return st != SS_OK || (fseek(w->out, *end, SEEK_SET) == 0 && ftruncate(fileno(w->out), *end) == 0) ? st
+        : ss_fail_errno(w->err, w->name, errno);
 }
 
 ss_status
@@ -342,7 +301,6 @@ ss_sweep_write(const ss_sweep_text *given, FILE *out, const char *resumed, ss_sw
         w.own.opts.user = &w;
         st = ss_sweep_run(w.own.text.scene, &w.own.opts, err);
     }
-    free(w.due);
     free(header);
     return w.status != SS_OK ? w.status : st;
 }
