@@ -17,6 +17,10 @@ ss_options_init(void *opts, size_t size, const void *defaults, size_t known)
     memcpy(opts, &size, sizeof size);
 }
 
+/* The function ss_x_opts_init of options with these defaults. */
+#define SS_OPTIONS(type, defaults) \
+    void type##_init(type *opts, size_t size) { ss_options_init(opts, size, &(defaults), sizeof (defaults)); }
+
 /* own becomes the caller's options, with defaults where the caller's header had no field; given may be
  * NULL.  SS_EINVAL: they were not initialised, or have fields that this library does not know. */
 static inline ss_status

@@ -4,6 +4,7 @@
  * All of it is found once more if a steady hum was subtracted, as it changes the period and the slips, too. */
 #include <stickslip/features.h>
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,7 +49,7 @@ find_maxima(search *s)
         if (!ss_gaps_near(s->gap, s->n_gaps, ss_scale_b(last, k), ROW_REACH * last->a))
             level[n++] = level[k];
     double rms = known != NULL ? known->rms
-        : n == 0 ? 0 : ss_levels_middle(level, n) * sqrt((l1 ? last->a : 1) / M_LN2);
+        : n == 0 ? 0 : gsl_stats_select(level, 1, n, n / 2) * sqrt((l1 ? last->a : 1) / M_LN2);
     out->noise = rms * sqrt(s->rate);
     free(level);
     if (st == SS_OK)
@@ -200,11 +201,7 @@ new_features(void)
     return out;
 }
 
-void
-ss_features_opts_init(ss_features_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &defaults, sizeof defaults);
-}
+SS_OPTIONS(ss_features_opts, defaults)
 
 static ss_status
 check(const ss_signal *signal, size_t column, const ss_features_opts *opts, ss_error *err)

@@ -435,33 +435,11 @@ survey(flood *f)
     return f->failed ? SS_ENOMEM : st;
 }
 
-/* Sort borders, the highest first, by counting their digits from the lowest to the highest. */
-static ss_status
-sort_borders(flood *b)
+static int
+higher_first(const void *a, const void *b)
 {
-    enum { BITS = 11, DIGITS = 1 << BITS };
-    static const uint64_t mask = DIGITS - 1;
-    border *from = b->border, *to = malloc((b->n_borders + 1) * sizeof *to);
-    if (to == NULL)
-        return SS_ENOMEM;
-    for (int shift = 0; shift < 64; shift += BITS) {
-        size_t place[DIGITS] = { 0 }, sum = 0;
-        for (size_t i = 0; i < b->n_borders; i++)
-            place[from[i].key >> shift & mask]++;
-        for (size_t d = DIGITS; d-- > 0;) {
-            size_t count = place[d];
-            place[d] = sum;
-            sum += count;
-        }
-        for (size_t i = 0; i < b->n_borders; i++)
-            to[place[from[i].key >> shift & mask]++] = from[i];
-        border *swap = from;
-        from = to;
-        to = swap;
-    }
-    b->border = from;
-    free(to);
-    return SS_OK;
+    const border *p = a, *q = b;
+    return (p->key < q->key) - (p->key > q->key);
 }
 
 /* --- pools --------------------------------------------------------------------------------- */
@@ -539,8 +517,10 @@ find(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t first, size
         *top = *top > 0 ? *top : f->outside >= 0 ? f->outside : f->all;
         saddle = malloc((f->n_peaks + 1) * sizeof *saddle);
         list = malloc((f->n_peaks + 1) * sizeof *list);
-        st = saddle != NULL && list != NULL ? sort_borders(f) : SS_ENOMEM;
+        st = saddle != NULL && list != NULL ? SS_OK : SS_ENOMEM;
     }
+    if (st == SS_OK && f->n_borders > 0)
+        qsort(f->border, f->n_borders, sizeof *f->border, higher_first);
     if (st == SS_OK)
         st = find_saddles(saddle, f);
     for (size_t i = 0; st == SS_OK && i < f->n_peaks; i++)

@@ -13,11 +13,11 @@
  * slope; what is nearer to an end than sqrt(2) a is not used all the same. Nor is what lies within
  * the reach of a gap, where something of another value and slope may stand. */
 #include <float.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
-#include "find/levels.h"
 #include "find/scale_rows.h"
 #include "map/map.h"
 #include "signal/gaps.h"
@@ -165,7 +165,7 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
     }
     if (all || left == 0)
         left = n;
-    return rms_of(source, ss_levels_middle(level, left));
+    return rms_of(source, gsl_stats_select(level, 1, left, left / 2));
 }
 
 /* The scale is 2^(this / ROW_VOICES) s. */
@@ -252,7 +252,7 @@ fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
         *head = *r;
         head->peak = NULL;
         if (loud != NULL && loud->n > 0)
-            head->rms = rms_of(source, ss_levels_middle(level, n));
+            head->rms = rms_of(source, gsl_stats_select(level, 1, n, n / 2));
     }
     return SS_OK;
 }

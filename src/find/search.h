@@ -7,7 +7,6 @@
 #include <stickslip/features.h>
 #include "find/cycles.h"
 #include "find/judgement.h"
-#include "find/levels.h"
 #include "find/quantity.h"
 #include "find/ringdown.h"
 #include "find/scale_rows.h"

@@ -553,11 +553,7 @@ find_levels(decay *d, const double *x, size_t n)
 /* --- the whole ------------------------------------------------------------------------------- */
 
 static const ss_backbone_opts defaults = { .size = sizeof defaults };
-void
-ss_backbone_opts_init(ss_backbone_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &defaults, sizeof defaults);
-}
+SS_OPTIONS(ss_backbone_opts, defaults)
 
 static void
 make_rows(ss_backbone *out, const decay *d)

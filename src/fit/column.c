@@ -19,11 +19,7 @@ const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "
 static const ss_rank_opts defaults = { .size = sizeof defaults, .quantity = SS_ACCELERATION,
                                        .spread = RANK_SPREAD, .also = { -1, -1, -1, -1, -1 } };
 
-void
-ss_rank_opts_init(ss_rank_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &defaults, sizeof defaults);
-}
+SS_OPTIONS(ss_rank_opts, defaults)
 
 ss_status
 ss_rank_opts_take(ss_rank_opts *own, const ss_rank_opts *given, ss_error *err)

@@ -22,11 +22,7 @@ enum { FEWEST = 200 };                  /* rows to be judged */
 
 static const ss_motion_opts defaults = { .size = sizeof defaults, .delay = 1 };
 
-void
-ss_motion_opts_init(ss_motion_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &defaults, sizeof defaults);
-}
+SS_OPTIONS(ss_motion_opts, defaults)
 
 /* --- folds --------------------------------------------------------------------------------- */
 

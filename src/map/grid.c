@@ -34,11 +34,7 @@ const ss_morlet_opts ss_morlet_defaults = {
     .threads = 1
 };
 
-void
-ss_morlet_opts_init(ss_morlet_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &ss_morlet_defaults, sizeof ss_morlet_defaults);
-}
+SS_OPTIONS(ss_morlet_opts, ss_morlet_defaults)
 
 ss_status
 ss_morlet_take(ss_morlet_opts *own, const ss_morlet_opts *given, ss_error *err)

@@ -18,11 +18,7 @@ const ss_range ss_contour_levels = { 1, CONTOUR_LEVELS }, ss_contour_spans = { 1
     ss_contour_tops = { -2000, 2000 };
 static const ss_contour_opts defaults = { .levels = 18, .span = 80, .noise = NAN, .level = NAN };
 
-void
-ss_contour_opts_init(ss_contour_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &defaults, sizeof defaults);
-}
+SS_OPTIONS(ss_contour_opts, defaults)
 
 /* --- axes and cone --------------------------------------------------------------------------- */
 

@@ -18,11 +18,7 @@
 
 static const ss_plot_opts defaults = { .from = NAN, .to = NAN, .style = SS_PAPER };
 
-void
-ss_plot_opts_init(ss_plot_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &defaults, sizeof defaults);
-}
+SS_OPTIONS(ss_plot_opts, defaults)
 
 ss_status
 ss_script_take(ss_plot_opts *own, const ss_plot_opts *opts, ss_error *err)

@@ -17,11 +17,7 @@ const ss_wave_opts ss_wave_defaults = {
     .damping = 0.05, .at = 0, .seed = 1
 };
 
-void
-ss_wave_opts_init(ss_wave_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &ss_wave_defaults, sizeof ss_wave_defaults);
-}
+SS_OPTIONS(ss_wave_opts, ss_wave_defaults)
 
 struct twofold {
     double hi, lo;              /* hi + lo, |lo| <= ulp(hi) / 2 or so */

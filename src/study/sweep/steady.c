@@ -13,11 +13,7 @@ const ss_range ss_steady_tolerances = { 1e-13, 0.1 };
 static const ss_steady_opts usual = { .size = sizeof usual, .tol = 1e-9, .max_period = 8, .max_cycles = 10000,
                                       .max_steps = 10000000 };
 
-void
-ss_steady_opts_init(ss_steady_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &usual, sizeof usual);
-}
+SS_OPTIONS(ss_steady_opts, usual)
 
 /* What a measure needs of a model. */
 enum { STICKS = 1, RINGS = 2, DIFFERS = 4, LIMIT = 8, SLIDES = 16 };

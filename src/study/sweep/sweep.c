@@ -17,11 +17,7 @@
 
 static const ss_sweep_opts usual = { .size = sizeof usual, .shards = 1, .threads = 1 };
 
-void
-ss_sweep_opts_init(ss_sweep_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &usual, sizeof usual);
-}
+SS_OPTIONS(ss_sweep_opts, usual)
 
 ss_status
 ss_sweep_opts_take(ss_sweep_opts *own, ss_steady_opts *steady, const ss_sweep_opts *given, ss_error *err)

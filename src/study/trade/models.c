@@ -17,11 +17,7 @@
 
 static const ss_models_opts usual = { .size = sizeof usual, .span = 80, .threads = 1 };
 
-void
-ss_models_opts_init(ss_models_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &usual, sizeof usual);
-}
+SS_OPTIONS(ss_models_opts, usual)
 
 /* --- what is compared ---------------------------------------------------------------------- */
 

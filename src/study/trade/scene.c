@@ -19,11 +19,7 @@ enum { REPEATS = 5 };               /* short rows are measured so many times */
 
 static const ss_trade_opts usual = { .size = sizeof usual, .budget = 10 };
 
-void
-ss_trade_opts_init(ss_trade_opts *opts, size_t size)
-{
-    ss_options_init(opts, size, &usual, sizeof usual);
-}
+SS_OPTIONS(ss_trade_opts, usual)
 
 ss_status
 ss_trade_opts_take(ss_trade_opts *own, const ss_trade_opts *given, ss_error *err)
