@@ -131,8 +131,18 @@ run() {
 decay() {       # FILE
     echo '<h2>Free decay</h2>'
     eval "run ss-backbone -q $options $backbone -o \"\$work/decay.tsv\" -- \"\$1\"" || return
-    escape < "$work/decay.tsv" | awk '/^# (mechanism|decay): / { own = 1 } /^# columns: / { exit }
-        own { print "<p>" substr($0, 3) "</p>" }'
+    escape < "$work/decay.tsv" | awk "$cells"'
+        /^# (mechanism|decay): / { own = 1 }
+        own && /^#/ { n = split($0, word, " ")
+            if (word[3] + 0 == word[3] && word[4] + 0 == word[4])
+                $0 = "# " word[2] " " rounded(word[3], word[4]) (n > 4 ? " " word[5] : "")
+            print "<p>" substr($0, 3) "</p>" }' > "$work/decay.html"
+    cat "$work/decay.html"
+    printf '<tr><td class="text"><a href="%s">%s</a></td>%s</tr>\n' "$name" "$(escape_line "$1")" \
+        "$(awk '{ gsub(/<.?p>/, ""); key = $1; sub(/^[a-z_]*: /, "") } key ~ /^(mechanism|decay):/ { is = $0 }
+            key == "frequency:" { f = $0 } key == "damping_ratio:" { z = $0 }
+            END { print "<td class=\"text\">" is "</td><td>" f "</td><td>" z "</td>" }' "$work/decay.html")" \
+        >> "$work/decays"
     grep -q '^[0-9]' "$work/decay.tsv" || return
     eval "run ss-backbone -q $options $backbone -o \"\$work/decay.svg\" -- \"\$1\"" && inline decay
     printf '<div class="wide"><table>\n%s</table></div>\n' "$(events "$work/decay.tsv")"
@@ -214,7 +224,7 @@ if [ -e "$dir" ] || [ -L "$dir" ]; then refuse_dir; fi
 is_table() {
     case $(head -c 300 -- "$1" 2> /dev/null | tr -d '\000' | sed 1q) in
     '# stickslip signal '*) return 1 ;;
-    '# stickslip '*|onset,end,spikes,*|file,unit,transitions,*|rank,scene,*|index,*,status|index,*,stops,*|\
+    '# stickslip '*|onset,end,spikes,*|file,unit,transitions,*|rank,scene,*|rank,law,*|amplitude,frequency,*|index,*,status|index,*,stops,*|\
     method,tol,x_error,*|model,x,x_rms,*|m,a,b,f,re,im,edge|t,kind,x,v,direction) return 0 ;;
     esac
     return 1
@@ -257,6 +267,12 @@ done
 index() {
     begin Recordings
     printf '<h1>Recordings</h1>\n<div class="wide"><table>\n%s</table></div>\n' "$(table)"
+    if [ -s "$work/decays" ]; then
+        printf '<h2>Free decays</h2>\n<div class="wide"><table><thead><tr><th>recording</th><th>mechanism</th>'
+        printf '<th>frequency</th><th>damping ratio</th></tr></thead><tbody>\n'
+        cat "$work/decays"
+        printf '</tbody></table></div>\n'
+    fi
     printf '<p>With all digits: <a href="summaries.tsv">summaries.tsv</a>. '
     printf 'libstickslip %s.</p>\n</body></html>\n' "$version"
 }

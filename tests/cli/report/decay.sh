@@ -12,3 +12,7 @@ echo "rows $(grep -vc '^#' found), shown $(grep -c '^<tr><td>' html)"
 sed -n '/^# mechanism/,/^# columns/s/^# \([a-z_0-9]*\): .*/\1/p' found | grep -v columns > notes
 sed -n 's/^<p>\([a-z_0-9]*\): .*/\1/p' html | diff notes - && cat notes
 section noise/0001-noise.tsv.html | grep '^<p>'
+# the index has the answers, with as many digits as the errors allow
+ss-cat -c x decay.tsv > x.tsv
+ss-report -q --decay -o all x.tsv noise.tsv
+sed -n '/<h2>Free decays/,/<.tbody>/p' all/index.html | sed 's/<[^>]*>/ /g; s/[0-9][0-9.]* &plusmn; [0-9.]*/V \&plusmn; E/g'
