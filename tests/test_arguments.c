@@ -416,11 +416,11 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_scene_fit(NULL, signal, 0, &scene, NULL, &e), &e);
     assert_refused(ss_scene_fit(&fit, NULL, 0, &scene, NULL, &e), &e);
     assert_refused(ss_scene_fit(&fit, signal, 0, NULL, NULL, &e), &e);
-    assert_refused(ss_steps_new(NULL, signal, 0, 0, -1, 0, &e), &e);
-    assert_refused(ss_steps_new(&steps, NULL, 0, 0, -1, 0, &e), &e);
-    assert_int_equal(ss_steps_new(&steps, signal, 0, 0, -1, INFINITY, &e), SS_EINVAL);
-    assert_int_equal(ss_steps_new(&steps, signal, 0, 0, -1, -1, &e), SS_EINVAL);
-    assert_int_equal(ss_steps_new(&steps, signal, 0, 0, -1, NAN, &e), SS_EINVAL);
+    assert_refused(ss_steps_new(NULL, signal, 0, 0, -1, 0, 0, &e), &e);
+    assert_refused(ss_steps_new(&steps, NULL, 0, 0, -1, 0, 0, &e), &e);
+    assert_int_equal(ss_steps_new(&steps, signal, 0, 0, -1, INFINITY, 0, &e), SS_EINVAL);
+    assert_int_equal(ss_steps_new(&steps, signal, 0, 0, -1, -1, 0, &e), SS_EINVAL);
+    assert_int_equal(ss_steps_new(&steps, signal, 0, 0, -1, NAN, 0, &e), SS_EINVAL);
     assert_refused(ss_steps_write(NULL, stdout, SS_TSV, &e), &e);
     assert_refused(ss_plot_steps(stdout, NULL, NULL, &e), &e);
     ss_steps_free(NULL);

@@ -646,7 +646,7 @@ steps(int variant)
             + 1e-5 * sin(i * i);
         values[2 * ROWS + i] = i;
     }
-    ss_status st = ss_steps_new(&made, &slid_rock, 0, 1, -1, 0, &err);
+    ss_status st = ss_steps_new(&made, &slid_rock, 0, 1, -1, 0, variant, &err);
     if (st == SS_OK && made->n != 1)
         fail_msg("%zu steps", made->n);
     ss_steps_free(made);

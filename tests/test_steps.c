@@ -81,7 +81,7 @@ answers(const char *what, const rock *r, uint64_t seed, size_t n, double stiffne
     ss_signal *s = rock_signal(r, &seed);
     ss_steps *steps = NULL;
     ss_error err = { 0 };
-    if (ss_steps_new(&steps, s, 0, 1, -1, stiffness, &err) != SS_OK)
+    if (ss_steps_new(&steps, s, 0, 1, -1, stiffness, 0, &err) != SS_OK)
         fail_msg("%s: %s", what, err.text);
     assert_int_equal(steps->n, n);
     for (size_t i = 0; i < n; i++) {
@@ -179,6 +179,52 @@ finds_the_truth_of_simulated_rocks(void **state)
     answers("a stress", &r, 11, 1, 0);
 }
 
+/* Three steps that share a, b, Dc and k show them as three times as many rows do: errors are 1/sqrt(3) of those of a
+ * step in the middle, and the law is named that each of them cannot tell. */
+static void
+shares_what_steps_have_in_common(void **state)
+{
+    (void)state;
+    uint64_t seed = 18;
+    rock r = usual;
+    r.speed[2] = 1e-6;
+    r.speed[3] = 10e-6;
+    r.until[2] = 425;
+    r.until[3] = 450;
+    r.noise = 2e-4;
+    r.n = 2400;
+    ss_signal *s = rock_signal(&r, &seed);
+    ss_steps *each = NULL, *all = NULL;
+    assert_int_equal(ss_steps_new(&each, s, 0, 1, -1, 0, 0, NULL), SS_OK);
+    assert_int_equal(ss_steps_new(&all, s, 0, 1, -1, 0, 1, NULL), SS_OK);
+    assert_true(each->n == 3 && all->n == 3);
+    const double truth[4] = { r.a, r.b, r.Dc, r.k };
+    double weights[4] = { 0 }, ahead = 0;
+    for (int i = 0; i < 3; i++) {
+        const ss_step_law *l = &each->step[i].law[0], *both = all->step[i].law;
+        const ss_value v[4] = { l->direct_effect, l->evolution_effect, l->critical_slip_distance, l->stiffness };
+        for (int k = 0; k < 4; k++)
+            weights[k] += 1 / (v[k].error * v[k].error);
+        within("drift", both->drift, r.drift, 3);
+        ahead += both[0].log_likelihood - both[1].log_likelihood;
+    }
+    for (int i = 0; i < 3; i++) {
+        const ss_step_law *l = &all->step[i].law[0], *first = &all->step[0].law[0];
+        const ss_value v[4] = { l->direct_effect, l->evolution_effect, l->critical_slip_distance, l->stiffness };
+        assert_int_equal(all->step[i].answer, SS_STEP_AGING);
+        near("ahead", all->step[i].ahead, ahead, 1e-9);
+        assert_true(fabs(v[2].value / first->critical_slip_distance.value - 1) < 1e-12);
+        for (int k = 0; k < 4; k++) {
+            print_message("%g +- %g, by each +- %g\n", v[k].value, v[k].error, 1 / sqrt(weights[k]));
+            within("shared", v[k], truth[k], 3);
+            near("error", v[k].error * sqrt(weights[k]), 1, .15);
+        }
+    }
+    ss_steps_free(each);
+    ss_steps_free(all);
+    ss_signal_free(s);
+}
+
 /* A record that begins with a hold knows of no slide before it. */
 static void
 begins_in_a_hold(void **state)
@@ -196,7 +242,7 @@ begins_in_a_hold(void **state)
     for (size_t c = 0; c < 3; c++)
         memmove(s->values + c * n, s->values + c * s->n + first, n * sizeof *s->values);
     s->n = n;
-    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, NULL), SS_OK);
+    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, NULL), SS_OK);
     assert_int_equal(steps->n, 1);
     within("a", steps->step[0].law[0].direct_effect, r.a, 5);
     within("Dc", steps->step[0].law[0].critical_slip_distance, r.Dc, 5);
@@ -218,19 +264,19 @@ says_what_is_none(void **state)
     ss_signal *s = rock_signal(&r, &seed);
     for (size_t i = 0; i < s->n; i++)
         s->values[s->n + i] = 0.6 + 1e-3 * rock_gauss(&seed);
-    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, &err), SS_OK);
+    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, &err), SS_OK);
     assert_int_equal(steps->step[0].answer, SS_STEP_NONE);
     assert_non_null(strstr(steps->step[0].why, "straight line"));
     ss_steps_free(steps);
     for (size_t i = 0; i < s->n; i++)
         s->values[i] = 3 * s->values[2 * s->n + i];
-    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, &err), SS_EDATA);
+    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, &err), SS_EDATA);
     assert_null(steps);
     assert_string_equal(err.text, "the speed of column load has no step behind a steady slide");
-    assert_int_equal(ss_steps_new(&steps, s, 1, 0, -1, 0, &err), SS_EDATA);
+    assert_int_equal(ss_steps_new(&steps, s, 1, 0, -1, 0, 0, &err), SS_EDATA);
     assert_string_equal(err.text, "column mu: '' is not a unit of length, as m, mm or um is");
     s->values[s->n + 3] = NAN;
-    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, &err), SS_EDATA);
+    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, &err), SS_EDATA);
     ss_signal_free(s);
 }
 
@@ -256,7 +302,7 @@ answers_the_basalt(void **state)
         }
         assert_int_equal(ss_signal_read(&s, in, path, &opts, NULL), SS_OK);
         fclose(in);
-        assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, NULL), SS_OK);
+        assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, NULL), SS_OK);
         assert_int_equal(steps->n, 1);
         const ss_step *step = &steps->step[0];
         assert_int_not_equal(step->answer, SS_STEP_NONE);
@@ -282,6 +328,7 @@ main(void)
         cmocka_unit_test(a_soft_spring_runs_away),
         cmocka_unit_test(whitens_what_wanders),
         cmocka_unit_test(finds_the_truth_of_simulated_rocks),
+        cmocka_unit_test(shares_what_steps_have_in_common),
         cmocka_unit_test(begins_in_a_hold),
         cmocka_unit_test(says_what_is_none),
         cmocka_unit_test(answers_the_basalt),

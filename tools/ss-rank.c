@@ -22,7 +22,8 @@ static const char usage[] =
 "      --fit             write the scene that moves as the signal does\n"
 "  -m, --motion=NAME|N   the motion: --extra=sin,cos, --delay=ROWS, --folds=HOW\n"
 "      --residual=FILE   what the law leaves, row by row\n"
-"      --load=NAME|N     the load point; --normal-stress=NAME|N: of shear stress\n"
+"      --load=NAME|N     the load point; --normal-stress=NAME|N: of shear stress;\n"
+"                        --share: all steps have one a, b, Dc and stiffness\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE     .tsv, .csv, .json; --format=tsv|csv|json of stdout; with\n"
 "                        --motion or --load a picture: .gp .png .svg .pdf .eps\n"
@@ -32,7 +33,7 @@ TOOL_READING_USAGE
 typedef struct job {
     const char *signal_path, *column_name, *known_by, *output, *load, *normal;
     char *signal_name;
-    int all, as, fits;          /* all: criteria; as: of ss_quantity_names; -1: not given */
+    int all, as, fits, shared;          /* all: criteria; as: of ss_quantity_names; -1: not given */
     tool_texts settings;
     const char **scenes;
     size_t n_scenes;
@@ -499,7 +500,7 @@ fit_load(job *j)
                  signal->head->column[friction].name, signal->head->column[friction].unit);
     if (signal->head->column[load].unit[0] == '\0')
         tool_die("column %s has no unit: --unit %s=um says that it is in um", j->load, j->load);
-    tool_check(ss_steps_new(&steps, signal, load, friction, normal, stiffness, &err), &err);
+    tool_check(ss_steps_new(&steps, signal, load, friction, normal, stiffness, j->shared, &err), &err);
     for (size_t i = 0; i < steps->n; i++)
         tool_note("step at %.9g s: %zu rows, noise of %.2g", steps->step[i].at, steps->step[i].n,
                   steps->step[i].law[steps->step[i].best].noise);
@@ -515,11 +516,11 @@ fit_load(job *j)
 static void
 check_load(job *j, int files)
 {
-    static const char *const of_load[] = { "load", "normal-stress", "column", "set", "output", "format", "time",
-        "time-unit", "rate", "table", "gaps", "resample", "from", "to", "scale", "unit", "quiet", "verbose", NULL };
+    static const char *const of_load[] = { "load", "normal-stress", "share", "column", "set", "output", "format",
+        "time", "time-unit", "rate", "table", "gaps", "resample", "from", "to", "scale", "unit", "quiet", "verbose", NULL };
     if (tool_given_others(of_load) || files > 1)
-        tool_usage("with --load, of the other options only --column, --normal-stress, --set stiffness and those of "
-                   "reading mean something, and no scene is read");
+        tool_usage("with --load, of the other options only --column, --normal-stress, --share, --set stiffness "
+                   "and those of reading mean something, and no scene is read");
     j->reading.opts.stamps = 1;
 }
 
@@ -574,8 +575,8 @@ parse(job *j, int argc, char *argv[])
         TOOL_TEXTS('s', "set", &j->settings), TOOL_NUMBER('p', "spread", &percent, percents),
         TOOL_NUMBER('F', "forcing", &j->opts.forcing_frequency, frequencies),
         TOOL_TEXT(0, "load", &j->load), TOOL_TEXT(0, "normal-stress", &j->normal),
-        TOOL_FLAG(0, "fit", &j->fits), TOOL_FLAG('l', "long", &j->all), TOOL_OUTPUT(&j->output),
-        TOOL_FORMAT_OF_WORDS(&j->kind) };
+        TOOL_FLAG(0, "share", &j->shared), TOOL_FLAG(0, "fit", &j->fits), TOOL_FLAG('l', "long", &j->all),
+        TOOL_OUTPUT(&j->output), TOOL_FORMAT_OF_WORDS(&j->kind) };
     int first = TOOL_PARSE(argc, argv, options, &j->reading);
     j->opts.spread = percent / 100;
     tool_reading_end(&j->reading, j->column_name);
@@ -583,8 +584,8 @@ parse(job *j, int argc, char *argv[])
         check_motion(j, argc - first);
     else if (j->extra != NULL || j->residual != NULL || tool_given("delay") || tool_given("folds"))
         tool_usage("--extra, --residual, --delay and --folds need --motion");
-    if (j->normal != NULL && j->load == NULL)
-        tool_usage("--normal-stress needs --load");
+    if (j->load == NULL && (j->normal != NULL || j->shared))
+        tool_usage("%s needs --load", j->shared ? "--share" : "--normal-stress");
     if (j->load != NULL)
         check_load(j, argc - first);
     if (j->fits && argc - first > 2)

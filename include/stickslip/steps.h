@@ -35,6 +35,7 @@ typedef struct ss_step {
     double before, after;       /* speeds of the load point [m/s]; after a hold, that of the slide behind it */
     ss_step_answer answer;
     size_t best;                /* the likelier law */
+    double ahead;               /* by which difference of logarithms of likelihood */
     char why[160];              /* the reason, if no law is named */
     ss_step_law law[SS_STEP_LAWS];
     size_t n;                   /* rows about the step */
@@ -48,14 +49,15 @@ typedef struct ss_steps {
 
 /* Fit both laws to each step in speed of a load point, from the columns `load` (a unit of length) and `friction`,
  * which is divided by the column `normal`, unless that is negative.  The last column of the signal holds the times
- * of its rows, see ss_read_opts.stamps.  stiffness [1/m] of the machine; 0: it is fitted.
+ * of its rows, see ss_read_opts.stamps.  stiffness [1/m] of the machine; 0: it is fitted.  shared: 1 if all steps
+ * have one law, a, b, Dc and stiffness.
  *
  * A hold and the slide behind it are one step.  The slider begins in a steady slide and has no inertia.  The
  * load point moves on lines that meet between rows, or as recorded; of more than 4096 rows means are taken.
  * SS_EDATA: the unit is not one of length, a value is not finite, or there is no step; SS_ENOMEM.
  * The caller frees *out with ss_steps_free. */
 ss_status ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t friction, int normal,
-                       double stiffness, ss_error *err);
+                       double stiffness, int shared, ss_error *err);
 void ss_steps_free(ss_steps *steps);            /* NULL is allowed */
 
 /* Write a row a law and step, as ss-rank(1) describes.  SS_EINVAL: the format holds numbers only; SS_EIO. */

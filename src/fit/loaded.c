@@ -33,6 +33,7 @@ typedef struct law {
     int is_slip;
     wander noise;
     double u[UNKNOWNS], rival[UNKNOWNS];        /* the best, and others that may do as well; rival[0] NaN: none */
+    ss_step_law other;                          /* the numbers of these, if rival[0] is none */
     double squares;                             /* that u leaves of whitened rows; infinite: there is no fit */
     double covariance[UNKNOWNS * UNKNOWNS];
     double *g, *moved;          /* friction of the unknowns, and if one is a little larger [n] */
@@ -397,31 +398,23 @@ blur(law *l, double noise, double *changed)
     return SS_OK;
 }
 
-/* Report the best numbers.  If a rival does better, it is the best; if it does as well, errors reach as far. */
+/* If a rival does better, it is the best; if it does not do as well, it is none. */
 static ss_status
-conclude(ss_step_law *out, law *l, double free_rows, double *room)
+settle(law *l, double free_rows)
 {
     double squares = INFINITY, covariance[UNKNOWNS * UNKNOWNS];
-    ss_step_law other = { 0 };
     ss_status st = isnan(l->rival[0]) ? SS_OK : fit(l, l->rival, l->squares / free_rows, &squares, covariance);
     if (st == SS_OK && squares < l->squares) {
         swap(l->u, l->rival, UNKNOWNS);
         swap(l->covariance, covariance, UNKNOWNS * UNKNOWNS);
         swap(&l->squares, &squares, 1);
     }
-    if (st == SS_OK)
-        st = blur(l, l->squares / free_rows, room);
-    report(out, l, l->u, l->covariance, l->squares / free_rows);
-    if (st != SS_OK || isinf(squares) || !are_apart(l->u, l->rival)
+    if (isinf(squares) || !are_apart(l->u, l->rival)
         || (double)l->record->n * log(squares / l->squares) > 2 * AS_LIKELY)
-        return st;
-    report(&other, l, l->rival, covariance, squares / free_rows);
-    reach(&out->direct_effect, other.direct_effect);
-    reach(&out->evolution_effect, other.evolution_effect);
-    reach(&out->critical_slip_distance, other.critical_slip_distance);
-    reach(&out->stiffness, other.stiffness);
-    reach(&out->drift, other.drift);
-    return SS_OK;
+        l->rival[0] = NAN;
+    else
+        report(&l->other, l, l->rival, covariance, squares / free_rows);
+    return st;
 }
 
 /* The squares that a line along the path leaves of whitened rows, and the logarithms of their variances. */
@@ -444,57 +437,255 @@ fit_line(law *l, double *room, double *squares, double *logarithms)
     return ss_least_linear(l->rows, room, r->n, 2, c, squares, NULL);
 }
 
+/* --- one step, or steps that share their numbers -------------------------------------------- */
+
+enum { OWN = DIRECT, SHARED = UNKNOWNS - OWN };     /* level and drift are each step's own */
+
+struct loaded {
+    law law[SS_STEP_LAWS];
+    ss_range range[UNKNOWNS];
+    double free_rows, line, logarithms;         /* see fit_line */
+    double *room;
+};
+
+typedef struct joint {
+    loaded *const *step;
+    size_t n, k, rows, unknowns;                /* law k of n steps */
+    double *u, *best, *residual, *covariance;
+    double *slopes;                             /* room for those of a step */
+    ss_range *range;
+} joint;
+
+/* Where unknown k of step i stands among all. */
+static size_t
+place_of(size_t i, size_t k)
+{
+    return k >= OWN ? k - OWN : SHARED + OWN * i + k;
+}
+
+static double
+noise_of(const loaded *s, size_t k)
+{
+    return s->law[k].squares / s->free_rows;
+}
+
+/* The rows of all steps, each in its noise. */
+static ss_status
+all_rows(const double *u, double *residual, double *slopes, void *user)
+{
+    const joint *j = user;
+    ss_status st = SS_OK;
+    for (size_t i = 0; st == SS_OK && i < j->n; i++) {
+        law *l = &j->step[i]->law[j->k];
+        const size_t n = l->record->n;
+        const double unit = sqrt(noise_of(j->step[i], j->k));
+        double v[UNKNOWNS];
+        for (size_t k = 0; k < UNKNOWNS; k++)
+            v[k] = u[place_of(i, k)];
+        st = whitened(v, residual, slopes != NULL ? j->slopes : NULL, l);
+        for (size_t row = 0; row < n; row++)
+            if (slopes == NULL)
+                residual[row] /= unit;
+            else
+                for (size_t k = 0; k < UNKNOWNS; k++)
+                    slopes[row * j->unknowns + place_of(i, k)] = j->slopes[row * UNKNOWNS + k] / unit;
+        residual += n;
+        slopes = slopes != NULL ? slopes + n * j->unknowns : NULL;
+    }
+    return st;
+}
+
+/* What steps say of an unknown, each by how well it shows it; or what one of them says. */
+static double
+mean_of(const joint *j, size_t k, size_t only)
+{
+    double sum = 0, weights = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const law *l = &j->step[i]->law[j->k];
+        const double variance = l->covariance[k * (UNKNOWNS + 1)] * noise_of(j->step[i], j->k);
+        const double weight = only < j->n ? i == only : isfinite(variance) && variance > 0 ? 1 / variance : 1e-9;
+        sum += weight * l->u[k];
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+/* Fit a law to all rows, a few steps from what each of the first `starts` says, of which the last is their mean; and
+ * on from the best of these.  SS_EDATA: there is no fit. */
+static ss_status
+fit_joint(joint *j, size_t starts)
+{
+    enum { FEW = 5, MANY = 50 };
+    least how = { .rows = j->rows, .unknowns = j->unknowns, .model = all_rows, .user = j, .range = j->range,
+                  .steps = FEW, .tol = 1e-7, .noise = 1, .farthest = 1.5 };
+    least_end end;
+    double least_squares = INFINITY, free_rows = (double)(j->n - 1) * SHARED;
+    for (size_t i = 0; i < j->n; i++) {
+        free_rows += j->step[i]->free_rows;
+        if (isinf(j->step[i]->law[j->k].squares))
+            return SS_EDATA;
+        for (size_t k = 0; k < UNKNOWNS; k++)
+            j->range[place_of(i, k)] = j->step[i]->range[k];
+    }
+    for (size_t only = 0; only < starts; only++) {
+        for (size_t i = 0; i < j->n; i++)
+            for (size_t k = 0; k < UNKNOWNS; k++)
+                j->u[place_of(i, k)] = k < OWN ? j->step[i]->law[j->k].u[k] : mean_of(j, k, only);
+        ss_status st = starts > 1 ? ss_least_fit(&end, &how, j->u, NULL, NULL) : SS_OK;
+        if (st == SS_OK && (starts == 1 || end.squares < least_squares)) {
+            least_squares = end.squares;
+            memcpy(j->best, j->u, j->unknowns * sizeof *j->u);
+        } else if (st != SS_OK && st != SS_EDATA)
+            return st;
+    }
+    how.steps = MANY;
+    ss_status st = ss_least_fit(&end, &how, j->best, j->residual, j->covariance);
+    for (size_t i = 0, row = 0; st == SS_OK && i < j->n; i++) {
+        law *l = &j->step[i]->law[j->k];
+        const double noise = noise_of(j->step[i], j->k);
+        l->squares = 0;
+        for (size_t to = row + l->record->n; row < to; row++)
+            l->squares += noise * j->residual[row] * j->residual[row];
+        const double unit = end.squares / free_rows / noise_of(j->step[i], j->k);
+        for (size_t e = 0; e < UNKNOWNS * UNKNOWNS; e++)
+            l->covariance[e] = unit * j->covariance[place_of(i, e / UNKNOWNS) * j->unknowns + place_of(i, e % UNKNOWNS)];
+        for (size_t e = 0; e < UNKNOWNS; e++)
+            l->u[e] = j->best[place_of(i, e)];
+    }
+    return st;
+}
+
+/* Find the noise that the better law leaves of a step; both laws' squares become those of rows whitened by it. */
+static ss_status
+find_noise_of(loaded *s, law *better)
+{
+    const size_t n = better->record->n;
+    ss_status st = find_noise(better, s->room, s->room + n);
+    for (law *l = s->law; l < s->law + SS_STEP_LAWS && st == SS_OK; l++) {
+        l->noise = better->noise;
+        if (isinf(l->squares))
+            continue;
+        st = whitened(l->u, s->room, NULL, l);
+        l->squares = 0;
+        for (size_t i = 0; i < n; i++)
+            l->squares += s->room[i] * s->room[i];
+    }
+    return st == SS_OK ? fit_line(s->law, s->room, &s->line, &s->logarithms) : st;
+}
+
 /* Fit both laws, and again, to rows that are whitened by what the better one leaves. */
 static ss_status
-fit_both(law both[SS_STEP_LAWS], double free_rows, double *room)
+fit_both(loaded *const step[], size_t n)
 {
-    const size_t n = both->record->n;
-    for (int pass = 0; pass < 3; pass++) {
-        law *better = both;
-        for (law *l = both; l < both + SS_STEP_LAWS; l++) {
-            if (isinf(l->squares))
-                continue;
-            l->noise = both->noise;
-            const double noise = l->squares / (pass == 0 ? (double)n : free_rows);
-            ss_status st = fit(l, l->u, noise, &l->squares, l->covariance);
-            if (st != SS_OK)
-                return st;
-            better = l->squares < better->squares ? l : better;
-        }
-        ss_status st = pass < 2 && isfinite(better->squares) ? find_noise(better, room, room + n) : SS_OK;
-        if (st != SS_OK)
-            return st;
-        both->noise = better->noise;
+    const int passes = n > 1 ? 2 : 3;
+    size_t most = 0;
+    joint j = { .step = step, .n = n, .unknowns = SHARED + OWN * n };
+    for (size_t i = 0; i < n; i++) {
+        j.rows += step[i]->law->record->n;
+        most = step[i]->law->record->n > most ? step[i]->law->record->n : most;
     }
-    return SS_OK;
+    j.range = malloc(j.unknowns * sizeof *j.range);
+    j.u = malloc((j.unknowns * (j.unknowns + 2) + j.rows + most * UNKNOWNS) * sizeof *j.u);
+    ss_status st = j.u != NULL && j.range != NULL ? SS_OK : SS_ENOMEM;
+    j.best = j.u + j.unknowns;
+    j.covariance = j.best + j.unknowns;
+    j.residual = j.covariance + j.unknowns * j.unknowns;
+    j.slopes = j.residual + j.rows;
+    for (int pass = 0; pass < passes; pass++) {
+        double ahead = 0;                       /* of the second law */
+        for (j.k = 0; st == SS_OK && j.k < SS_STEP_LAWS; j.k++) {
+            st = fit_joint(&j, n > 1 && pass == 0 ? n + 1 : 1);
+            for (size_t i = 0; st == SS_EDATA && i < n; i++)    /* what has no fit of one step has none of all */
+                step[i]->law[j.k].squares = INFINITY;
+            st = st == SS_EDATA ? SS_OK : st;
+        }
+        for (size_t i = 0; i < n; i++)
+            ahead += (double)step[i]->law->record->n * log(step[i]->law[0].squares / step[i]->law[1].squares);
+        for (size_t i = 0; st == SS_OK && pass + 1 < passes && i < n && !isnan(ahead); i++)
+            st = find_noise_of(step[i], &step[i]->law[ahead > 0]);
+    }
+    free(j.range);
+    free(j.u);
+    return st;
+}
+
+/* Blurs of one step are errors of what it shares with the others. */
+static ss_status
+blur_all(loaded *const step[], size_t n, size_t k)
+{
+    double more[UNKNOWNS * UNKNOWNS] = { 0 }, before[UNKNOWNS * UNKNOWNS];
+    ss_status st = SS_OK;
+    for (int again = 0; again < 2 && isfinite(step[0]->law[k].squares); again++)
+        for (size_t i = 0; st == SS_OK && i < n; i++) {
+            law *l = &step[i]->law[k];
+            const double noise = noise_of(step[i], k);
+            memcpy(before, l->covariance, sizeof before);
+            st = again ? SS_OK : blur(l, noise, step[i]->room);
+            for (int e = 0; e < UNKNOWNS * UNKNOWNS; e++) {
+                if (e / UNKNOWNS < OWN || e % UNKNOWNS < OWN || !isfinite(before[e]))
+                    continue;
+                more[e] += again ? 0 : noise * (l->covariance[e] - before[e]);
+                l->covariance[e] = before[e] + (again ? more[e] / noise : 0);
+            }
+        }
+    return st;
 }
 
 ss_status
-ss_loaded_fit(ss_step_law out[SS_STEP_LAWS], double *model, const track *record, double stiffness)
+ss_loaded_share(loaded *const step[], size_t n)
+{
+    ss_status st = fit_both(step, n);
+    for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
+        for (size_t i = 0; i < n; i++)
+            step[i]->law[k].rival[0] = NAN;
+        st = blur_all(step, n, k);
+    }
+    return st;
+}
+
+ss_status
+ss_loaded_new(loaded **out, const track *record, double stiffness)
 {
     const size_t n = record->n;
-    const double way = way_of(record), held = log(stiffness), free_rows = (double)(n - UNKNOWNS + (stiffness > 0));
+    const double way = way_of(record), held = log(stiffness);
     double most = 1;                /* friction may be in percent, or a stress */
     for (size_t i = 0; i < n; i++)
         most = fmax(most, fabs(record->mu[i]));
     const ss_range of_stiffness = stiffness > 0 ? (ss_range){ held, held }
         : (ss_range){ log(1e-5 / way), log(1e4 * most / way) };
-    const ss_range range[UNKNOWNS] = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), log(most) }, { -1000, 1.5 },
-        { log(0.01 / (way * way)), log(1e9 / (way * way)) }, of_stiffness };
-    double line = NAN, logarithms = NAN, *room = malloc(n * (1 + UNKNOWNS) * sizeof *room);
-    law both[SS_STEP_LAWS] = { { 0 } };
-    ss_status st = room != NULL ? SS_OK : SS_ENOMEM;
+    const loaded empty = { .free_rows = (double)(n - UNKNOWNS + (stiffness > 0)), .line = NAN, .logarithms = NAN,
+        .range = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), log(most) }, { -1000, 1.5 },
+                   { log(0.01 / (way * way)), log(1e9 / (way * way)) }, of_stiffness } };
+    loaded *s = *out = malloc(sizeof *s);
+    if (s == NULL)
+        return SS_ENOMEM;
+    *s = empty;
+    s->room = malloc(n * (1 + UNKNOWNS) * sizeof *s->room);
+    ss_status st = s->room != NULL ? SS_OK : SS_ENOMEM;
     for (int k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
-        st = make_room(&both[k], record, k == SS_STEP_SLIP, range);
+        st = make_room(&s->law[k], record, k == SS_STEP_SLIP, s->range);
         if (st == SS_OK)
-            st = begin(&both[k], stiffness);
+            st = begin(&s->law[k], stiffness);
     }
     if (st == SS_OK)
-        st = fit_both(both, free_rows, room);
-    if (st == SS_OK)
-        st = fit_line(both, room, &line, &logarithms);
-    for (int k = 0; st == SS_OK && k < SS_STEP_LAWS; k++, model += n) {
-        law *l = &both[k];
+        st = fit_both(&s, 1);
+    for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
+        if (isfinite(s->law[k].squares))
+            st = settle(&s->law[k], s->free_rows);
+        if (st == SS_OK)
+            st = blur_all(&s, 1, k);
+    }
+    return st;
+}
+
+ss_status
+ss_loaded_report(loaded *s, ss_step_law out[SS_STEP_LAWS], double *model)
+{
+    const track *record = s->law->record;
+    const size_t n = record->n;
+    ss_status st = SS_OK;
+    for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++, model += n) {
+        law *l = &s->law[k];
         const ss_value none = { NAN, NAN };
         out[k] = (ss_step_law){ NAN, NAN, none, none, none, none, none, NAN, model };
         if (isinf(l->squares)) {
@@ -502,17 +693,30 @@ ss_loaded_fit(ss_step_law out[SS_STEP_LAWS], double *model, const track *record,
                 model[i] = NAN;
             continue;
         }
-        st = conclude(&out[k], l, free_rows, room);
-        if (st == SS_OK)
-            st = leave(l, l->u, room, NULL);
+        report(&out[k], l, l->u, l->covariance, noise_of(s, k));
+        if (!isnan(l->rival[0])) {              /* errors reach as far as numbers that do as well */
+            reach(&out[k].direct_effect, l->other.direct_effect);
+            reach(&out[k].evolution_effect, l->other.evolution_effect);
+            reach(&out[k].critical_slip_distance, l->other.critical_slip_distance);
+            reach(&out[k].stiffness, l->other.stiffness);
+            reach(&out[k].drift, l->other.drift);
+        }
+        st = leave(l, l->u, s->room, NULL);
         for (size_t i = 0; i < n; i++)
-            model[i] = record->mu[i] - room[i];
-        out[k].log_likelihood = -0.5 * (logarithms + (double)n * (log(2 * acos(-1) * l->squares / (double)n) + 1));
-        out[k].gain = 0.5 * (double)n * log(line / l->squares);
+            model[i] = record->mu[i] - s->room[i];
+        out[k].log_likelihood = -0.5 * (s->logarithms + (double)n * (log(2 * acos(-1) * l->squares / (double)n) + 1));
+        out[k].gain = 0.5 * (double)n * log(s->line / l->squares);
         out[k].noise = sqrt(l->squares / (double)n);
     }
-    free(room);
-    for (int k = 0; k < SS_STEP_LAWS; k++)
-        free(both[k].g);
     return st;
+}
+
+void
+ss_loaded_free(loaded *s)
+{
+    for (int k = 0; s != NULL && k < SS_STEP_LAWS; k++)
+        free(s->law[k].g);
+    if (s != NULL)
+        free(s->room);
+    free(s);
 }

@@ -24,8 +24,15 @@ typedef struct track {
     double blur;                /* standard error of where the load point is then [m] */
 } track;
 
-/* Fit both laws under one noise.  stiffness [1/m]; 0: it is found.  model[n] of one, then the other, becomes their
- * friction; numbers of a law that has no fit are NaN.  SS_ENOMEM. */
-ss_status ss_loaded_fit(ss_step_law out[SS_STEP_LAWS], double *model, const track *record, double stiffness);
+typedef struct loaded loaded;
+
+/* Fit both laws under one noise to a record, which the caller keeps.  stiffness [1/m]; 0: it is found.  *out is to be
+ * freed even after SS_ENOMEM. */
+ss_status ss_loaded_new(loaded **out, const track *record, double stiffness);
+/* Fit them anew to all of these steps, with one a, b, Dc and stiffness.  SS_ENOMEM. */
+ss_status ss_loaded_share(loaded *const step[], size_t n);
+/* model[n] of one, then the other law becomes their friction; numbers of a law that has no fit are NaN. */
+ss_status ss_loaded_report(loaded *step, ss_step_law out[SS_STEP_LAWS], double *model);
+void ss_loaded_free(loaded *step);
 
 #endif

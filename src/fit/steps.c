@@ -28,7 +28,7 @@
 
 enum { FEWEST = 4, MOST = 4096, CLOSE = 1024 };     /* rows of a line, of a step, and behind a corner: no means */
 enum { BETWEEN = 4 };           /* parts of the way from one row to the next, where it bends */
-enum { ROOM = 8 };              /* columns of a step: time, friction, two paths, two laws along either */
+enum { ROOM = 6 };              /* columns of a step: time, friction, two paths, two laws */
 #define CHANGE 0.2              /* the least relative change of speed */
 #define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
 #define NOISY 9                 /* times the noise: mean square off a link that noise explains */
@@ -542,48 +542,54 @@ forget(ss_value *v)
         *v = (ss_value){ NAN, NAN };
 }
 
-/* Fit both laws to a track; model: room for their friction; *likely becomes the larger log likelihood. */
+/* Fit a step along the first track, or the other one if that is likelier.  Tracks whose squares of differences are
+ * less than `same` are one. */
 static ss_status
-fit_laws(ss_step_law law[SS_STEP_LAWS], double *model, const track *r, double stiffness, double *likely)
+fit_step(ss_step *s, loaded **fit, const track r[2], double same, double stiffness)
 {
-    *likely = -INFINITY;
-    ss_status st = ss_loaded_fit(law, model, r, stiffness);
-    for (ss_step_law *l = law; st == SS_OK && l < law + SS_STEP_LAWS; l++) {
+    double apart = 0, likely[2] = { -INFINITY, -INFINITY };
+    loaded *of[2] = { NULL, NULL };
+    ss_status st = SS_OK;
+    for (size_t i = 0; i < r->n; i++)
+        apart = fmax(apart, fabs(r[1].load[i] - r[0].load[i]));
+    for (int k = 0; st == SS_OK && k <= (apart * apart > same); k++) {
+        st = ss_loaded_new(&of[k], &r[k], stiffness);
+        if (st == SS_OK)
+            st = ss_loaded_report(of[k], s->law, s->t + 4 * r->n);
+        for (int i = 0; i < SS_STEP_LAWS; i++)
+            likely[k] = fmax(likely[k], s->law[i].log_likelihood);
+    }
+    const int best = likely[1] > likely[0];
+    s->path = r[best].load;
+    *fit = of[best];
+    ss_loaded_free(of[1 - best]);
+    return st;
+}
+
+/* By how much slip is likelier than aging. */
+static double
+slip_ahead(const ss_step *s)
+{
+    return s->law[SS_STEP_SLIP].log_likelihood - s->law[SS_STEP_AGING].log_likelihood;
+}
+
+/* Say which law a step, or all of them, shows.  ahead: see above. */
+static void
+judge(ss_step *s, double ahead, double stiffness)
+{
+    for (ss_step_law *l = s->law; l < s->law + SS_STEP_LAWS; l++) {
         forget(&l->direct_effect);
         forget(&l->critical_slip_distance);
         forget(&l->stiffness);
         if (stiffness > 0)
             l->stiffness = (ss_value){ stiffness, 0 };
-        *likely = fmax(*likely, l->log_likelihood);
     }
-    return st;
-}
-
-/* Fit a step along the first track, or the other one if that is likelier, and say which law it is.  Tracks whose
- * squares of differences are less than `same` are one. */
-static ss_status
-judge(ss_step *s, const track r[2], double same, double stiffness)
-{
-    ss_step_law other[SS_STEP_LAWS];
-    double apart = 0, likely[2], *models = s->t + 4 * r->n;
-    ss_status st = fit_laws(s->law, models, r, stiffness, &likely[0]);
-    for (size_t i = 0; i < r->n; i++)
-        apart = fmax(apart, fabs(r[1].load[i] - r[0].load[i]));
-    if (st == SS_OK && apart * apart > same) {
-        st = fit_laws(other, models + 2 * r->n, &r[1], stiffness, &likely[1]);
-        if (st == SS_OK && likely[1] > likely[0]) {
-            memcpy(s->law, other, sizeof other);
-            s->path = r[1].load;
-        }
-    }
-    if (st != SS_OK)
-        return st;
-    double ahead = s->law[SS_STEP_SLIP].log_likelihood - s->law[SS_STEP_AGING].log_likelihood;
     s->best = ahead > 0 || isnan(s->law[SS_STEP_AGING].log_likelihood) ? SS_STEP_SLIP : SS_STEP_AGING;
+    s->ahead = fabs(ahead);
     const ss_step_law *best = &s->law[s->best];
-    s->answer = fabs(ahead) <= DECISIVE ? SS_STEP_UNDECIDED : (ss_step_answer)s->best;
+    s->answer = s->ahead <= DECISIVE ? SS_STEP_UNDECIDED : (ss_step_answer)s->best;
     if (s->answer == SS_STEP_UNDECIDED)
-        ss_print_to(s->why, sizeof s->why, "the likelihoods differ by a factor of e^%.2g only", fabs(ahead));
+        ss_print_to(s->why, sizeof s->why, "the likelihoods differ by a factor of e^%.2g only", s->ahead);
     if (isnan(best->direct_effect.value)) {
         s->answer = SS_STEP_UNDECIDED;
         ss_print_to(s->why, sizeof s->why, "the direct effect is less than its error");
@@ -592,7 +598,6 @@ judge(ss_step *s, const track r[2], double same, double stiffness)
         s->answer = SS_STEP_NONE;
         ss_print_to(s->why, sizeof s->why, "friction is a straight line along the path, but for noise");
     }
-    return SS_OK;
 }
 
 /* --- a record ------------------------------------------------------------------------------ */
@@ -623,32 +628,47 @@ read_columns(double *x, double *mu, const ss_signal *signal, size_t load, size_t
     return SS_OK;
 }
 
-/* Fit each step of a path. */
+/* Fit the steps of a path, each by itself; shared: then all of them by the same numbers. */
 static ss_status
-fit_steps(ss_steps *out, const path *p, const double *mu, double stiffness)
+fit_steps(ss_steps *out, const path *p, const double *mu, double stiffness, int shared)
 {
+    track (*record)[2] = calloc(p->lines + 1, sizeof *record);
+    loaded **fit = calloc(p->lines + 1, sizeof *fit);
     out->step = calloc(p->lines + 1, sizeof *out->step);
-    ss_status st = out->step != NULL ? SS_OK : SS_ENOMEM;
+    ss_status st = out->step != NULL && record != NULL && fit != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0, lines; st == SS_OK && i + 1 < p->lines; i += lines - 1) {
         const line *l = &p->line[i];
         int holds = fabs(l[1].speed) < STILL * fabs(l[0].speed) && i + 2 < p->lines;
-        track record[2] = { { 0 } };
         lines = holds ? 3 : 2;
         if (!(l->speed > 0) || (i > 0 && fabs(l->speed) < STILL * fabs(l[-1].speed)))
             continue;
-        ss_step *s = &out->step[out->n++];
-        st = take(s, record, p, mu, i, lines);
+        const size_t k = out->n++;
+        st = take(&out->step[k], record[k], p, mu, i, lines);
         if (st == SS_OK)
-            st = judge(s, record, NOISY * p->noise + p->rounding, stiffness);
-        free(record[0].place);
-        free(record[1].place);
+            st = fit_step(&out->step[k], &fit[k], record[k], NOISY * p->noise + p->rounding, stiffness);
     }
+    if (st == SS_OK && shared)
+        st = ss_loaded_share(fit, out->n);
+    double all = 0;
+    for (size_t k = 0; k < out->n; k++) {
+        ss_step *s = &out->step[k];
+        if (st == SS_OK)
+            st = ss_loaded_report(fit[k], s->law, s->t + 4 * s->n);
+        all += slip_ahead(s);
+        ss_loaded_free(fit[k]);
+        free(record[k][0].place);
+        free(record[k][1].place);
+    }
+    for (size_t k = 0; st == SS_OK && k < out->n; k++)
+        judge(&out->step[k], shared ? all : slip_ahead(&out->step[k]), stiffness);
+    free(fit);
+    free(record);
     return st;
 }
 
 ss_status
 ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t friction, int normal, double stiffness,
-             ss_error *err)
+             int shared, ss_error *err)
 {
     if (out == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
@@ -670,7 +690,7 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
     if (st == SS_OK && n >= 2 * FEWEST)
         st = find_lines(&p);
     if (st == SS_OK)
-        st = fit_steps(made, &p, mu, stiffness);
+        st = fit_steps(made, &p, mu, stiffness, shared);
     if (st == SS_OK && made->n == 0)
         st = ss_fail(err, SS_EDATA, "the speed of column %s has no step behind a steady slide",
                      signal->head->column[load].name);
@@ -706,7 +726,7 @@ write_answer(struct rows *rows, const ss_step *s)
         snprintf(answer, sizeof answer, "%s: %s", s->answer == SS_STEP_NONE ? "none of these" : "cannot tell", s->why);
     else
         snprintf(answer, sizeof answer, "%s is likelier by a factor of e^%s", ss_step_law_names[s->best],
-                 ss_number_rounded(ahead, s->law[s->best].log_likelihood - s->law[1 - s->best].log_likelihood, 2));
+                 ss_number_rounded(ahead, s->ahead, 2));
     ss_rows_whole_word(rows, "answer", answer);
 }
 

@@ -7,7 +7,7 @@
  * as a file of nine digits has them, with a white noise of .1 to 1 %: there speeds change between rows that may be
  * a Dc apart.  A row a kind and law: steps, law named rightly, not told, wrongly, none of these, percentage of the
  * numbers within 1 and 2 errors, of each and of all, how many are beyond 5, and CPU a step and law.
- * usage: cover_steps [RECORDS [SEED]] */
+ * usage: cover_steps [RECORDS [SEED [shared]]]; shared: steps of a record have one a, b, Dc and stiffness */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,7 +80,7 @@ main(int argc, char *argv[])
                     continue;
                 }
                 clock_t from = clock();
-                ss_status st = ss_steps_new(&steps, s, 0, 1, -1, 0, &err);
+                ss_status st = ss_steps_new(&steps, s, 0, 1, -1, 0, argc > 3, &err);
                 cpu += clock() - from;
                 ss_signal_free(s);
                 const size_t expected = kind == FEW ? 2 : 1;

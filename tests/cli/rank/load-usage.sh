@@ -11,6 +11,7 @@ ss-rank --load load --column mu --set mass=1 flat.csv || echo $?
 ss-rank --load load --column mu --set stiffness=-1 flat.csv || echo $?
 ss-rank --load load --column mu flat.csv coulomb || echo $?
 ss-rank --normal-stress p --column mu flat.csv || echo $?
+ss-rank --share --column mu flat.csv || echo $?
 ss-rank --load load --column mu -o none.tsv flat.csv || [ -e none.tsv ] || echo absent
 sed '1s/load (um)/load/' flat.csv > plain.csv
 ss-rank --load load --column mu plain.csv || echo $?
