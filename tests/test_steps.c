@@ -179,8 +179,7 @@ finds_the_truth_of_simulated_rocks(void **state)
     answers("a stress", &r, 11, 1, 0);
 }
 
-/* Three steps that share a, b, Dc and k show them as three times as many rows do: errors are 1/sqrt(3) of those of a
- * step in the middle, and the law is named that each of them cannot tell. */
+/* Three steps that share a, b, Dc and k show them as well as three answers do together, and name one law. */
 static void
 shares_what_steps_have_in_common(void **state)
 {
