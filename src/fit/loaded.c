@@ -510,8 +510,8 @@ mean_of(const joint *j, size_t k, size_t only)
     return sum / weights;
 }
 
-/* Fit a law to all rows, a few steps from what each of the first `starts` says, of which the last is their mean; and
- * on from the best of these.  SS_EDATA: there is no fit. */
+/* Fit a law to all rows, a few steps from what each of the first `starts` says, of which the last is their mean;
+ * and on from the best of these.  SS_EDATA: there is no fit. */
 static ss_status
 fit_joint(joint *j, size_t starts)
 {
@@ -548,7 +548,8 @@ fit_joint(joint *j, size_t starts)
             l->squares += noise * j->residual[row] * j->residual[row];
         const double unit = end.squares / free_rows / noise_of(j->step[i], j->k);
         for (size_t e = 0; e < UNKNOWNS * UNKNOWNS; e++)
-            l->covariance[e] = unit * j->covariance[place_of(i, e / UNKNOWNS) * j->unknowns + place_of(i, e % UNKNOWNS)];
+            l->covariance[e] = unit
+                * j->covariance[place_of(i, e / UNKNOWNS) * j->unknowns + place_of(i, e % UNKNOWNS)];
         for (size_t e = 0; e < UNKNOWNS; e++)
             l->u[e] = j->best[place_of(i, e)];
     }
@@ -704,9 +705,10 @@ ss_loaded_report(loaded *s, ss_step_law out[SS_STEP_LAWS], double *model)
         st = leave(l, l->u, s->room, NULL);
         for (size_t i = 0; i < n; i++)
             model[i] = record->mu[i] - s->room[i];
-        out[k].log_likelihood = -0.5 * (s->logarithms + (double)n * (log(2 * acos(-1) * l->squares / (double)n) + 1));
+        const double squares = l->squares / (double)n;
+        out[k].log_likelihood = -0.5 * (s->logarithms + (double)n * (log(2 * acos(-1) * squares) + 1));
         out[k].gain = 0.5 * (double)n * log(s->line / l->squares);
-        out[k].noise = sqrt(l->squares / (double)n);
+        out[k].noise = sqrt(squares);
     }
     return st;
 }
