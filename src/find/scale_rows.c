@@ -235,8 +235,10 @@ fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
     }
     if (st == SS_OK && known == NULL)
         st = add_peaks(r, source, index, all);
-    if (st != SS_OK)
+    if (st != SS_OK) {
+        free(r->peak);
         return st;
+    }
     if (known != NULL) {
         r->rms = known->rms / noises->unit;
         r->top = most(r->top, known->top / noises->unit);
