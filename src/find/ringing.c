@@ -228,13 +228,16 @@ ss_ringing_places(search *s)
     const ss_scale *scale = &s->map->scale[index];
     const double reach = ROW_REACH * scale->a;
     double least = SIGMAS * s->part->known->rms / (s->opts->norm == SS_NORM_L1 ? sqrt(scale->a) : 1);
+    int wanted = 0;
+    double top = 0;
     double *level = malloc((scale->n + 1) * sizeof *level);
     ss_span *span = s->at.span = malloc((scale->n + 1) * sizeof *span);
     ss_status st = level != NULL && span != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
         st = ss_map_read(s->map, &(ss_map_part){ index, 0, scale->n, NULL, level }, 1, NULL);
     for (size_t k = 0; st == SS_OK && k < scale->n; k++)
-        least = fmax(least, level[k] * pow(10, -SPAN / 20));
+        top = fmax(top, level[k]);
+    least = fmax(least, top * pow(10, -SPAN / 20));
     for (size_t k = 0; st == SS_OK && k < scale->n; k++) {
         if (!(level[k] > least))
             continue;
@@ -242,9 +245,12 @@ ss_ringing_places(search *s)
         if (s->at.n == 0 || from > span[s->at.n - 1].to)
             span[s->at.n++].from = from;
         span[s->at.n - 1].to = to;
+        wanted |= level[k] > top * pow(10, -RANGE / 20) && k > 0 && k + 1 < scale->n
+            && level[k] > level[k - 1] && level[k] >= level[k + 1]
+            && ss_scale_b(scale, k) > s->part->from && ss_scale_b(scale, k) <= s->part->until;
     }
     free(level);
-    return st;
+    return st == SS_OK && !wanted && s->at.n > 0 ? SS_ESCALE : st;
 }
 
 /* --- ringing behind transitions that are known ----------------------------------------------- */

@@ -101,6 +101,7 @@ typedef struct stream_part {
     map_plans *plans;           /* for parts of the same length; may be NULL */
     int is_contact;             /* what rings in the longer one is the contact's */
     const stream_lesson *known; /* only what rings so is sought, where it swells; NULL: nothing is known */
+    double from, until;         /* [s] from the first sample: what swells at other times only is not wanted */
     stream_lesson *learnt;      /* to be filled in; may be NULL */
 } stream_part;
 /* As ss_features_find. */
@@ -117,7 +118,8 @@ void ss_loadings_forget(ss_features *out);
 /* Make room for n transitions of which nothing is known, in place of those before. */
 ss_status ss_transitions_new(ss_features *out, size_t n);
 
-/* Find where the oscillation that is known swells above the noise, into s->at.  The search frees it. */
+/* Find where the oscillation that is known swells above the noise, into s->at, which the search frees.
+ * SS_ESCALE: it does, but at no time that is wanted. */
 ss_status ss_ringing_places(search *s);
 
 /* Find the transitions, in time order, and the frequency and damping of their ringing, if they ring, into

@@ -192,6 +192,8 @@ find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features 
     *start = now->head->start += (double)(s->seen - n) / s->head->rate;
     for (size_t c = 0; c < s->head->n_columns; c++)
         memcpy(now->values + c * n, s->x[c] + s->n - n, n * sizeof *now->values);
+    s->known.from = s->written - *start;
+    s->known.until = (double)(n - s->behind) / s->head->rate;
     st = ss_features_of_part(f, now, s->column, &s->opts, part, err);
     ss_signal_free(now);
     if (st == SS_OK)
@@ -199,7 +201,7 @@ find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features 
     return st;
 }
 
-/* Is there nothing of what is known in these features of the last n samples, or more? */
+/* Is what is known not enough for these features of the last n samples? */
 static int
 is_new(const ss_features_stream *s, const ss_features *f, size_t n)
 {
@@ -207,7 +209,7 @@ is_new(const ss_features_stream *s, const ss_features *f, size_t n)
     for (size_t i = 0; i < n; i++)
         if (fabs(x[i]) > LOUDER * s->lesson.largest)
             return 1;
-    return f->n == 0;
+    return f != NULL && f->n == 0;
 }
 
 /* Write the transitions that are known now, or all at the end. */
@@ -223,7 +225,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     size_t n = whole || s->part > all ? all : s->part;
     const stream_part afresh = { .plans = &s->plans, .learnt = whole ? &s->lesson : NULL };
     ss_status st = find_last(s, n, whole ? &afresh : &s->known, &f, &start, err);
-    if (st == SS_OK && !whole && s->known.known != NULL && is_new(s, f, n)) {
+    if ((st == SS_OK || st == SS_ESCALE) && !whole && s->known.known != NULL && is_new(s, f, n)) {
         stream_part part = s->known;
         part.known = NULL;
         s->is_changed = 1;
@@ -234,7 +236,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     if (st == SS_OK && n < all && s->is_still && count_due(s, f, 0, start, until) > 0)
         st = find_last(s, all, &afresh, &f, &start, err);
     if (st == SS_ESCALE && !last)
-        return SS_OK;                           /* too short as yet */
+        return SS_OK;                           /* too short as yet, or nothing is due */
     if (st != SS_OK)
         return st;
     if (!s->begun && (last || count_due(s, f, 0, start, until) > 0))
