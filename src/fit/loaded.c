@@ -28,6 +28,10 @@ enum { STARTS = 4, NEAR = 12 };    /* NEAR: rows about a change that are not thi
 #define APART 0.1               /* of an unknown, that makes two fits of one */
 #define AS_LIKELY 5             /* difference of logarithms of likelihood that does not tell two fits */
 
+typedef struct start {
+    double u[UNKNOWNS], squares, ratio;
+} start;
+
 typedef struct law {
     const track *record;
     int is_slip;
@@ -36,6 +40,7 @@ typedef struct law {
     ss_step_law other;                          /* the numbers of these, if rival[0] is none */
     double squares;                             /* that u leaves of whitened rows; infinite: there is no fit */
     double covariance[UNKNOWNS * UNKNOWNS];
+    start grid[STARTS];         /* the best of the grid */
     double *g, *moved;          /* friction of the unknowns, and if one is a little larger [n] */
     double *rows;               /* [n][UNKNOWNS + 1] */
     const ss_range *range;      /* of the unknowns */
@@ -108,10 +113,6 @@ whitened(const double *u, double *residual, double *slopes, void *user)
 
 /* --- where a fit starts -------------------------------------------------------------------- */
 
-typedef struct start {
-    double u[UNKNOWNS], squares, ratio;
-} start;
-
 /* The level, the drift and a that are the best beside this friction over a; a > 0 may be given. */
 static void
 solve(start *s, const track *r, const double *g, double a)
@@ -154,31 +155,40 @@ keep(start best[STARTS], const start *s)
         best[at] = *s;
 }
 
-/* Try b/a, K = k Dc/a and the angular frequency V sqrt(k/(a Dc)) at which friction may ring; the ringing needs its
- * steps. */
 static ss_status
-search(start best[STARTS], law *l, double stiffness)
+try_start(start best[STARTS], law *l, double ratio, double critical, double ring, double over, double stiffness)
+{
+    start s = { .ratio = ratio, .u = { [CRITICAL] = critical, [RING] = ring, [STIFFNESS] = log(over) } };
+    ss_status st = run(l, l->g, s.u, 0, 0, COARSE);
+    if (st == SS_OK) {
+        solve(&s, l->record, l->g, stiffness / over);
+        keep(best, &s);
+    }
+    return st == SS_EDATA ? SS_OK : st;
+}
+
+/* Try b/a, K = k Dc/a and the angular frequency V sqrt(k/(a Dc)) at which friction may ring, which needs its steps;
+ * or what was best along another path. */
+static ss_status
+search(start best[STARTS], law *l, const law *other, double stiffness)
 {
     static const double ratio[] = { 0, 0.4, 0.7, 0.9, 1.05, 1.2, 1.5, 2 };
     const double way = way_of(l->record);
+    ss_status st = SS_OK;
     for (int i = 0; i < STARTS; i++)
         best[i] = (start){ .ratio = NAN, .squares = INFINITY };
-    for (size_t j = 0; j < sizeof ratio / sizeof *ratio; j++)
+    for (const start *s = other != NULL ? other->grid : NULL; s != NULL && s < other->grid + STARTS; s++)
+        if (st == SS_OK && isfinite(s->squares))
+            st = try_start(best, l, s->ratio, s->u[CRITICAL], s->u[RING], exp(s->u[STIFFNESS] - s->u[DIRECT]),
+                           stiffness);
+    for (size_t j = 0; other == NULL && j < sizeof ratio / sizeof *ratio; j++)
         for (double K = 0.03; K < 100; K *= 3.5)
-            for (double w = 3 / way; w < 2000 / way; w *= 1.5) {
+            for (double w = 3 / way; w < 2000 / way && st == SS_OK; w *= 1.5) {
                 const double Dc = sqrt(K) / w, over = sqrt(K) * w;
-                start s = { .ratio = ratio[j], .u = { [CRITICAL] = (ratio[j] - 1) / K, [RING] = 2 * log(w),
-                            [STIFFNESS] = log(over) } };
-                if (!(Dc > way / 300 && Dc < way && K > ratio[j] - 1 && over * way < STIFF))
-                    continue;
-                ss_status st = run(l, l->g, s.u, 0, 0, COARSE);
-                if (st == SS_OK) {
-                    solve(&s, l->record, l->g, stiffness / over);
-                    keep(best, &s);
-                } else if (st != SS_EDATA)
-                    return st;
+                if (Dc > way / 300 && Dc < way && K > ratio[j] - 1 && over * way < STIFF)
+                    st = try_start(best, l, ratio[j], (ratio[j] - 1) / K, 2 * log(w), over, stiffness);
             }
-    return SS_OK;
+    return st;
 }
 
 /* --- fits ---------------------------------------------------------------------------------- */
@@ -256,9 +266,9 @@ are_apart(const double u[UNKNOWNS], const double v[UNKNOWNS])
     return most > APART;
 }
 
-/* Find where the fit to all rows starts, and a rival. */
+/* Find where the fit to all rows starts, and a rival.  *unlikely becomes -2 times its logarithm of likelihood. */
 static ss_status
-begin(law *all, double stiffness)
+begin(law *all, const law *other, double stiffness, double *unlikely)
 {
     const ss_range *range = all->range;
     track few;
@@ -269,7 +279,8 @@ begin(law *all, double stiffness)
     if (st == SS_OK)
         st = make_room(&l, &few, all->is_slip, range);
     if (st == SS_OK)
-        st = search(s, &l, stiffness);
+        st = search(all->grid, &l, other, stiffness);
+    memcpy(s, all->grid, sizeof s);
     for (int i = 0; st == SS_OK && i < STARTS && isfinite(s[i].squares); i++) {
         for (int k = 0; k < UNKNOWNS; k++)
             s[i].u[k] = fmax(range[k].from, fmin(s[i].u[k], range[k].to));
@@ -286,6 +297,7 @@ begin(law *all, double stiffness)
             second = squares;
         }
     }
+    *unlikely = (double)few.n * log(all->squares);
     if (second > all->squares * exp(2 * AS_LIKELY / (double)few.n))
         all->rival[0] = NAN;
     free(few.t);
@@ -445,6 +457,7 @@ struct loaded {
     law law[SS_STEP_LAWS];
     ss_range range[UNKNOWNS];
     double free_rows, line, logarithms;         /* see fit_line */
+    double unlikely;                            /* of the better law's start */
     double *room;
 };
 
@@ -645,7 +658,7 @@ ss_loaded_share(loaded *const step[], size_t n)
 }
 
 ss_status
-ss_loaded_new(loaded **out, const track *record, double stiffness)
+ss_loaded_new(loaded **out, const track *record, const loaded *other, double stiffness)
 {
     const size_t n = record->n;
     const double way = way_of(record), held = log(stiffness);
@@ -654,7 +667,7 @@ ss_loaded_new(loaded **out, const track *record, double stiffness)
         most = fmax(most, fabs(record->mu[i]));
     const ss_range of_stiffness = stiffness > 0 ? (ss_range){ held, held }
         : (ss_range){ log(1e-5 / way), log(1e4 * most / way) };
-    const loaded empty = { .free_rows = (double)(n - UNKNOWNS + (stiffness > 0)), .line = NAN, .logarithms = NAN,
+    const loaded empty = { .free_rows = (double)(n - UNKNOWNS + (stiffness > 0)), .line = NAN, .logarithms = NAN, .unlikely = INFINITY,
         .range = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), log(most) }, { -1000, 1.5 },
                    { log(0.01 / (way * way)), log(1e9 / (way * way)) }, of_stiffness } };
     loaded *s = *out = malloc(sizeof *s);
@@ -662,14 +675,27 @@ ss_loaded_new(loaded **out, const track *record, double stiffness)
         return SS_ENOMEM;
     *s = empty;
     s->room = malloc(n * (1 + UNKNOWNS) * sizeof *s->room);
+    double unlikely = INFINITY;
     ss_status st = s->room != NULL ? SS_OK : SS_ENOMEM;
     for (int k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
         st = make_room(&s->law[k], record, k == SS_STEP_SLIP, s->range);
         if (st == SS_OK)
-            st = begin(&s->law[k], stiffness);
+            st = begin(&s->law[k], other != NULL ? &other->law[k] : NULL, stiffness, &unlikely);
+        s->unlikely = fmin(s->unlikely, unlikely);
     }
-    if (st == SS_OK)
-        st = fit_both(&s, 1);
+    return st;
+}
+
+double
+ss_loaded_unlikely(const loaded *s)
+{
+    return s->unlikely;
+}
+
+ss_status
+ss_loaded_fit(loaded *s)
+{
+    ss_status st = fit_both(&s, 1);
     for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
         if (isfinite(s->law[k].squares))
             st = settle(&s->law[k], s->free_rows);

@@ -26,9 +26,13 @@ typedef struct track {
 
 typedef struct loaded loaded;
 
-/* Fit both laws under one noise to a record, which the caller keeps.  stiffness [1/m]; 0: it is found.  *out is to be
- * freed even after SS_ENOMEM. */
-ss_status ss_loaded_new(loaded **out, const track *record, double stiffness);
+/* Find where the fit of both laws to a record starts, which the caller keeps; other: the same along another path, or
+ * NULL.  stiffness [1/m]; 0: it is found.  *out is to be freed even after SS_ENOMEM. */
+ss_status ss_loaded_new(loaded **out, const track *record, const loaded *other, double stiffness);
+/* How unlikely the start is, in squares of errors. */
+double ss_loaded_unlikely(const loaded *step);
+/* Fit them, under one noise. */
+ss_status ss_loaded_fit(loaded *step);
 /* Fit them anew to all of these steps, with one a, b, Dc and stiffness.  SS_ENOMEM. */
 ss_status ss_loaded_share(loaded *const step[], size_t n);
 /* model[n] of one, then the other law becomes their friction; numbers of a law that has no fit are NaN. */

@@ -35,6 +35,7 @@ enum { ROOM = 6 };              /* columns of a step: time, friction, two paths,
 #define SHORT 0.1               /* a ramp over the lines beside it */
 #define STILL 0.01              /* a hold's speed over that of the lines beside it */
 #define FOLLOWS 10              /* the same, over a straight line, of a law that friction follows */
+#define UNLIKELY 40             /* squares of errors by which a path starts worse that is not fitted */
 #define DECISIVE 5              /* difference of logarithms of likelihood that names a law */
 
 const char *const ss_step_law_names[SS_STEP_LAWS] = { "aging", "slip" };
@@ -552,8 +553,13 @@ fit_step(ss_step *s, loaded **fit, const track r[2], double same, double stiffne
     ss_status st = SS_OK;
     for (size_t i = 0; i < r->n; i++)
         apart = fmax(apart, fabs(r[1].load[i] - r[0].load[i]));
-    for (int k = 0; st == SS_OK && k <= (apart * apart > same); k++) {
-        st = ss_loaded_new(&of[k], &r[k], stiffness);
+    const int paths = 1 + (apart * apart > same);
+    for (int k = 0; st == SS_OK && k < paths; k++)
+        st = ss_loaded_new(&of[k], &r[k], of[0], stiffness);
+    for (int k = 0; st == SS_OK && k < paths; k++) {
+        if (paths > 1 && ss_loaded_unlikely(of[k]) - ss_loaded_unlikely(of[1 - k]) > UNLIKELY)
+            continue;
+        st = ss_loaded_fit(of[k]);
         if (st == SS_OK)
             st = ss_loaded_report(of[k], s->law, s->t + 4 * r->n);
         for (int i = 0; i < SS_STEP_LAWS; i++)
