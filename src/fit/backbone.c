@@ -36,6 +36,7 @@ enum {
                                    block */
 #define SURE .02                 /* error of ln A below which a block alone is not biased */
 #define NEPER 0.11512925464970229       /* a decibel */
+#define MIXED 1.5               /* times what the last block leaves */
 #define FALL .35                /* of ln A in a block, at most */
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
 #define FAINT .01                /* of an amplitude: a line or a blow below is let be */
@@ -647,25 +648,49 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
     return st;
 }
 
-/* Find the decay of the line that is asked for, or else of the strongest; of another if this is none. */
+/* The mean square that all blocks leave. */
+static double
+leaves(const decay *d)
+{
+    double left = 0, n = 0;
+    for (size_t i = 0; i < d->n_blocks; i++) {
+        left += d->block[i].left;
+        n += d->block[i].free;
+    }
+    return left / n;
+}
+
+/* 1: the blocks leave at first what dies out, as another mode does that curves through them follow. */
+static int
+is_mixed(const decay *d)
+{
+    const block *last = &d->block[d->n_blocks - 1];
+    return leaves(d) > MIXED * last->left / last->free;
+}
+
+/* Find the decay of the line that is asked for, or else of the strongest, beside the next one if less than half is
+ * left then; of another if this is none. */
 static ss_status
 find(decay *d, const double *x, size_t n)
 {
     const decay none = *d;
     const double near = 2 * M_PI * d->opts->mode / d->source->rate;
+    static const int other[][2] = { { 0, 1 }, { 1, 0 }, { 2, 0 } };     /* which line, beside which */
     double line[TRIED + 1];
     ss_status st = find_lines(line, x, n, near);
     if (st == SS_OK)
         st = find_at(d, x, n, line[near > 0], near > 0 ? line[0] : 0);
-    for (size_t k = 1; st == SS_OK && near == 0 && no_decay(d) != NULL && k <= TRIED && line[k] > 0; k++) {
-        decay other = none;
-        st = find_at(&other, x, n, line[k], line[0]);
-        if (st == SS_OK && no_decay(&other) == NULL) {
+    for (size_t k = 0; st == SS_OK && near == 0 && k < sizeof other / sizeof *other; k++) {
+        decay with = none;
+        if (!(line[other[k][0]] > 0 && line[other[k][1]] > 0) || (no_decay(d) == NULL && (k > 0 || !is_mixed(d))))
+            continue;
+        st = find_at(&with, x, n, line[other[k][0]], line[other[k][1]]);
+        if (st == SS_OK && no_decay(&with) == NULL && (no_decay(d) != NULL || leaves(&with) < leaves(d) / 2)) {
             decay was = *d;
-            *d = other;
-            other = was;
+            *d = with;
+            with = was;
         }
-        forget(&other);
+        forget(&with);
     }
     d->source->rate /= (double)d->group;
     if (st == SS_OK && d->n_blocks >= FEW

@@ -33,6 +33,7 @@ enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
 #define NEARLY 6.0              /* of BIC: the better one cannot be told */
 #define CHANCE .25              /* probability of such a gain of chi^2: one that contains the better one is a
                                    rival then */
+#define SHOWN 1e-2              /* the same: one that the better one contains is none then */
 #define REJECT 1e-3             /* probability of so large a chi^2 */
 
 const char *const ss_mechanism_names[SS_MECHANISMS + 1] = {
@@ -623,9 +624,11 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     st = sum != NULL ? SS_OK : SS_ENOMEM;
     for (fitted *x = best; st == SS_OK && !is_other && x < f + SS_MECHANISMS; x++) {
         int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY;
-        unsigned is_more = laws[x->kind].contains >> best->kind & 1;
-        if (is_more)
-            is_near &= gsl_cdf_chisq_Q(best->squares - x->squares, best->free - x->free) < CHANCE;
+        double gain = best->squares - x->squares, more = best->free - x->free;
+        if (laws[x->kind].contains >> best->kind & 1)
+            is_near &= gsl_cdf_chisq_Q(gain, more) < CHANCE;
+        else if (laws[best->kind].contains >> x->kind & 1)
+            is_near &= gsl_cdf_chisq_Q(-gain, -more) > SHOWN;
         if (x == best || is_near) {
             of.kind = x->kind;
             double weight = exp((best->bic - x->bic) / 2);
