@@ -345,6 +345,61 @@ rows_hold_where_a_joint_begins_to_slip(void **state)
     assert_true((double)within > .8 * (double)rows && rows > 60);
 }
 
+/* Displacement, velocity and acceleration of a slider that sticks soon, at 60 dB: the law's numbers, also the amplitude
+ * of the column at which it slips, d w^order of the stuck rig.  Where it no longer slips it is a linear oscillator, and
+ * rows have its frequency.  That it slips at first is no blow.  Errors count as far as 4. */
+static void
+each_derivative_of_a_slider_has_its_law(void **state)
+{
+    enum { N = 8000 };
+    static const char *const names[] = { "frequency", "damping_ratio", "contact_stiffness_ratio", "friction", "slip_amplitude" };
+    static const char *const units[] = { "m", "m/s", "m/s^2" };
+    static const decay slow[] = {
+        { .w = 20 * PI, .amplitude = 1, .zeta = .006L, .sliders = 1, .kappa = { .35L }, .d = { .45L } },
+        { .w = 20 * PI, .amplitude = 1, .zeta = .004L, .sliders = 1, .kappa = { .2L }, .d = { .65L } } };
+    ss_backbone_opts opts;
+    size_t linear = 0;
+    (void)state;
+    ss_backbone_opts_init(&opts, sizeof opts);
+    opts.mass = 1;
+    seed = 41;
+    for (size_t i = 0; i < sizeof slow / sizeof *slow; i++)
+        for (int order = 0; order < 3; order++) {
+            const double w = 20 * PI, kappa = (double)slow[i].kappa[0], d = (double)slow[i].d[0], stuck = w * sqrt(1 + kappa);
+            const double truth[] = { 10, (double)slow[i].zeta, kappa, kappa * w * w * d, d * pow(stuck, order) };
+            ss_signal *signal = new_signal(N, 400, 100, "y", units[order]);
+            double *y = signal->values, most = 0, worst = 0;
+            size_t turns;
+            free(decay_run(&slow[i], 1 / 400.L, N, order == 0 ? y : NULL, order == 1 ? y : NULL, order == 2 ? y : NULL, &turns));
+            for (int k = 0; k < N; k++)
+                most = fmax(most, fabs(y[k]));
+            for (int k = 0; k < N; k++)
+                y[k] += .001 * most * gauss();
+            ss_backbone *b = find(signal, &opts);
+            if (b->n_mechanisms != 1 || b->mechanism[0] != SS_JENKINS)
+                fail_msg("%s: %zu mechanisms, %s", units[order], b->n_mechanisms, b->start);
+            assert_string_equal(b->start, "the largest amplitude");
+            for (size_t k = 0; k < sizeof truth / sizeof *truth; k++) {
+                double error = 0, value = number(b, names[k], &error);
+                print_message("%s %g +- %g, truth %g\n", names[k], value, error, truth[k]);
+                assert_true(fabs(value - truth[k]) <= 4 * error && error < .1 * truth[k]);
+            }
+            for (size_t r = 0; r < b->n; r++) {
+                const ss_backbone_row *row = &b->row[r];
+                double sticks = truth[4] * exp(-truth[1] * w * row->periods / row->frequency.value / 2);    /* in all of it */
+                if (row->amplitude > .98 * sticks)
+                    continue;
+                linear++;
+                worst = fmax(worst, fabs(row->frequency.value - stuck / (2 * PI)) / row->frequency.error);
+            }
+            print_message("the farthest row is %.1f errors off\n", worst);
+            assert_true(worst < 4);
+            ss_backbone_free(b);
+            ss_signal_free(signal);
+        }
+    assert_true(linear > 100);
+}
+
 static void
 what_is_no_decay_has_no_rows(void **state)
 {
@@ -626,7 +681,8 @@ main(void)
         cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
         cmocka_unit_test(a_mode_of_near_frequency_stands_beside),
         cmocka_unit_test(numbers_of_a_law_know_what_the_record_knows), cmocka_unit_test(many_points_a_period_leave_the_amplitude),
-        cmocka_unit_test(sliders_that_stop_soon_are_known), cmocka_unit_test(rows_hold_where_a_joint_begins_to_slip), cmocka_unit_test(an_offset_is_no_growth),
+        cmocka_unit_test(sliders_that_stop_soon_are_known), cmocka_unit_test(rows_hold_where_a_joint_begins_to_slip),
+        cmocka_unit_test(each_derivative_of_a_slider_has_its_law), cmocka_unit_test(an_offset_is_no_growth),
         cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),
         cmocka_unit_test(levels_give_the_damping), cmocka_unit_test(long_blocks_and_two_modes),
         cmocka_unit_test(velocity_and_acceleration_have_the_frequency),

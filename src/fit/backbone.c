@@ -41,6 +41,8 @@ enum {
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
 #define FAINT .01                /* of an amplitude: a line or a blow below is let be */
 #define OUTSTANDING 60.0        /* times the median power: a line, as noise never is */
+#define LASTING 20.0            /* times that of the latter half of what it is seen in */
+#define DIES .04                /* damping ratio of what is no line, but part of a blow or of a slip */
 
 typedef struct decay {
     const ss_backbone_opts *opts;
@@ -52,6 +54,7 @@ typedef struct decay {
     lines beside;
     block *block;
     size_t n_blocks, room;
+    int cuts_blow;              /* 1: a first block that leaves far more than the next is left out */
     const char *start, *stop;
     decay_source *source;
 } decay;
@@ -387,14 +390,15 @@ settle(decay *d)
 
 /* --- lines beside it ------------------------------------------------------------------------- */
 
-/* What the smooth curve leaves of the samples of all blocks, to be freed; NULL: no memory. */
+/* What the smooth curve leaves of the samples of all blocks but the first, which a blow or a slip may be in, to be
+ * freed; NULL: no memory. */
 static double *
 leave(const decay *d, size_t *n)
 {
-    size_t first = d->block->first;
+    size_t first = d->block[1].first;
     *n = d->block[d->n_blocks - 1].end - first;
     double *left = malloc((*n + 1) * sizeof *left);
-    for (size_t i = 0; left != NULL && i < d->n_blocks; i++)
+    for (size_t i = 1; left != NULL && i < d->n_blocks; i++)
         ss_block_leave(&d->block[i], d->x, left + d->block[i].first - first);
     return left;
 }
@@ -470,20 +474,25 @@ find_beside(const decay *d, const double *left, size_t n, double *ratio, double 
     return SS_OK;
 }
 
-/* Add to those beside it the strongest line, if it stands out, of all that is left or of what is left at first. */
+/* Add to those beside it the strongest line, if it stands out, of all that is left or of what is left at first, and
+ * also of the latter half of that: what does not, as of a slip, is no line. */
 static ss_status
 add_line(decay *d, int *found)
 {
     size_t n;
-    double best = OUTSTANDING, ratio, w, *left = leave(d, &n);
+    double best = OUTSTANDING, ratio, w, last, near, *left = leave(d, &n);
     ss_status st = left != NULL ? SS_OK : SS_ENOMEM;
     *found = 0;
     for (; st == SS_OK && (double)n * d->w > PARTS * 2 * M_PI; n /= 2) {
         st = find_beside(d, left, n, &ratio, &w);
-        if (st == SS_OK && ratio > best) {
+        if (st != SS_OK || ratio <= best)
+            continue;
+        st = find_beside(d, left + n / 2, n - n / 2, &last, &near);
+        double s = line_decay(&w, left, n);
+        if (st == SS_OK && last > LASTING && fabs(near - w) < 4 * M_PI / (double)n && s < DIES * w) {
             best = ratio;
             *found = 1;
-            d->beside.s[d->beside.n] = line_decay(&w, left, n);
+            d->beside.s[d->beside.n] = s;
             d->beside.w[d->beside.n] = w;
         }
     }
@@ -627,7 +636,7 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
     for (int more = d->w > 0, most = LINES_MAX; st == SS_OK && more;) {
         more = 0;
         st = follow(d);
-        while (st == SS_OK && is_hit(d)) {
+        while (st == SS_OK && d->cuts_blow && is_hit(d)) {
             d->first += (size_t)ceil(M_PI / d->w);
             d->start = "a blow before it";
             st = follow(d);
@@ -728,6 +737,40 @@ derivative_of(const ss_column *c)
     return -1;
 }
 
+/* Follow the decay and name its mechanism.  What the first block leaves is a blow, and the decay begins behind it,
+ * unless a slider explains it. */
+static ss_status
+find_and_name(ss_backbone **out, const double *x, size_t n, const ss_backbone_opts *opts, decay_source source,
+              int cuts_blow)
+{
+    decay_source now = source;
+    decay d = { .opts = opts, .cuts_blow = cuts_blow, .start = "the largest amplitude",
+                .stop = "end of the record", .source = &now };
+    ss_backbone *b = calloc(1, sizeof *b);
+    ss_status st = b == NULL ? SS_ENOMEM : source.has_phase ? find_scaled(&d, x, n) : find_levels(&d, x, n);
+    if (st == SS_OK) {
+        b->why = no_decay(&d);
+        b->start = d.start;
+        b->stop = d.stop;
+        b->chi2_dof = NAN;
+        b->noise = d.n_blocks > 0 ? sqrt(d.block[d.n_blocks - 1].noise * (double)d.group) * now.unit : NAN;
+    }
+    if (st == SS_OK && b->why == NULL)
+        st = (b->row = calloc(d.n_blocks, sizeof *b->row)) != NULL ? SS_OK : SS_ENOMEM;
+    now.beside = d.beside;
+    if (st == SS_OK && b->why == NULL)
+        st = ss_mechanism_find(b, d.block, d.n_blocks, &now);
+    int is_cut = st == SS_OK && !cuts_blow && source.has_phase && (b->why != NULL || is_hit(&d));
+    if (st == SS_OK && b->why == NULL && !is_cut)
+        make_rows(b, &d);
+    forget(&d);
+    if (st == SS_OK && !is_cut)
+        *out = b;
+    else
+        ss_backbone_free(b);
+    return is_cut ? find_and_name(out, x, n, opts, source, 1) : st;
+}
+
 ss_status
 ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, const ss_backbone_opts *opts,
                  ss_error *err)
@@ -754,31 +797,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EDATA, "column %s has a value that is not finite", of->name);
-    decay d = { .opts = &own, .start = "the largest amplitude", .stop = "end of the record", .source = &source };
-    ss_backbone *b = calloc(1, sizeof *b);
-    if (b == NULL)
-        st = SS_ENOMEM;
-    else
-        st = source.has_phase ? find_scaled(&d, x, signal->n) : find_levels(&d, x, signal->n);
-    if (st == SS_OK) {
-        b->why = no_decay(&d);
-        b->start = d.start;
-        b->stop = d.stop;
-        b->chi2_dof = NAN;
-        b->noise = d.n_blocks > 0 ? sqrt(d.block[d.n_blocks - 1].noise * (double)d.group) * source.unit : NAN;
-    }
-    if (st == SS_OK && b->why == NULL)
-        st = (b->row = calloc(d.n_blocks, sizeof *b->row)) != NULL ? SS_OK : SS_ENOMEM;
-    source.beside = d.beside;
-    if (st == SS_OK && b->why == NULL)
-        st = ss_mechanism_find(b, d.block, d.n_blocks, &source);
-    if (st == SS_OK && b->why == NULL)
-        make_rows(b, &d);
-    forget(&d);
-    if (st == SS_OK)
-        *out = b;
-    else
-        ss_backbone_free(b);
+    st = find_and_name(out, x, signal->n, &own, source, 0);
     return st == SS_OK ? SS_OK : ss_fail_memory(err, NULL);
 }
 

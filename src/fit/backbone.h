@@ -104,7 +104,8 @@ typedef struct decay_source {
 
 /* 0, 1, 2 for a unit of x, x' or x'' in SI units; -1: it is none. */
 int ss_motion_order(const char *unit);
-/* Name the mechanism that n blocks show, drawn smooth: mechanism, chi2_dof and number of *out. */
+/* Name the mechanism that n blocks show, drawn smooth: mechanism, chi2_dof and number of *out.  What a block leaves
+ * becomes what a slider's exact motion, if it is named, does not explain. */
 ss_status ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *source);
 
 #endif

@@ -113,14 +113,14 @@ ss_backbone_scene(ss_scene *scene, const ss_backbone *b, const ss_signal *signal
         return ss_fail(err, SS_EDATA, "no scene: no model has %s friction", ss_mechanism_names[b->mechanism[0]]);
     if (order < 0 || !(mass > 0) || number_of(b, "frequency") == 0)
         return ss_fail(err, SS_EDATA, "no scene: it needs a column in m, m/s or m/s^2, and a mass > 0");
-    double w = 2 * M_PI * number_of(b, "frequency"), metres = pow(w, -order), stiffness = mass * w * w;
-    double slip = number_of(b, "slip_amplitude") * metres;
+    double w = 2 * M_PI * number_of(b, "frequency"), stiffness = mass * w * w;
     double contact = stiffness * number_of(b, "contact_stiffness_ratio");
+    double slip = number_of(b, "slip_amplitude") * pow((stiffness + contact) / mass, -order / 2.);
     *scene = (ss_scene){
         .model = ss_model_named(contact > 0 ? "compliant" : "coulomb"), .mass = mass, .stiffness = stiffness,
         .damping = 2 * mass * w * number_of(b, "damping_ratio"),
-        .v0 = b->row[0].amplitude * metres * 2 * M_PI * b->row[0].frequency.value,
-        .friction = contact > 0 ? contact * slip : stiffness * number_of(b, "friction_over_stiffness") * metres,
+        .v0 = b->row[0].amplitude * pow(2 * M_PI * b->row[0].frequency.value, 1 - order),
+        .friction = contact > 0 ? contact * slip : stiffness * number_of(b, "friction_over_stiffness") * pow(w, -order),
         .duration = b->row[b->n - 1].t - b->row[0].t, .rate = signal->head->rate };
     if (contact > 0) {
         ss_status st = ss_scene_set(scene, "contact_stiffness", contact, err);

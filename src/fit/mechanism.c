@@ -1,9 +1,10 @@
 /* mechanism.c -- which friction makes a decay, and its parameters.
  *
  * A mechanism says how the losses s and the frequency w depend on the amplitude A.  The fundamental z of the
- * motion then has z'' + 2 s(A) z' + w(A)^2 z = 0, so that its amplitude falls by s / (1 + A w_A / (2 w)), which is
- * the damping that rows show, and its phase grows by sqrt(w^2 - s^2 - s').  These are integrated through the
- * blocks, and the parameters are fitted to the blocks' amplitudes, phases and rates.
+ * motion then has z'' + 2 s(A) z' + w(A)^2 z = 0, so that its amplitude falls by s / (1 + A w_A / (2 w)), and that
+ * of z' or z'' by s / (1 - A w_A / (2 w)) or s / (1 - 3 A w_A / (2 w)), of A in the column's unit: that is the
+ * damping which rows show.  Its phase grows by sqrt(w^2 - s^2 - s').  These are integrated through the blocks, and
+ * the parameters are fitted to the blocks' amplitudes, phases and rates.
  *
  * All this is good to some percent of s, as the motion is no sine: that is a random walk of ln A and of the phase
  * beside the errors of the blocks, and the filter that knows both makes residuals of variance 1.  If a slider is
@@ -22,9 +23,12 @@
 #include "fit/samples.h"
 
 enum { LN_A, TURN, W, S, C, SHAPE, BEND, RATIO, UNKNOWNS };     /* at the start; w; viscous s; of the mechanism */
-enum { TAKEN = 64, EXACT_MOST = 1 << 15 };      /* samples of the smooth curve to begin from; of an exact motion */
+enum { TAKEN = 64, EXACT_MOST = 1 << 15, NEWTON = 12 };     /* samples of the smooth curve to begin from; of an
+                                                               exact motion; steps */
 /* No mechanisms, but rivals of all; by geometry w changes as A^2, as of a pendulum, and s does not. */
 enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
+#define LEAST_TURN .2           /* of ln A over ln x: A of x'' falls nearly as x grows where k is large */
+#define EXPLAINED .1            /* of what a bend leaves of an exact motion, that motion may be off */
 #define TRUST .05               /* of s: the error of what is said of it */
 #define SLIPPING .2             /* of what rates change by in half a period: the error of what a slider, which
                                    slips in a part of it, is said to do */
@@ -78,22 +82,31 @@ typedef struct trial {
 } trial;
 
 /* At ln A: s and w, and their slopes over ln A.  s = u[S] + u[C] A^u[SHAPE] and w = of->w + u[W] - u[BEND]
- * A^u[SHAPE]; or those of Jenkins, whose spring of stiffness u[C] of->w re the mass slips at u[SHAPE]. */
+ * A^u[SHAPE]; or those of Jenkins, whose spring of stiffness u[C] of->w re the mass slips at u[SHAPE]:
+ * there A, as any derivative of x, is x w^order, so that ln x is found by Newton's method. */
 static void
 law_at(const trial *of, const double u[UNKNOWNS], double ln_a, double s[2], double w[2])
 {
-    const double free_w = of->w + u[W], k = u[C] * of->w;
+    const double free_w = of->w + u[W], k = u[C] * of->w, order = fmax(of->source->derivative, 0);
     if (of->kind != SS_JENKINS) {
         double g = exp(u[SHAPE] * ln_a);
         s[0] = u[S] + u[C] * g, s[1] = u[SHAPE] * u[C] * g;
         w[0] = free_w - u[BEND] * g, w[1] = -u[SHAPE] * u[BEND] * g;
         return;
     }
-    double stuck = fmin(u[SHAPE] * exp(-ln_a), 1), sine = 2 * sqrt(stuck * (1 - stuck)), cosine = 1 - 2 * stuck;
-    w[0] = sqrt(free_w * free_w + k / M_PI * (acos(cosine) - sine * cosine));
-    w[1] = -2 * k / M_PI * stuck * sine / w[0];
+    double x = ln_a, stuck, sine, cosine, turn, off;
+    int steps = NEWTON;
+    do {
+        stuck = fmin(u[SHAPE] * exp(-x), 1), sine = 2 * sqrt(stuck * (1 - stuck)), cosine = 1 - 2 * stuck;
+        w[0] = sqrt(free_w * free_w + k / M_PI * (acos(cosine) - sine * cosine));
+        w[1] = -2 * k / M_PI * stuck * sine / w[0];
+        turn = fmax(1 + order * w[1] / w[0], LEAST_TURN);       /* of ln A over ln x */
+        off = ln_a - x + order / 2 * log((free_w * free_w + k) / (w[0] * w[0]));
+        x += off / turn;
+    } while (fabs(off) > 1e-12 && --steps > 0);
     s[0] = k / (2 * M_PI) * sine * sine / w[0];
-    s[1] = stuck < 1 ? -2 * k / M_PI * stuck * cosine / w[0] - s[0] * w[1] / w[0] : 0;
+    s[1] = stuck < 1 ? (-2 * k / M_PI * stuck * cosine / w[0] - s[0] * w[1] / w[0]) / turn : 0;
+    w[1] /= turn;
     s[0] += u[S];
 }
 
@@ -105,7 +118,8 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
 {
     double s[2], w[2];
     law_at(of, u, fmax(fmin(ln_a, 20), -40), s, w);
-    double fall = s[0] / (1 + w[1] / (2 * w[0])), s_dot = -fall * s[1], own = s[0] - u[S];
+    double fall = s[0] / (1 + (.5 - fmax(of->source->derivative, 0)) * w[1] / w[0]);
+    double s_dot = -fall * s[1], own = s[0] - u[S];
     lag[0] = of->kind == SS_JENKINS || of->kind == SS_MICROSLIP ? s[0] * s[0] + s_dot
         : of->kind == SS_QUADRATIC ? .183 * s[0] * s[0] : u[S] * u[S] + 3 * own * s[0];
     lag[0] -= given_back(of->source->derivative, s_dot);
@@ -119,6 +133,7 @@ typedef struct told {
     double y[TRACKS], rate[TRACKS], lag[2];
     double slip[TRACKS];        /* what the law does not know of the rates */
     double local[TRACKS];       /* what the rates are more in the middle than in the whole block */
+    double left;                /* what a bend leaves of an exact motion, as of a block */
 } told;
 
 /* The same of two modes that beat: of s = u[S] and w = u[W], and of u[C] and u[SHAPE] beside it. */
@@ -132,7 +147,7 @@ tell_two(told *out, const trial *of, const double u[UNKNOWNS])
         double complex sum = a + b, rate = (first * a + second * b) / sum;
         double turn = u[TURN] + carg(sum);
         out[i] = (told){ { u[LN_A] + log(cabs(sum)), turn + 2 * M_PI * round((p->y[PHASE] - turn) / (2 * M_PI)) },
-                         { creal(rate), cimag(rate) }, { 0 }, { 0 }, { 0 } };
+                         { creal(rate), cimag(rate) }, { 0 }, { 0 }, { 0 }, 0 };
     }
 }
 
@@ -175,7 +190,7 @@ tell_exactly(told *out, size_t *told_blocks, const trial *of, const double u[UNK
     size_t end = b[n - 1].end - b->first;
     ss_scene scene = { .model = ss_model_named("compliant"), .mass = 1, .stiffness = w * w,
                        .damping = 2 * u[S] * of->unit,
-                       .friction = contact * u[SHAPE] * exp(of->ln_a) / pow(w, order),
+                       .friction = contact * u[SHAPE] * exp(of->ln_a) / pow(w * w + contact, order / 2.),
                        .x0 = fmod(turns, 2) == 0 ? a : -a, .settle = (ahead - back) / of->unit,
                        .duration = (double)end, .rate = 1 };
     if (end > EXACT_MOST || ss_scene_set(&scene, "contact_stiffness", contact, NULL) != SS_OK
@@ -196,7 +211,7 @@ tell_exactly(told *out, size_t *told_blocks, const trial *of, const double u[UNK
         out[done] = (told){ { is.y[LEVEL] - of->ln_a, turn },
                             { is.rate[LEVEL] / of->unit, is.rate[PHASE] / of->unit - of->w }, { 0 }, { 0 },
                             { (near.rate[LEVEL] - is.rate[LEVEL]) / of->unit,
-                              (near.rate[PHASE] - is.rate[PHASE]) / of->unit } };
+                              (near.rate[PHASE] - is.rate[PHASE]) / of->unit }, is.left };
         rates(of, u, out[done].y[LEVEL], rate, out[done].lag);
     }
     free(x);
@@ -431,20 +446,25 @@ static void
 add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double about, double unit, double a)
 {
     const struct law *law = &laws[f->kind];
-    double w = (about + f->u[W]) * unit, contact = about * unit * unit, metres = pow(w, -of->order);
+    double w = (about + f->u[W]) * unit, contact = about * unit * unit;
     char per[64];
     snprintf(per, sizeof per, of->column[0] != '\0' ? "1/(%.50s)" : "%s", of->column);
     if (of->has_phase) {
         add(out, f, "frequency", "Hz", W, unit / (2 * M_PI));
         out->number[0].value.value = w / (2 * M_PI);
     }
-    if (law->free[S])
+    if (law->free[S]) {
         add(out, f, "damping_ratio", "", S, unit / w);
+        ss_value *zeta = &out->number[out->n_numbers - 1].value;
+        const double *cov = f->covariance, by_w = -zeta->value * unit / w, by_s = unit / w;
+        zeta->error = sqrt(fmax(pow(zeta->error, 2) + by_w * by_w * cov[W * (UNKNOWNS + 1)]
+                                + 2 * by_w * by_s * cov[S * UNKNOWNS + W], 0));
+    }
     if (f->kind == SS_COULOMB_DAMPING || f->kind == SS_VISCOUS_AND_COULOMB) {
         double by_stiffness = M_PI / 2 * unit * a / w;
         add(out, f, "friction_over_stiffness", of->column, C, by_stiffness);
         if (of->mass > 0)
-            add(out, f, "friction", "N", C, of->mass * w * w * by_stiffness * metres);
+            add(out, f, "friction", "N", C, of->mass * pow(w, 2 - of->order) * by_stiffness);
     } else if (f->kind == SS_QUADRATIC)
         add(out, f, "drag_over_mass", per, C, 3 * M_PI / 4 * unit / w / a);
     else if (f->kind == SS_JENKINS) {
@@ -453,7 +473,8 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
         add(out, f, "slip_amplitude", of->column, SHAPE, a);
         if (of->mass > 0) {
             const double *cov = f->covariance;
-            double c = f->u[C], d = f->u[SHAPE], slip = of->mass * contact * a * metres;
+            double c = f->u[C], d = f->u[SHAPE];
+            double slip = of->mass * contact * a * pow(w * w + c * contact, -of->order / 2.);
             add(out, f, "contact_stiffness", "N/m", C, of->mass * contact);
             add(out, f, "friction", "N", C, slip * d);
             double both = 2 * c * d * cov[C * UNKNOWNS + SHAPE] + c * c * cov[SHAPE * UNKNOWNS + SHAPE];
@@ -652,14 +673,17 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
             b[i].error[PHASE] = unit * error[PHASE];
         }
     }
+    of.kind = best->kind;
+    if (st == SS_OK && out->n_mechanisms == 1 && best->is_exact && tell(what, &of, best->u) == SS_OK)
+        for (size_t i = 0; i < n; i++)
+            b[i].left = fmax(fabs(b[i].left - what[i].left) - EXPLAINED * what[i].left, 0);
     free(sum), free(p), free(what);
     if (st != SS_OK)
         return st;
-    of.kind = best->kind;
     for (size_t i = 0; i < n; i++) {
         double s[2], at[2];
         law_at(&of, best->u, b[i].level - ln_a, s, at);
-        double fall = s[0] / (1 + at[1] / (2 * at[0]));
+        double fall = s[0] / (1 + (.5 - fmax(source->derivative, 0)) * at[1] / at[0]);
         int is_named = out->n_mechanisms == 1;
         out->row[i].named[0] = is_named && source->has_phase ? at[0] * unit * source->rate / (2 * M_PI) : NAN;
         out->row[i].named[1] = is_named ? fall / hypot(fall, at[0]) : NAN;
