@@ -41,8 +41,7 @@ enum {
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
 #define FAINT .01                /* of an amplitude: a line or a blow below is let be */
 #define OUTSTANDING 60.0        /* times the median power: a line, as noise never is */
-#define LASTING 20.0            /* times that of the latter half of what it is seen in */
-#define DIES .04                /* damping ratio of what is no line, but part of a blow or of a slip */
+#define DIES .06                /* damping ratio of what is no line, but part of a blow or of a slip */
 
 typedef struct decay {
     const ss_backbone_opts *opts;
@@ -422,13 +421,14 @@ is_known(const decay *d, double w, size_t n)
     return known;
 }
 
-/* The decay and the frequency of a line near *w, from its amplitudes and phases in parts of n samples. */
+/* The decay and the frequency of a line near *w, from its amplitudes and phases in parts of n samples: the decay
+ * between parts or between halves, whichever is faster, as a slip is over soon. */
 static double
 line_decay(double *w, const double *left, size_t n)
 {
     double complex z[PARTS];
     double sum = 0, t = 0, tt = 0, level = 0, t_level = 0, phase = 0, t_phase = 0, last = 0;
-    double re = 1, im = 0, c = cos(*w), s = sin(*w);
+    double half[2] = { 1e-300, 1e-300 }, re = 1, im = 0, c = cos(*w), s = sin(*w);
     for (size_t i = 0; i < PARTS; i++) {
         z[i] = 0;
         for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++) {
@@ -440,13 +440,14 @@ line_decay(double *w, const double *left, size_t n)
         double weight = creal(z[i] * conj(z[i])) + 1e-300, at = (double)i, turn = carg(z[i]);
         turn -= 2 * M_PI * round((turn - last) / (2 * M_PI));
         last = turn;
+        half[2 * i / PARTS] += weight;
         sum += weight, t += weight * at, tt += weight * at * at;
         level += weight * log(weight) / 2, t_level += weight * at * log(weight) / 2;
         phase += weight * turn, t_phase += weight * at * turn;
     }
     double spread = (tt - t * t / sum) * (double)n / PARTS;
     *w += (t_phase - t * phase / sum) / spread;
-    return fmax(-(t_level - t * level / sum) / spread, 0);
+    return fmax(fmax(-(t_level - t * level / sum) / spread, log(half[0] / half[1]) / (double)n), 0);
 }
 
 /* Of the first n samples of what is left, by how much the strongest line that is not known stands out of the
@@ -474,22 +475,19 @@ find_beside(const decay *d, const double *left, size_t n, double *ratio, double 
     return SS_OK;
 }
 
-/* Add to those beside it the strongest line, if it stands out, of all that is left or of what is left at first, and
- * also of the latter half of that: what does not, as of a slip, is no line. */
+/* Add to those beside it the strongest line, if it stands out and lasts, of all that is left or of what is left at
+ * first. */
 static ss_status
 add_line(decay *d, int *found)
 {
     size_t n;
-    double best = OUTSTANDING, ratio, w, last, near, *left = leave(d, &n);
+    double best = OUTSTANDING, ratio, w, *left = leave(d, &n);
     ss_status st = left != NULL ? SS_OK : SS_ENOMEM;
     *found = 0;
     for (; st == SS_OK && (double)n * d->w > PARTS * 2 * M_PI; n /= 2) {
         st = find_beside(d, left, n, &ratio, &w);
-        if (st != SS_OK || ratio <= best)
-            continue;
-        st = find_beside(d, left + n / 2, n - n / 2, &last, &near);
-        double s = line_decay(&w, left, n);
-        if (st == SS_OK && last > LASTING && fabs(near - w) < 4 * M_PI / (double)n && s < DIES * w) {
+        double s = st == SS_OK && ratio > best ? line_decay(&w, left, n) : INFINITY;
+        if (s < DIES * w) {
             best = ratio;
             *found = 1;
             d->beside.s[d->beside.n] = s;
