@@ -41,7 +41,7 @@ enum {
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
 #define FAINT .01                /* of an amplitude: a line or a blow below is let be */
 #define OUTSTANDING 60.0        /* times the median power: a line, as noise never is */
-#define DIES .06                /* damping ratio of what is no line, but part of a blow or of a slip */
+#define DIES .03                /* damping ratio of what is no line, but part of a blow or of a slip */
 
 typedef struct decay {
     const ss_backbone_opts *opts;
