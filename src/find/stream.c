@@ -54,7 +54,8 @@ struct ss_features_stream {
     double before_start;
     size_t transitions, windows;
     struct mean mean[SS_FEATURE_NUMBERS];
-    ss_number last[SS_FEATURE_NUMBERS];
+    ss_number last[SS_FEATURE_NUMBERS];         /* of the last whole window */
+    ss_number shown[SS_FEATURE_NUMBERS];        /* of the last search that found all */
 };
 
 ss_status
@@ -223,6 +224,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     size_t apart = s->windows < MANY || s->is_changed || s->known.known == NULL ? s->window : RARELY * s->window;
     int whole = last || s->seen - s->searched >= apart;
     size_t n = whole || s->part > all ? all : s->part;
+    int finds_all = whole || s->known.period == 0;
     const stream_part afresh = { .plans = &s->plans, .learnt = whole ? &s->lesson : NULL };
     ss_status st = find_last(s, n, whole ? &afresh : &s->known, &f, &start, err);
     if ((st == SS_OK || st == SS_ESCALE) && !whole && s->known.known != NULL && is_new(s, f, n)) {
@@ -233,12 +235,19 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     }
     if (st == SS_OK && n < all && count_due(s, f, 1, start, until) > 0)
         st = find_last(s, 2 * n < all ? 2 * n : all, &s->known, &f, &start, err);
-    if (st == SS_OK && n < all && s->is_still && count_due(s, f, 0, start, until) > 0)
+    if (st == SS_OK && n < all && s->is_still && count_due(s, f, 0, start, until) > 0) {
         st = find_last(s, all, &afresh, &f, &start, err);
+        finds_all = 1;
+    }
     if (st == SS_ESCALE && !last)
         return SS_OK;                           /* too short as yet, or nothing is due */
     if (st != SS_OK)
         return st;
+    for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
+        if (finds_all)
+            s->shown[k] = f->number[k];
+        else if (isnan(f->number[k].value) || k == SS_SLIPS)
+            f->number[k] = s->shown[k];
     if (!s->begun && (last || count_due(s, f, 0, start, until) > 0))
         begin(s, f);
     for (size_t i = 0; i < f->n; i++)

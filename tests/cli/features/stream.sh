@@ -38,6 +38,10 @@ stopped
 
 echo "-- the same bytes"
 awk '{ print; fflush() } NR % 2000 == 0 { system("sleep .1") }' run.tsv | ss-features --fmin 5 --stream | cmp - stream.tsv
+# the numbers of the whole stand in every row, in those of parts as the last whole window has them
+ss-sim --set duration=8 compliant-heavy | ss-features --fmin 5 -c a --mass 2.42 --stiffness 2310 --stream --format csv |
+    awk -F , 'NR == 1 { for (c = 1; c <= NF; c++) is[$c] = c; next }
+        $is["all_slips"] < 14 || ($is["all_contact_stiffness"] - 209900) ^ 2 > 100 { print "off:", $0 } END { print (NR > 30) }'
 ss-features --fmin 5 --stream --format json run.tsv | head -n 1 | tr ',' '\n' | sed -n '2p;4p;s/^{//p'
 
 echo "-- refused"
