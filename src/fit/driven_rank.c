@@ -127,6 +127,8 @@ static void
 name_unit(char *text, size_t room, const char *unit, const char *force, const char *length)
 {
     text[0] = '\0';
+    if ((strchr(unit, 'N') != NULL && *force == '\0') || (strchr(unit, 'm') != NULL && *length == '\0'))
+        return;
     for (; *unit != '\0'; unit++) {
         size_t n = strlen(text);
         if (*unit == 'N' || *unit == 'm')

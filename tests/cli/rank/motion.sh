@@ -42,3 +42,7 @@ for wrong in "--motion x" "--motion x -c x" "--motion v -c f --extra sin,cos" "-
     # shellcheck disable=SC2086  # options
     ss-rank $wrong all.tsv || echo $?
 done
+# numbers of columns without units have none
+awk 'BEGIN { print "t (s),x,f"; for (i = 0; i < 3000; i++) { t = i / 500; x = (1 + .2 * sin(1.1 * t)) * sin(6.283 * t)
+    y += 20 * (x - before); before = x; y = y > 2 ? 2 : y < -2 ? -2 : y; print t "," x "," y + .01 * sin(i * i) } }' > bare.csv
+ss-rank --motion x --as x --column f bare.csv | awk '/^# (friction|contact_stiffness|inertia|tilt):/ { print $2, NF }'
