@@ -452,6 +452,21 @@ names_dry_friction_that_ends_at_a_turn(void **unused)
     assert_law(&r, "coulomb", 2);
 }
 
+/* 100 rows on one count of an encoder at each turn: without them nothing predicts a row. */
+static void
+names_dry_friction_by_a_coarser_encoder(void **unused)
+{
+    recording r = record();
+    (void)unused;
+    for (int i = 0; i < ROWS; i++) {
+        double t = 6 * M_PI * i / ROWS + 0.3;
+        r.x[i] = 0.1 * rint(2 * sin(t) / 0.1);
+        r.f[i] = (cos(t) > 0 ? 2 : -2) + 0.3 * cos(t);
+    }
+    add_noise(r.f, 0.01, 12);
+    assert_law(&r, "coulomb", 2);
+}
+
 /* --- the verdict ---------------------------------------------------------------------------- */
 
 /* Two laws, neither a limit of the other, of which one leaves 2 % more, and shows less noise beside it. */
@@ -596,6 +611,7 @@ main(void)
         cmocka_unit_test(names_dry_friction_by_a_coarse_encoder),
         cmocka_unit_test(names_a_slider_that_is_uneven),
         cmocka_unit_test(names_dry_friction_that_ends_at_a_turn),
+        cmocka_unit_test(names_dry_friction_by_a_coarser_encoder),
         cmocka_unit_test(cannot_tell_laws_that_leave_the_same),
         cmocka_unit_test(does_not_judge_what_tells_nothing),
         cmocka_unit_test(names_none_of_these),

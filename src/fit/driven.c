@@ -1,8 +1,9 @@
 /* driven.c -- the record of a motion and a force, as friction laws need it.
  *
  * * The motion is smoothed by a cubic in a window about each row, which gives the speed and the acceleration too,
- * for stamps of any spacing.  The window is the one that predicts best the rows that it leaves out.  The force is
- * never smoothed: what is left of it must stay what was measured. */
+ * for stamps of any spacing.  The window is the one that predicts best the rows that it leaves out: a row, or all
+ * rows about it on one count of an encoder, as these tell nothing of each other.  The force is never smoothed: what
+ * is left of it must stay what was measured. */
 #include "fit/driven.h"
 
 #include <float.h>
@@ -18,15 +19,16 @@ enum { TERMS = 4, WIDEST = 64 };    /* of the cubic; half the widest window, in 
 #define JUMP 4                      /* times the largest of four differences of noise: seldom */
 #define UNKNOWN_MEMORY 0.03         /* the part of the time in which the memory of a law is not known yet */
 
-/* The cubic about row i by the rows at most m away: its value and derivatives there, and how much of the row
- * itself its value is. */
+/* The cubic about row i by the rows at most m away, but for those of a run: its value and derivatives there, and how
+ * much of the row itself its value is. */
 static double
-smooth(const double *t, const double *x, size_t n, size_t i, size_t m, double out[3])
+smooth(const double *t, const double *x, size_t n, size_t i, size_t m, const size_t run[2], double out[3])
 {
     const size_t first = i > m ? i - m : 0, end = i + m + 1 < n ? i + m + 1 : n;
     const double unit = fmax(t[end - 1] - t[i], t[i] - t[first]);
     double a[TERMS * TERMS] = { 0 }, b[TERMS] = { 0 }, own[TERMS] = { 1 };
     for (size_t k = first; k < end; k++) {
+        k = k == run[0] ? run[1] : k;
         double s = (t[k] - t[i]) / unit, power[TERMS] = { 1, s, s * s, s * s * s };
         for (int p = 0; p < TERMS; p++) {
             b[p] += power[p] * (x[k] - x[i]);
@@ -50,14 +52,29 @@ static size_t
 find_window(const double *t, const double *x, size_t n, double *error)
 {
     enum { TRIED = 2000 };          /* rows */
+    const size_t all[2] = { n, n };
     size_t best = 0;
     *error = INFINITY;
     for (size_t m = TERMS - 1; m <= WIDEST && (best == 0 || BLOCKS * m < n); m += 1 + m / 4) {
-        double sum = 0, count = 0, out[3];
-        for (size_t i = m; i + m < n; i += 1 + n / TRIED, count++) {
-            double left = (1 - smooth(t, x, n, i, m, out));
+        double sum = 0, count = 0, blind = 0, out[3];
+        for (size_t i = m; i + m < n; i += 1 + n / TRIED) {
+            size_t run[2] = { i, i + 1 };
+            while (run[0] + m > i && x[run[0] - 1] == x[i])
+                run[0]--;
+            while (run[1] <= i + m && x[run[1]] == x[i])
+                run[1]++;
+            const int is_run = run[1] - run[0] > 1;
+            if (run[1] - run[0] > m) {
+                blind++;
+                continue;
+            }
+            double left = 1 - smooth(t, x, n, i, m, is_run ? run : all, out);
+            left = is_run ? 1 : left;
             sum += (x[i] - out[0]) / left * ((x[i] - out[0]) / left);
+            count++;
         }
+        if (blind > count && m < WIDEST / 2)
+            continue;
         if (best == 0 || sqrt(sum / count) < *error) {
             *error = sqrt(sum / count);
             best = m;
@@ -159,7 +176,7 @@ ss_driven_new(driven *d, const double t[], const double motion[], const double f
     const size_t window = find_window(t, motion, n, &error);
     for (size_t i = 0; i < n; i++) {
         double out[3];
-        smooth(t, motion, n, i, window, out);
+        smooth(t, motion, n, i, window, (size_t[]){ n, n }, out);
         d->t[i] = t[i] - t[0];
         d->f[i] = force[i];
         d->row[i] = i;

@@ -17,7 +17,7 @@
 #include "base/error.h"
 #include "io/record.h"
 
-#define AS_GOOD 0.03                /* of the least loss: laws that differ by less are as good */
+#define AS_GOOD 0.03                /* of the least loss, or of the noise: laws that differ by less are as good */
 #define ALIKE 0.5                   /* of the best law's error: laws whose errors differ by less are as good */
 #define EXPLAINED 0.8               /* of the power, by a law that is named */
 #define BEYOND_NOISE 4              /* times the noise is left: three quarters are an error of the law, */
@@ -120,7 +120,7 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
     }
     const candidate *most = &c[*best];
     noise = fmax(fmin(noise, most->rough), QUIET);
-    const double own = fmax(AS_GOOD * most->left, ALIKE * (most->left - noise));
+    const double own = fmax(AS_GOOD * fmax(most->left, noise), ALIKE * (most->left - noise));
     for (size_t i = 0; i <= n; i++) {
         c[i].tied = c[i].left - most->left <= own || errors_behind(&c[i], most, power) <= 2;
         c[i].excess = c[i].fitted / noise;
