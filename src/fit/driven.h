@@ -78,7 +78,6 @@ typedef struct driven_result {
     driven_fit fit[FOLDS + 1];      /* each without the rows of a fold, and of all */
     double loss;                    /* mean square left of each row by the fit without its fold */
     double block[BLOCKS];           /* the parts of this of blocks of time */
-    double fitted[BLOCKS];          /* the same of what the fit of all rows leaves */
     double *left, *own;             /* by the fit of all: what is left of each row, and the law's own force */
     double covariance[UNKNOWNS + COLUMNS][UNKNOWNS + COLUMNS];      /* of the fit of all */
 } driven_result;
@@ -93,7 +92,6 @@ ss_status ss_driven_predict(double out[], const driven_law *law, const driven *d
 /* What is left of a law, beside noise. */
 typedef struct driven_noise {
     double most, rough;             /* upper bounds of the mean square of the noise; rough: if the law is right */
-    double better;                  /* errors by which a free law predicts more than the law */
     double repeat;                  /* correlation of what is left with that of the nearest other passage */
 } driven_noise;
 /* driven_noise.c: for each row the row of another passage that is nearest to it, or the row itself if it is left

@@ -488,8 +488,6 @@ ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const 
         for (size_t k = PART; k < law->parts; k++)
             for (size_t i = 0; i < d->n; i++)
                 out->own[i] += out->fit[ALL].c[k] * p.column[k][i];
-        for (size_t i = 0; i < d->n; i++)
-            out->fitted[i * BLOCKS / d->n] += d->used[i] * out->left[i] * out->left[i] / rows;
         find_covariance(&p, out, slopes);
     }
     free(p.room);

@@ -1,4 +1,4 @@
-/* driven_noise.c -- the noise of a measured force, and whether a free law would predict more of it.
+/* driven_noise.c -- the noise of a measured force.
  *
  * * The noise is unknown, but at most the least of three estimates.  Motions that repeat: what differs between
  * rows of two passages through nearly the same place, by position, speed and the last two turns; a law's memory is
@@ -217,10 +217,8 @@ ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, c
     ss_status st = ss_driven_free_law(free_law, rows, r->left, r->own);
     if (st != SS_OK)
         return st;
-    const double unexplained = ss_verdict_sum(free_law);
-    out->better = (r->fit[ALL].loss - unexplained) / ss_verdict_error(r->fitted, free_law);
     out->repeat = find_repeat(rows, partner, r->left, &unshared);
-    out->most = fmin(unexplained, unshared);
+    out->most = fmin(ss_verdict_sum(free_law), unshared);
     out->rough = find_rough(d, predicted, turns, room) + find_wander(rows, r->left, r->own, turns);
     return SS_OK;
 }

@@ -277,8 +277,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
             break;
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
             .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power,
-            .noise = noise.most / power, .rough = noise.rough / power, .better = noise.better,
-            .work = work_of(&r[n], rows) };
+            .noise = noise.most / power, .rough = noise.rough / power, .work = work_of(&r[n], rows) };
         out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - c[n].left, .repeat = noise.repeat,
             .gain = 1 - r[n].loss / r[0].loss,
             .explained_error = ss_verdict_error(r[n].block, NULL) / power };

@@ -7,8 +7,7 @@
  * wrong by so much nobody can tell another that is hardly worse.  Of the laws as good as the best the simplest is
  * named, if all others contain it.
  *
- * * The best law is none if most of what it leaves is no noise, or if a free law predicts significantly more: then a
- * law is missing. */
+ * * The best law is none if most of what it leaves is no noise: then a law is missing. */
 #include "fit/verdict.h"
 
 #include <math.h>
@@ -20,9 +19,7 @@
 #define AS_GOOD 0.03                /* of the least loss, or of the noise: laws that differ by less are as good */
 #define ALIKE 0.5                   /* of the best law's error: laws whose errors differ by less are as good */
 #define EXPLAINED 0.8               /* of the power, by a law that is named */
-#define BEYOND_NOISE 4              /* times the noise is left: three quarters are an error of the law, */
-#define MISSING 2                   /* or half, if a free law predicts significantly more */
-#define SIGNIFICANT 3               /* errors */
+#define BEYOND_NOISE 3              /* times the noise is left: two thirds are an error of the law */
 #define TAKEN 0.1                   /* of its work a friction takes, unless it is hardly reached */
 #define QUIET 1e-4                  /* of the power: sensors are linear to a hundredth */
 
@@ -102,8 +99,7 @@ find_fault(const candidate c[], size_t n, const candidate *best)
         : c[n].tied ? "no law explains more than a spring of any shape and a damper"
         : 1 - best->left < EXPLAINED ? "too little is explained"
         : best->work < TAKEN ? "friction is hardly reached"
-        : best->excess > BEYOND_NOISE ? "more than noise is left"
-        : best->excess > MISSING && best->better > SIGNIFICANT ? "a free law predicts more" : NULL;
+        : best->excess > BEYOND_NOISE ? "more than noise is left" : NULL;
 }
 
 ss_verdict
@@ -148,7 +144,8 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         return SS_UNDECIDED;
     }
     *best = simplest;
-    snprintf(answer, room, "%s explains %s of the force that was held out%s%s", c[simplest].name,
-             ss_number_fixed(number, 1 - c[simplest].left, 4), others[0] != '\0' ? ", no less than " : "", others);
+    snprintf(answer, room, "%s explains %s of the force that was held out%s%s, and leaves %s times the noise",
+             c[simplest].name, ss_number_fixed(number, 1 - c[simplest].left, 4),
+             others[0] != '\0' ? ", no less than " : "", others, ss_number_rounded(times, c[simplest].excess, 4));
     return SS_NAMED;
 }

@@ -37,7 +37,6 @@ typedef struct candidate {
     const double *block;            /* the parts of this of each block, in units of the power */
     double fitted;                  /* left where it was fitted */
     double noise, rough;            /* bounds of the noise by that; rough: if it is the best law */
-    double better;                  /* errors by which a free law predicts more */
     double work;                    /* the part of the work that its force takes and does not give back */
     int tied;                       /* set: it is as good as the best, */
     double excess;                  /* and how many times the noise it leaves */
