@@ -365,7 +365,7 @@ swap(double *u, double *v, size_t n)
 
 /* Add to a covariance what comes of an error that changes whitened rows by so much. */
 static void
-add_error(double *out, const law *l, const double *slopes, const double *changed, double noise)
+add_error(double *out, const law *l, const double *slopes, const double *changed)
 {
     double by[UNKNOWNS] = { 0 }, moves[UNKNOWNS] = { 0 };
     for (size_t i = 0; i < l->record->n; i++)
@@ -375,17 +375,16 @@ add_error(double *out, const law *l, const double *slopes, const double *changed
         if (isfinite(l->covariance[i]))
             moves[i / UNKNOWNS] += l->covariance[i] * by[i % UNKNOWNS];
     for (int i = 0; i < UNKNOWNS * UNKNOWNS; i++)
-        out[i] += moves[i / UNKNOWNS] * moves[i % UNKNOWNS] / noise;
+        out[i] += moves[i / UNKNOWNS] * moves[i % UNKNOWNS];
 }
 
 /* Add the errors of the load point's place at its first change, and of friction wherever it stands still at one of
  * its digits, if noise does not move it from one to another. */
 static ss_status
-blur(law *l, double noise, double *changed)
+blur(law *l, double noise, double *changed, double *out)
 {
     const track *r = l->record;
-    double sum[UNKNOWNS * UNKNOWNS], *slopes = changed + r->n, *left = l->rows;
-    memcpy(sum, l->covariance, sizeof sum);
+    double *slopes = changed + r->n, *left = l->rows;
     ss_status st = whitened(l->u, left, NULL, l);
     for (int back = 0; back < 2; back++) {
         for (size_t i = 0; i < r->places; i++)
@@ -397,16 +396,15 @@ blur(law *l, double noise, double *changed)
         return st == SS_EDATA ? SS_OK : st;
     for (size_t i = 0; i < r->n; i++)
         changed[i] -= left[i];
-    add_error(sum, l, slopes, changed, noise);
+    add_error(out, l, slopes, changed);
     for (size_t from = 0, to = 0; r->digit > 2 * sqrt(noise) && from < r->n; from = to) {
         while (to < r->n && fabs(r->mu[to] - r->mu[from]) < r->digit / 2)
             to++;
         for (size_t i = 0; i < r->n; i++)
             changed[i] = i >= from && i < to ? r->digit / sqrt(12) : 0;
         ss_wander_whiten(changed, &l->noise, r->t, changed, r->n, 1);
-        add_error(sum, l, slopes, changed, noise);
+        add_error(out, l, slopes, changed);
     }
-    memcpy(l->covariance, sum, sizeof sum);
     return SS_OK;
 }
 
@@ -508,23 +506,8 @@ all_rows(const double *u, double *residual, double *slopes, void *user)
     return st;
 }
 
-/* What steps say of an unknown, each by how well it shows it; or what one of them says. */
-static double
-mean_of(const joint *j, size_t k, size_t only)
-{
-    double sum = 0, weights = 0;
-    for (size_t i = 0; i < j->n; i++) {
-        const law *l = &j->step[i]->law[j->k];
-        const double variance = l->covariance[k * (UNKNOWNS + 1)] * noise_of(j->step[i], j->k);
-        const double weight = only < j->n ? i == only : isfinite(variance) && variance > 0 ? 1 / variance : 1e-9;
-        sum += weight * l->u[k];
-        weights += weight;
-    }
-    return sum / weights;
-}
-
-/* Fit a law to all rows, a few steps from what each of the first `starts` says, of which the last is their mean;
- * and on from the best of these.  SS_EDATA: there is no fit. */
+/* Fit a law to all rows, a few steps from what each of the first `starts` says, and on from the best of these.
+ * SS_EDATA: there is no fit. */
 static ss_status
 fit_joint(joint *j, size_t starts)
 {
@@ -543,7 +526,7 @@ fit_joint(joint *j, size_t starts)
     for (size_t only = 0; only < starts; only++) {
         for (size_t i = 0; i < j->n; i++)
             for (size_t k = 0; k < UNKNOWNS; k++)
-                j->u[place_of(i, k)] = k < OWN ? j->step[i]->law[j->k].u[k] : mean_of(j, k, only);
+                j->u[place_of(i, k)] = j->step[k < OWN ? i : only]->law[j->k].u[k];
         ss_status st = starts > 1 ? ss_least_fit(&end, &how, j->u, NULL, NULL) : SS_OK;
         if (st == SS_OK && (starts == 1 || end.squares < least_squares)) {
             least_squares = end.squares;
@@ -608,7 +591,7 @@ fit_both(loaded *const step[], size_t n)
     for (int pass = 0; pass < passes; pass++) {
         double ahead = 0;                       /* of the second law */
         for (j.k = 0; st == SS_OK && j.k < SS_STEP_LAWS; j.k++) {
-            st = fit_joint(&j, n > 1 && pass == 0 ? n + 1 : 1);
+            st = fit_joint(&j, pass == 0 ? n : 1);
             for (size_t i = 0; st == SS_EDATA && i < n; i++)    /* what has no fit of one step has none of all */
                 step[i]->law[j.k].squares = INFINITY;
             st = st == SS_EDATA ? SS_OK : st;
@@ -627,21 +610,21 @@ fit_both(loaded *const step[], size_t n)
 static ss_status
 blur_all(loaded *const step[], size_t n, size_t k)
 {
-    double more[UNKNOWNS * UNKNOWNS] = { 0 }, before[UNKNOWNS * UNKNOWNS];
+    enum { ALL = UNKNOWNS * UNKNOWNS };
+    double shared[ALL] = { 0 };
     ss_status st = SS_OK;
-    for (int again = 0; again < 2 && isfinite(step[0]->law[k].squares); again++)
-        for (size_t i = 0; st == SS_OK && i < n; i++) {
-            law *l = &step[i]->law[k];
-            const double noise = noise_of(step[i], k);
-            memcpy(before, l->covariance, sizeof before);
-            st = again ? SS_OK : blur(l, noise, step[i]->room);
-            for (int e = 0; e < UNKNOWNS * UNKNOWNS; e++) {
-                if (e / UNKNOWNS < OWN || e % UNKNOWNS < OWN || !isfinite(before[e]))
-                    continue;
-                more[e] += again ? 0 : noise * (l->covariance[e] - before[e]);
-                l->covariance[e] = before[e] + (again ? more[e] / noise : 0);
-            }
-        }
+    for (size_t i = 0; st == SS_OK && i < n && isfinite(step[i]->law[k].squares); i++) {
+        double more[ALL] = { 0 };
+        st = blur(&step[i]->law[k], noise_of(step[i], k), step[i]->room, more);
+        for (int e = 0; e < ALL; e++)
+            if (e / UNKNOWNS < OWN || e % UNKNOWNS < OWN)
+                step[i]->law[k].covariance[e] += more[e] / noise_of(step[i], k);
+            else
+                shared[e] += more[e];
+    }
+    for (size_t i = 0; i < n; i++)
+        for (int e = 0; e < ALL; e++)
+            step[i]->law[k].covariance[e] += shared[e] / noise_of(step[i], k);
     return st;
 }
 

@@ -6,6 +6,7 @@
  * its error there; the end of a step is more accurate. */
 #include "motion/engine.h"
 
+#include <gsl/gsl_integration.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
@@ -34,21 +35,6 @@ typedef struct radau {
 } radau;
 
 /* --- a polynomial through its values at the places --------------------------------------------- */
-
-/* P_n - P_(n-1), Legendre's, whose zeros on (-1, 1] are Radau's points, over its derivative. */
-static double
-newton_step(double x)
-{
-    double before = 1, p = x, d_before = 0, d = 1;
-    for (int n = 2; n <= STAGES; n++) {
-        const double next = ((2 * n - 1) * x * p - (n - 1) * before) / n, d_next = d_before + (2 * n - 1) * p;
-        before = p;
-        p = next;
-        d_before = d;
-        d = d_next;
-    }
-    return (p - before) / (d - d_before);
-}
 
 /* Solve n linear equations; 0: they have no solution. */
 VERSIONS static int
@@ -81,17 +67,20 @@ solve(equations M, int n, double out[])
     return 1;
 }
 
-static void
+/* Radau's points are those of Gauss with the weight 1 - x, and 1.  SS_ENOMEM. */
+static ss_status
 set_places(radau *r)
 {
+    gsl_integration_fixed_workspace *gauss
+        = gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, STAGES - 1, 0, 1, 1, 0);
+    if (gauss == NULL)
+        return SS_ENOMEM;
+    memcpy(r->place, gsl_integration_fixed_nodes(gauss), (STAGES - 1) * sizeof *r->place);
+    gsl_integration_fixed_free(gauss);
+    r->place[STAGES - 1] = 1;
     r->start = 2;
-    for (int i = 0; i < STAGES; i++) {
-        double x = cos(2 * M_PI * (STAGES - 1 - i) / (2 * STAGES - 1));
-        for (int k = 0; k < ROUNDS && i + 1 < STAGES; k++)
-            x -= newton_step(x);
-        r->place[i] = (1 + x) / 2;
+    for (int i = 0; i < STAGES; i++)
         r->start /= -4 * r->place[i];
-    }
     for (int i = 0; i < STAGES; i++) {
         r->weight[i] = 2 / (4 * r->place[i]);
         for (int j = 0; j < STAGES; j++)
@@ -115,6 +104,7 @@ set_places(radau *r)
         for (int i = 0; i < STAGES; i++)
             r->integral[i][j] = column[i];
     }
+    return SS_OK;
 }
 
 /* What the state of a step changes by up to x, a part of it. */
@@ -327,6 +317,8 @@ ss_radau_new(engine **out, motion *of, const char *name, double tol, ss_error *e
     if (r == NULL)
         return ss_fail_memory(err, NULL);
     ss_status st = ss_motion_scales(m, tol, r->scale, err);
+    if (st == SS_OK && set_places(r) != SS_OK)
+        st = ss_fail_memory(err, NULL);
     if (st != SS_OK) {
         free(r);
         return st;
@@ -338,7 +330,6 @@ ss_radau_new(engine **out, motion *of, const char *name, double tol, ss_error *e
     r->h_next = fmax(ss_step_cap(m), ss_step_floor(m));
     for (size_t k = 0; k < m->model->dim; k++)
         r->unit[k] = ldexp(1, ilogb(r->scale[k]));
-    set_places(r);
     *out = &r->base;
     return SS_OK;
 }
