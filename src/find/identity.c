@@ -31,6 +31,7 @@
 /* What the sensor leaves more than the contact, in parts: less is the sensor.  Of 120 sensors in noise of 50 dB none
  * came to more than .14, of 66 contacts none to less than .154. */
 #define CONTACT 0.15
+#define SHOWN 1.0               /* the same: so it is the contact, whatever else may be */
 #define HIDDEN 2e-4             /* noise re what an event makes: more may hide where a slip begins */
 #define SLOW 0.05               /* range of means re that of samples: with less nothing moves but what rings */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
@@ -232,9 +233,10 @@ gap_behind(const search *s, const ringdown *r, size_t i, size_t length)
     return gap.end < gap.first + length || gap.end > s->n ? (ss_window){ 0, 0 } : gap;
 }
 
-/* Does what rings in the windows ring on through the slips, or end where they begin? */
+/* Does what rings in the windows ring on through the slips, or end where they begin?  *more: what a sensor leaves
+ * more than a contact, in parts, where that is most; NaN: it cannot be told. */
 static ss_status
-is_sensor(const search *s, const ringdown *r, int *is)
+compare_all(const search *s, const ringdown *r, double *more)
 {
     double period = 2 * M_PI / r->all[0].value, best = 0;
     size_t skip = (size_t)ceil(period / RATE), n = (size_t)(2 * AROUND * period / (double)skip) + 1;
@@ -253,7 +255,7 @@ is_sensor(const search *s, const ringdown *r, int *is)
             size_t all = places(&of, gap[used++]);
             most = all > most ? all : most;
         }
-    *is = 0;
+    *more = NAN;
     if (used < 2)
         return SS_OK;
     of.basis = malloc((EVENTS * RINGERS * COLUMNS + 1) * n * sizeof *of.basis);
@@ -272,7 +274,8 @@ is_sensor(const search *s, const ringdown *r, int *is)
     for (size_t k = 0; k < most; k++)
         if (sum[k].sticks >= 2 && 2 * sum[k].sticks >= used && sum[k].most > 0)
             best = fmax(best, sum[k].more / fmin(sum[k].left, HIDDEN * sum[k].most));
-    *is = 2 * moved > used && best < CONTACT;
+    if (2 * moved > used)
+        *more = best;
     free(sum);
     free(of.basis);
     return SS_OK;
@@ -285,19 +288,23 @@ ss_status
 ss_identity_of(search *s, const ringdown *r, const char **why)
 {
     int at_edge = 0;
+    double more = NAN;
     /* a damping ratio above one half */
     *why = 3 * pow(r->all[1].value, 2) > pow(r->all[0].value, 2)
         ? "what recurs is damped so much that a filter may make it"
         : !(r->all[1].value > (s->out->reverses ? 0 : SIGMAS * r->all[1].error))
             ? "what recurs is not shown to decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
-    const int is_known = *why != NULL || s->out->reverses || s->part->is_contact;
-    ss_status st = is_known ? SS_OK : is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
+    if (*why != NULL || s->out->reverses || s->part->is_contact)
+        return SS_OK;
+    ss_status st = compare_all(s, r, &more);
+    if (st == SS_OK && !(more >= SHOWN))
+        st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
+    s->is_shown = more >= SHOWN;
+    s->of_sensor = !at_edge && more < CONTACT;
     if (at_edge)
         *why = "it rings where the spectrum ends without a peak, as a filter does";
-    else if (st == SS_OK && !is_known)
-        st = is_sensor(s, r, &s->of_sensor);
-    if (s->of_sensor)
+    else if (s->of_sensor)
         *why = "it rings on where slips begin, as a sensor, a filter or a hum does";
     return st;
 }

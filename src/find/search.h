@@ -43,6 +43,7 @@ typedef struct search {
     int is_second;              /* it lost that in a first search */
     int has_offset;             /* the zero of a force may not be that of friction; -1: its slips are rises */
     int of_sensor;              /* what rings is a sensor's, not the contact's */
+    int is_shown;               /* what rings ends where slips begin, as the contact's does */
     int spiked;                 /* transitions end with their last spike, which may be anywhere before the
                                    next transition */
     ss_features *out;

@@ -153,7 +153,8 @@ count_cycles(search *s)
 {
     ss_features *out = s->out;
     int more = (double)out->n > (double)s->cycles.n;
-    forget_ringing(out);
+    if (!s->is_shown)
+        forget_ringing(out);
     if (s->quantity == QUANTITY_UNKNOWN && s->cycles.symmetry > -CYCLES_ALIKE) {
         out->n = out->recurring = 0;
         out->number[SS_SLIPS].value = (double)s->cycles.n;

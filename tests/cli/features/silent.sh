@@ -124,3 +124,10 @@ none slip_rate < found
 ss-sim -s mass=.180759816 -s stiffness=5.95226974 -s friction=.000405116891 -s base_amplitude=9.02294357e-05 \
     -s base_frequency=.139321594 -s settle=287 -s duration=153 -s rate=309.448 coulomb |
     hum .316 60 309.448 | ss-features | none transition_frequency
+# a soft contact, whose spectrum falls as a filter's does: it rings until slips begin
+ss-sim -m exact -s mass=.0111292031 -s stiffness=25.2913284 -s damping=.0308119451 -s friction=.000515777248 \
+    -s static_friction=.000634744162 -s contact_stiffness=91.899806 -s contact_damping=.00952717075 \
+    -s base_amplitude=3.6019947e-05 -s base_frequency=1.88042809 -s settle=21.271752 -s duration=9.8 \
+    -s rate=243.593217 compliant-light | ss-features > found
+covers transition_frequency "$(awk 'BEGIN { s = (.0308119451 + .00952717075) / .0111292031 / 2
+    printf "%.12g", sqrt((25.2913284 + 91.899806) / .0111292031 - s * s) / 6.283185307179586 }')" < found
