@@ -44,7 +44,7 @@ find_clearest(scale_row *best, row_source *source, size_t rows, ss_error *err)
     for (size_t i = 0; i < rows; i++) {
         const scale_row *head = ss_row_head(source, label_of(source, i));
         if (head != NULL)
-            keep_clearer(best, &(scale_row){ .f = head->f, .rms = head->rms, .top = head->top, .n = head->n });
+            keep_clearer(best, &(scale_row){ .f = head->f, .rms = head->rms_of_all, .top = head->top, .n = head->n });
     }
     if (best->n > 0)
         st = ss_row_new(best, source, best->f, NULL, err);

@@ -123,12 +123,8 @@ find(search *s, double *x, size_t column, ss_error *err)
         : ROW_CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n) * (1 + 1e-9);
     opts.progress = (ss_progress){ report_transform, s };
     const stream_lesson *known = s->part->known;
-    row_noises noises = { .n = 0 };
-    if (known != NULL) {            /* ground below the oscillation joins its maxima */
+    if (known != NULL)              /* ground below the oscillation joins its maxima */
         opts.fmax = fmin(known->highest, known->label * 2);
-        noises = known->noises;
-        noises.is_known = 1;
-    }
     ss_range flat = { 0, s->rate };             /* what a filter has changed is no contact */
     ss_header_flat(s->signal->head, &flat);
     opts.fmin = fmax(opts.fmin, flat.from);
@@ -148,7 +144,6 @@ find(search *s, double *x, size_t column, ss_error *err)
         s->largest = fmax(s->largest, fabs(x[i]));
     for (size_t i = 0; i < s->n; i++)
         s->x[i] = s->largest > 0 ? x[i] / s->largest : 0;
-    noises.unit = s->largest;
 
     /* what needs no map comes before the map takes its memory */
     st = find_repetition(s);
@@ -157,7 +152,11 @@ find(search *s, double *x, size_t column, ss_error *err)
     if (st == SS_OK)
         st = ss_row_source_init(s->rows, s->x, s->n, s->rate, s->gap, s->n_gaps, NULL);
     s->rows->plans = s->part->plans;
-    s->rows->noises = &noises;
+    if (known != NULL) {
+        s->rows->known = known->head;
+        s->rows->n_known = known->n_heads;
+        s->rows->unit = known->largest / s->largest;
+    }
     s->rows->at = s->at;
     s->rows->keeps_heads = isnan(s->out->number[SS_REPETITION_FREQUENCY].value);  /* single events may be sought */
     if (st == SS_OK)
@@ -176,12 +175,13 @@ find(search *s, double *x, size_t column, ss_error *err)
         st = ss_slip_rate_find(s);
     if (st == SS_OK && s->part->period == 0)
         st = ss_numbers_find(s);
-    s->rows->noises = NULL;
-    if (s->part->learnt != NULL)
+    if (s->part->learnt != NULL) {
         *s->part->learnt = (stream_lesson){
             .label = s->is_cleaned ? 0 : s->label, .rms = s->out->noise / sqrt(s->rate), .largest = s->largest,
             .highest = highest, .length = (double)s->n, .slow = s->slow, .cycles = s->cycles,
-            .repetition = s->out->number[SS_REPETITION_FREQUENCY], .noises = noises };
+            .repetition = s->out->number[SS_REPETITION_FREQUENCY], .n_heads = s->rows->n_heads };
+        memcpy(s->part->learnt->head, s->rows->head, sizeof s->rows->head);
+    }
     for (size_t i = 0; i < s->n && s->is_cleaned; i++)
         x[i] = s->x[i] * s->largest;
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));

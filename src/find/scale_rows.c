@@ -225,8 +225,7 @@ fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
     const ss_scale *scale = &source->rows->scale[index];
     const ss_window all = translations(source, scale, NULL);
     const size_t n = ss_window_length(all);
-    row_noises *noises = source->noises;
-    const scale_row *known = noises != NULL && noises->is_known ? row_of(noises->row, noises->n, r->f) : NULL;
+    const scale_row *known = row_of(source->known, source->n_known, r->f);
     double *level = source->level + all.first;
     ss_status st = (r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak)) != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && known != NULL && i < source->at.n; i++) {
@@ -240,21 +239,19 @@ fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
         return st;
     }
     if (known != NULL) {
-        r->rms = known->rms / noises->unit;
-        r->top = most(r->top, known->top / noises->unit);
+        r->rms = known->rms * source->unit;
+        r->top = most(r->top, known->top * source->unit);
         return SS_OK;
     }
     r->rms = noise_of(source, loud, level, n, ss_scale_b(scale, all.first) - (double)source->margin / source->rate,
                       scale->b_num / scale->b_den, r->a);
-    if (noises != NULL && !noises->is_known && noises->n < ROW_HEADS)
-        noises->row[noises->n++] = (scale_row){ .a = r->a, .f = r->f, .rms = r->rms * noises->unit,
-                                                .top = r->top * noises->unit };
-    if (source->keeps_heads && source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
+    if (source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
         scale_row *head = &source->head[source->n_heads++];
         *head = *r;
         head->peak = NULL;
-        if (loud != NULL && loud->n > 0)
-            head->rms = rms_of(source, gsl_stats_select(level, 1, n, n / 2));
+        head->rms_of_all = r->rms;
+        if (source->keeps_heads && loud != NULL && loud->n > 0)
+            head->rms_of_all = rms_of(source, gsl_stats_select(level, 1, n, n / 2));
     }
     return SS_OK;
 }
@@ -310,7 +307,7 @@ ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud, ss
 const scale_row *
 ss_row_head(const row_source *source, double f)
 {
-    return row_of(source->head, source->n_heads, f);
+    return source->keeps_heads ? row_of(source->head, source->n_heads, f) : NULL;
 }
 
 void

@@ -20,20 +20,13 @@ typedef struct peak {
 typedef struct scale_row {
     double a, f;
     double rms, top;            /* rms of the noise; level of the largest peak */
+    double rms_of_all;          /* with what is near spikes */
     size_t n;
     peak *peak;                 /* all maxima outside the cone of influence and out of the
                                    reach of gaps, in time order */
 } scale_row;
 
 enum { ROW_HEADS = 32 };
-
-/* What the rows of a record teach about those of a part of it. */
-typedef struct row_noises {
-    int is_known;               /* 0: they are learnt */
-    double unit;                /* of the levels, re those of the samples */
-    size_t n;
-    scale_row row[ROW_HEADS];   /* without peaks */
-} row_noises;
 
 typedef struct row_source {
     const double *x;
@@ -51,11 +44,13 @@ typedef struct row_source {
     size_t margin;
     double *level;              /* room for so many of a scale_row */
     size_t room;
-    int keeps_heads;            /* 1: the first rows are kept when their peaks are freed */
-    scale_row head[ROW_HEADS];        /* these rows, with the noise of the whole row and without their peaks */
+    int keeps_heads;            /* 1: ss_row_head has the first rows */
+    scale_row head[ROW_HEADS];  /* these rows, without their peaks */
     size_t n_heads;
-    row_noises *noises;         /* may be NULL */
-    search_places at;           /* where rows whose noise is known are read */
+    const scale_row *known;     /* heads of a longer record: such rows have its noise and are read `at` places only */
+    size_t n_known;
+    double unit;                /* of their levels */
+    search_places at;
 } row_source;
 
 /* Prepare a source, and check the samples and the rate. */

@@ -92,7 +92,8 @@ typedef struct stream_lesson {
     slow_part slow;             /* beside the oscillation */
     ss_cycles cycles;
     ss_number repetition;
-    row_noises noises;
+    scale_row head[ROW_HEADS];  /* rows with spikes */
+    size_t n_heads;
 } stream_lesson;
 
 /* A signal that is a part of a longer one. */
