@@ -13,6 +13,7 @@
 #include <stickslip/steps.h>
 
 #include <float.h>
+#include <gsl/gsl_interp.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
@@ -67,6 +68,7 @@ typedef struct path {
     double start;               /* x of the first row, as recorded */
     line *line;
     size_t lines, room;
+    gsl_interp *curve;          /* through the rows */
     corner *corner[2];          /* of either chain, and places between rows where the path stays as recorded */
     size_t corners[2];
 } path;
@@ -282,33 +284,13 @@ end_of(const path *p, size_t k)
     return k + 1 < p->lines ? p->line[k + 1].of.meets : p->t[p->n - 1];
 }
 
-/* The speed between a row and the next, and at a row by Akima (1970), who keeps a line straight to its end. */
-static double
-chord(const path *p, size_t i)
-{
-    return (p->x[i + 1] - p->x[i]) / (p->t[i + 1] - p->t[i]);
-}
-
-static double
-speed_at(const path *p, size_t i)
-{
-    if (i < 2 || i + 2 >= p->n)
-        return chord(p, i < 2 ? i : i - 1);
-    const double before = chord(p, i - 1), behind = chord(p, i);
-    const double bend = fabs(before - chord(p, i - 2)), next = fabs(chord(p, i + 1) - behind);
-    return bend + next > 0 ? (next * before + bend * behind) / (bend + next) : (before + behind) / 2;
-}
-
-/* Add places between a row, as recorded, and the next. */
+/* Add places between a row, as recorded, and the next, on Akima's curve, which keeps a line straight to its end. */
 static void
 add_between(path *p, size_t i)
 {
-    const double long_for = p->t[i + 1] - p->t[i], by = p->x[i + 1] - p->x[i];
-    const double bend = speed_at(p, i) * long_for - by, next = by - speed_at(p, i + 1) * long_for;
     for (int k = 1; k < BETWEEN; k++) {
-        const double u = k / (double)BETWEEN, left = 1 - u;
-        p->corner[0][p->corners[0]++] = (corner){ p->t[i] + u * long_for,
-            p->x[i] + u * by + u * left * (left * bend + u * next) };
+        const double t = p->t[i] + k / (double)BETWEEN * (p->t[i + 1] - p->t[i]);
+        p->corner[0][p->corners[0]++] = (corner){ t, gsl_interp_eval(p->curve, p->t, p->x, t, NULL) };
     }
 }
 
@@ -319,8 +301,12 @@ chain(path *p)
 {
     const size_t joints = p->lines + 1;
     double *on = calloc(4 * joints, sizeof *on), *beside = on + joints, *sum = beside + joints, *at = sum + joints;
-    if (on == NULL)
+    p->curve = gsl_interp_alloc(gsl_interp_akima, p->n);
+    if (on == NULL || p->curve == NULL) {
+        free(on);
         return SS_ENOMEM;
+    }
+    gsl_interp_init(p->curve, p->t, p->x, p->n);
     memcpy(p->moved[0], p->x, p->n * sizeof *p->x);
     for (int pass = 0; pass < 2; pass++) {
         int fits = 0;
@@ -704,6 +690,7 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
     free(p.line);
     free(p.moved[0]);
     free(p.corner[0]);
+    gsl_interp_free(p.curve);
     free(x);
     if (st == SS_OK)
         *out = made;
