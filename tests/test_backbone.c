@@ -441,6 +441,27 @@ an_offset_is_no_growth(void **state)
     ss_signal_free(signal);
 }
 
+/* Viscous friction and drag x'|x'| lose as c A^0 + c A^1 and soften nothing, as no friction of a joint does: of the
+ * mechanisms that have a name it is none, and the answer says why. */
+static void
+drag_beside_viscous_friction_is_no_microslip(void **state)
+{
+    const decay of = { .w = 20 * PI, .amplitude = 1, .zeta = .003L, .quadratic = .01L };
+    (void)state;
+    seed = 51;
+    for (int draw = 0; draw < 3; draw++) {
+        decay_turn *turn;
+        size_t turns;
+        ss_signal *signal = record(&of, .001, "m", &turn, &turns);
+        ss_backbone *b = find(signal, NULL);
+        assert_int_equal(b->n_mechanisms, 0);
+        assert_non_null(b->other);
+        ss_backbone_free(b);
+        ss_signal_free(signal);
+        free(turn);
+    }
+}
+
 static double
 pull(double x, double v)                    /* of a pendulum of 10 Hz */
 {
@@ -469,6 +490,7 @@ what_is_no_mechanism_is_another(void **state)
         ss_backbone *b = find(signal, NULL);
         assert_true(b->n > 0);
         assert_int_equal(b->n_mechanisms, 0);
+        assert_non_null(b->other);
         ss_backbone_free(b);
         ss_signal_free(signal);
     }
@@ -683,7 +705,8 @@ main(void)
         cmocka_unit_test(numbers_of_a_law_know_what_the_record_knows), cmocka_unit_test(many_points_a_period_leave_the_amplitude),
         cmocka_unit_test(sliders_that_stop_soon_are_known), cmocka_unit_test(rows_hold_where_a_joint_begins_to_slip),
         cmocka_unit_test(each_derivative_of_a_slider_has_its_law), cmocka_unit_test(an_offset_is_no_growth),
-        cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(what_is_no_mechanism_is_another),
+        cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(drag_beside_viscous_friction_is_no_microslip),
+        cmocka_unit_test(what_is_no_mechanism_is_another),
         cmocka_unit_test(levels_give_the_damping), cmocka_unit_test(long_blocks_and_two_modes),
         cmocka_unit_test(velocity_and_acceleration_have_the_frequency),
         cmocka_unit_test(extreme_amplitudes), cmocka_unit_test(each_column_has_its_own),

@@ -63,6 +63,7 @@ typedef struct ss_backbone {
     double chi2_dof;            /* of the best one; NaN: there are no rows */
     size_t n_numbers;           /* of the first mechanism */
     ss_backbone_number number[SS_BACKBONE_NUMBERS];
+    const char *other;          /* constant text: why no mechanism is named; NULL: one is, or no rows */
 } ss_backbone;
 
 /* Follow the largest free decay in a column of a signal.  That there is none, and that its mechanism cannot be

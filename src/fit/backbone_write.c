@@ -55,8 +55,8 @@ ss_backbone_write(const ss_backbone *b, const ss_signal *signal, size_t column, 
                   ss_error *err)
 {
     static const char *const own[] = {
-        "decay", "mechanism", "frequency", "damping_ratio", "friction*", "drag_over_mass", "contact_stiffness*",
-        "slip_amplitude", "exponent", "microslip_damping", "softening", "chi2_dof", "amplitude_*", "noise", "rate",
+        "decay", "mechanism", "other", "frequency", "damping_ratio", "friction*", "drag_over_mass",
+        "contact_stiffness*", "slip_amplitude", "exponent", "microslip_damping", "softening", "chi2_dof", "amplitude_*", "noise", "rate",
         "start", "columns", NULL };
     struct rows rows;
     char number[SS_NUMBER_MAX];
@@ -75,6 +75,8 @@ ss_backbone_write(const ss_backbone *b, const ss_signal *signal, size_t column, 
     if (rows.format->has_notes)
         write_mechanism(&rows, b);
     if (b->why == NULL) {
+        if (b->other != NULL)
+            ss_rows_note(&rows, "other: %s", b->other);
         ss_rows_note(&rows, "chi2_dof: %s", ss_number_rounded(number, b->chi2_dof, 4));
         ss_rows_note(&rows, "amplitude_start: %s %s", ss_number_text(number, b->row[0].amplitude), b->start);
         ss_rows_note(&rows, "amplitude_stop: %s %s", ss_number_text(number, b->row[b->n - 1].amplitude), b->stop);
@@ -107,8 +109,8 @@ ss_backbone_scene(ss_scene *scene, const ss_backbone *b, const ss_signal *signal
         return ss_fail_column(err, column, signal->head->n_columns);
     int order = ss_motion_order(signal->head->column[column].unit);
     if (b->n_mechanisms != 1)
-        return ss_fail(err, SS_EDATA, "no scene: %s", b->why != NULL ? b->why : b->n_mechanisms == 0
-                       ? "the mechanism is another" : "the mechanism cannot be told");
+        return ss_fail(err, SS_EDATA, "no scene: %s", b->why != NULL ? b->why : b->other != NULL
+                       ? b->other : "the mechanism cannot be told");
     if (b->mechanism[0] == SS_MICROSLIP || b->mechanism[0] == SS_QUADRATIC)
         return ss_fail(err, SS_EDATA, "no scene: no model has %s friction", ss_mechanism_names[b->mechanism[0]]);
     if (order < 0 || !(mass > 0) || number_of(b, "frequency") == 0)
@@ -120,7 +122,8 @@ ss_backbone_scene(ss_scene *scene, const ss_backbone *b, const ss_signal *signal
         .model = ss_model_named(contact > 0 ? "compliant" : "coulomb"), .mass = mass, .stiffness = stiffness,
         .damping = 2 * mass * w * number_of(b, "damping_ratio"),
         .v0 = b->row[0].amplitude * pow(2 * M_PI * b->row[0].frequency.value, 1 - order),
-        .friction = contact > 0 ? contact * slip : stiffness * number_of(b, "friction_over_stiffness") * pow(w, -order),
+        .friction = contact > 0 ? contact * slip
+            : stiffness * number_of(b, "friction_over_stiffness") * pow(w, -order),
         .duration = b->row[b->n - 1].t - b->row[0].t, .rate = signal->head->rate };
     if (contact > 0) {
         ss_status st = ss_scene_set(scene, "contact_stiffness", contact, err);

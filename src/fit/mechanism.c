@@ -38,6 +38,7 @@ enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
 #define CHANCE .25              /* probability of such a gain of chi^2: one that contains the better one is a
                                    rival then */
 #define SHOWN 1e-2              /* the same: one that the better one contains is none then */
+#define SOFTER .5               /* of its losses c: by Masing's rules friction softens by pi/4 (1 + 2/p) c */
 #define REJECT 1e-3             /* probability of so large a chi^2 */
 
 const char *const ss_mechanism_names[SS_MECHANISMS + 1] = {
@@ -401,6 +402,11 @@ fit(fitted *f, const trial *of)
     f->free = (double)of_fit.rows - unknowns;
     f->p = isfinite(end.squares) ? gsl_cdf_chisq_Q(end.squares, f->free) : 0;
     f->bic = (isfinite(end.squares) ? end.squares : INFINITY) + unknowns * log((double)of_fit.rows);
+    double error = sqrt(f->covariance[BEND * (UNKNOWNS + 1)]);
+    if (of->kind == SS_MICROSLIP && of->tracks == TRACKS && f->u[BEND] + 3 * error < SOFTER * f->u[C]) {
+        f->p = 0;
+        f->bic = INFINITY;
+    }
     return st;
 }
 
@@ -629,21 +635,24 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     while (best < f + SS_MECHANISMS - 1 && best->p < REJECT)
         best++;
     best = best->p < REJECT ? f : best;
-    int is_other = best->p < REJECT || source->beats != NULL;
-    for (int k = TWO_MODES; st != SS_ENOMEM && k < LAWS && !is_other && source->has_phase; k++) {
+    const char *other = source->beats != NULL ? source->beats : best->p < REJECT ? "no law fits" : NULL;
+    for (int k = TWO_MODES; st != SS_ENOMEM && k < LAWS && other == NULL && source->has_phase; k++) {
         fitted rival;
         st = fit_first(&rival, &of, k);
-        is_other = st == SS_OK && rival.bic + (rival.free > best->free ? 0 : NEARLY) < best->bic;
+        if (st == SS_OK && rival.bic + (rival.free > best->free ? 0 : NEARLY) < best->bic)
+            other = k == TWO_MODES ? "two modes that beat fit better"
+                : "a frequency that changes with the square of the amplitude fits better";
     }
     if (st == SS_ENOMEM) {
         free(p), free(what);
         return st;
     }
     out->chi2_dof = best->squares / best->free;
+    out->other = other;
     mixed *sum = calloc(n, sizeof *sum);
     double whole = 0, error[3];
     st = sum != NULL ? SS_OK : SS_ENOMEM;
-    for (fitted *x = best; st == SS_OK && !is_other && x < f + SS_MECHANISMS; x++) {
+    for (fitted *x = best; st == SS_OK && other == NULL && x < f + SS_MECHANISMS; x++) {
         int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY;
         double gain = best->squares - x->squares, more = best->free - x->free;
         if (laws[x->kind].contains >> best->kind & 1)
