@@ -240,7 +240,8 @@ ss_driven_turns(const driven *d, double least, char is_turn[])
 {
     size_t farthest = 0, turns = 0;
     double way = 0;
-    memset(is_turn, 0, d->n);
+    if (is_turn != NULL)
+        memset(is_turn, 0, d->n);
     for (size_t i = 0; i < d->n; i++) {
         double back = d->x[farthest] - d->x[i];
         if (way == 0 && fabs(back) <= least)
@@ -250,7 +251,8 @@ ss_driven_turns(const driven *d, double least, char is_turn[])
         if (way * back <= 0)
             farthest = i;
         else if (way * back > least) {
-            is_turn[farthest] = 1;
+            if (is_turn != NULL)
+                is_turn[farthest] = 1;
             turns++;
             farthest = i;
             way = -way;

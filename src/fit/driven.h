@@ -51,6 +51,7 @@ typedef struct driven {
     size_t clipped;
     double angle;                   /* radians in the recording's unit of motion; 0: it is no angle */
     double most_delay;              /* rows */
+    double pieces;                  /* in a unit of time: every other is of one fold */
     double *room;
 } driven;
 
@@ -60,7 +61,7 @@ ss_status ss_driven_new(driven *d, const double t[], const double motion[], cons
 /* Keep about so many rows, evenly, and at most as many at which the motion turns. */
 ss_status ss_driven_thin(driven *thin, const driven *d, size_t most);
 void ss_driven_free(driven *d);
-/* Mark the rows at which the motion turns by more than so much.  Returns their number. */
+/* Mark the rows at which the motion turns by more than so much; NULL: do not.  Returns their number. */
 size_t ss_driven_turns(const driven *d, double least, char is_turn[]);
 
 /* The line over time that suits the used rows of x: its value at the middle and its slope.  Returns the mean square
@@ -82,10 +83,16 @@ typedef struct driven_result {
     double covariance[UNKNOWNS + COLUMNS][UNKNOWNS + COLUMNS];      /* of the fit of all */
 } driven_result;
 
-/* driven_fit.c: fit a law to a record, given the results of the n simpler ones.  fold: 0 or 1 for each row.
+static inline int
+driven_fold(const driven *d, size_t i)
+{
+    return (int)(d->t[i] * d->pieces) % FOLDS;
+}
+
+/* driven_fit.c: fit a law to a record, given the results of the n simpler ones.
  * coarse: the same record with fewer rows.  left is to be freed.  SS_ENOMEM. */
-ss_status ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const char fold[],
-                        const driven *coarse, const driven_result others[], size_t n);
+ss_status ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const driven *coarse,
+                        const driven_result others[], size_t n);
 /* What a fit makes of each row. */
 ss_status ss_driven_predict(double out[], const driven_law *law, const driven *d, const driven_fit *fit);
 

@@ -32,7 +32,6 @@ static const ss_range starts[UNKNOWNS] = {
 typedef struct problem {
     const driven_law *law;
     const driven *d;
-    const char *fold;               /* of each row */
     int without;                    /* the fold that is not fitted */
     double *column[COLUMNS];        /* of each row; NULL: the law has no such column */
     double *room;
@@ -55,9 +54,9 @@ has_column(const driven_law *law, const driven *d, int k)
 }
 
 static ss_status
-problem_new(problem *p, const driven_law *law, const driven *d, const char *fold)
+problem_new(problem *p, const driven_law *law, const driven *d)
 {
-    *p = (problem){ .law = law, .d = d, .fold = fold, .without = ALL, .late = NAN };
+    *p = (problem){ .law = law, .d = d, .without = ALL, .late = NAN };
     p->room = malloc(COLUMNS * d->n * sizeof *p->room);
     if (p->room == NULL)
         return SS_ENOMEM;
@@ -81,7 +80,7 @@ problem_new(problem *p, const driven_law *law, const driven *d, const char *fold
 static int
 is_fitted(const problem *p, size_t i)
 {
-    return p->d->used[i] && p->fold[i] != p->without;
+    return p->d->used[i] && driven_fold(p->d, i) != p->without;
 }
 
 /* --- the columns --------------------------------------------------------------------------- */
@@ -184,8 +183,9 @@ find_amplitudes(problem *p)
             of[m++] = k;
     for (size_t i = 0; i < d->n; i++) {
         const double t = p->column[DRIFT][i], f = d->f[i] - p->line[COLUMNS][0] - p->line[COLUMNS][1] * t;
+        const int is_used = is_fitted(p, i);
         double x[COLUMNS];
-        for (size_t k = 0; k < m && is_fitted(p, i); k++) {
+        for (size_t k = 0; is_used && k < m; k++) {
             x[k] = p->column[of[k]][i] - p->line[of[k]][0] - p->line[of[k]][1] * t;
             b[of[k]] += x[k] * f;
             for (size_t l = 0; l <= k; l++)
@@ -421,17 +421,6 @@ find_covariance(problem *p, driven_result *r, double *slopes)
 
 /* --- the fit ------------------------------------------------------------------------------- */
 
-/* The fold of each row of a record with fewer rows. */
-static void
-copy_folds(char *to, const driven *coarse, const char *fold, const driven *d)
-{
-    for (size_t i = 0, k = 0; i < coarse->n; i++) {
-        while (k + 1 < d->n && d->row[k] < coarse->row[i])
-            k++;
-        to[i] = fold[k];
-    }
-}
-
 /* Fit without a fold, from the best of the starts, and add up what it leaves of that fold. */
 static ss_status
 fit_fold(driven_result *r, problem *p, problem *rough, driven_fit start[KEPT], double rows)
@@ -449,7 +438,7 @@ fit_fold(driven_result *r, problem *p, problem *rough, driven_fit start[KEPT], d
         st = improve(p, fit);
     for (size_t i = 0; i < d->n && st == SS_OK; i++) {
         r->left[i] = left_of(p, fit->c, i);
-        if (d->used[i] && p->fold[i] == p->without) {
+        if (d->used[i] && driven_fold(d, i) == p->without) {
             r->loss += r->left[i] * r->left[i] / rows;
             r->block[i * BLOCKS / d->n] += r->left[i] * r->left[i] / rows;
         }
@@ -458,25 +447,23 @@ fit_fold(driven_result *r, problem *p, problem *rough, driven_fit start[KEPT], d
 }
 
 ss_status
-ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const char fold[], const driven *coarse,
+ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const driven *coarse,
               const driven_result others[], size_t n)
 {
     problem p = { 0 }, rough = { 0 };
     driven_fit start[FOLDS + 1][KEPT];
     double rows = 0, *slopes = malloc(d->n * (UNKNOWNS + COLUMNS) * sizeof *slopes);
-    char *rough_fold = calloc(coarse->n, 1);
     *out = (driven_result){ .law = law, .left = calloc(2 * d->n, sizeof *out->left) };
-    ss_status st = slopes != NULL && rough_fold != NULL && out->left != NULL ? SS_OK : SS_ENOMEM;
+    ss_status st = slopes != NULL && out->left != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
-        st = problem_new(&p, law, d, fold);
+        st = problem_new(&p, law, d);
     if (st == SS_OK)
-        st = problem_new(&rough, law, coarse, rough_fold);
+        st = problem_new(&rough, law, coarse);
     if (st == SS_OK) {
         for (size_t i = 0; i < d->n; i++)
             rows += d->used[i];
         for (size_t k = 0; k < (FOLDS + 1) * KEPT; k++)
             start[k / KEPT][k % KEPT].loss = INFINITY;
-        copy_folds(rough_fold, coarse, fold, d);
         st = search(&rough, start, others, n);
     }
     for (int k = 0; k <= ALL && st == SS_OK; k++) {
@@ -492,7 +479,6 @@ ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const 
     }
     free(p.room);
     free(rough.room);
-    free(rough_fold);
     free(slopes);
     return st;
 }
@@ -501,7 +487,7 @@ ss_status
 ss_driven_predict(double out[], const driven_law *law, const driven *d, const driven_fit *fit)
 {
     problem p;
-    ss_status st = problem_new(&p, law, d, NULL);
+    ss_status st = problem_new(&p, law, d);
     if (st != SS_OK)
         return st;
     fill_columns(&p, fit->u);

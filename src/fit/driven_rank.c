@@ -28,38 +28,30 @@ SS_OPTIONS(ss_motion_opts, defaults)
 
 /* The ratio of the rms motions in the two folds, at least 1. */
 static double
-fold_ratio(const driven *d, const char *fold)
+fold_ratio(const driven *d)
 {
     double sum[FOLDS] = { 0 }, squares[FOLDS] = { 0 }, n[FOLDS] = { 0 }, variance[FOLDS];
     for (size_t i = 0; i < d->n; i++) {
-        sum[(int)fold[i]] += d->x[i];
-        squares[(int)fold[i]] += d->x[i] * d->x[i];
-        n[(int)fold[i]]++;
+        const int fold = driven_fold(d, i);
+        sum[fold] += d->x[i];
+        squares[fold] += d->x[i] * d->x[i];
+        n[fold]++;
     }
     for (int k = 0; k < FOLDS; k++)
         variance[k] = squares[k] / n[k] - sum[k] / n[k] * (sum[k] / n[k]);
     return sqrt(fmax(variance[0], variance[1]) / fmin(variance[0], variance[1]));
 }
 
-/* Divide the rows into so many pieces, every other of which is one fold. */
-static void
-divide(const driven *d, size_t pieces, char *fold)
-{
-    for (size_t i = 0; i < d->n; i++)
-        fold[i] = (char)(d->t[i] / (d->t[d->n - 1] * (1 + 1e-9)) * (double)pieces) % 2;
-}
-
 /* Choose the folds.  Returns 1 if the two are not alike. */
 static int
-choose_folds(const driven *d, ss_folds how, size_t turns, char *fold, int *interleaved)
+choose_folds(driven *d, ss_folds how, size_t turns, int *interleaved)
 {
-    divide(d, 2, fold);
-    *interleaved = how == SS_FOLDS_INTERLEAVED || (how == SS_FOLDS_BY_RANGE && fold_ratio(d, fold) > OTHER_RANGE);
-    if (*interleaved) {
-        size_t pieces = turns / 4 * 2;          /* of at least a cycle */
-        divide(d, pieces < 4 ? 4 : pieces > 16 ? 16 : pieces, fold);
-    }
-    return fold_ratio(d, fold) > (*interleaved ? 2 : 1) * OTHER_RANGE;
+    const double span = d->t[d->n - 1] * (1 + 1e-9);
+    d->pieces = 2 / span;
+    *interleaved = how == SS_FOLDS_INTERLEAVED || (how == SS_FOLDS_BY_RANGE && fold_ratio(d) > OTHER_RANGE);
+    if (*interleaved)
+        d->pieces = fmax(4, fmin((double)(turns / 4 * 2), 16)) / span;      /* of at least a cycle */
+    return fold_ratio(d) > (*interleaved ? 2 : 1) * OTHER_RANGE;
 }
 
 /* --- what the motion can show -------------------------------------------------------------- */
@@ -250,8 +242,8 @@ work_of(const driven_result *r, const driven *d)
 
 /* Rank by a record that can show a law. */
 static ss_status
-judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven *coarse, const char *fold,
-      size_t turns, const ss_signal *signal, const size_t of[2], const ss_motion_opts *opts)
+judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven *coarse, size_t turns,
+      const ss_signal *signal, const size_t of[2], const ss_motion_opts *opts)
 {
     driven_result *r = calloc(LAWS_MOST, sizeof *r);
     candidate c[LAWS_MOST];
@@ -266,7 +258,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         driven_noise noise;
         if (is_without(opts->without, law->name))
             continue;
-        st = ss_driven_fit(&r[n], law, rows, fold, coarse, r, n);
+        st = ss_driven_fit(&r[n], law, rows, coarse, r, n);
         if (st == SS_OK)
             st = ss_progress_at(&opts->progress, (double)(i + 1) / LAWS_MOST);
         if (st == SS_OK)
@@ -322,22 +314,18 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size
           const size_t of[2], const ss_motion_opts *opts)
 {
     driven d = { 0 }, rows = { 0 }, coarse = { 0 };
-    char why[128], *fold = malloc(n + 1);
+    char why[128];
     size_t turns = 0;
-    ss_status st = fold != NULL ? SS_OK : SS_ENOMEM;
+    ss_status st = SS_OK;
     snprintf(why, sizeof why, "it has %zu rows, fewer than %d", n, FEWEST);
-    if (st == SS_OK && n >= FEWEST) {
-        st = ss_driven_new(&d, column[0], column[1], column[2], n, opts);
-        turns = st == SS_OK ? ss_driven_turns(&d, fmax(DRIVEN_TURN, d.least), fold) : 0;
-        if (st == SS_OK)
-            find_doubt(why, sizeof why, &d, turns);
-        if (st == SS_OK && why[0] == '\0')
-            st = ss_driven_thin(&rows, &d, DRIVEN_ROWS);
-        if (st == SS_OK && why[0] == '\0')
-            st = ss_driven_thin(&coarse, &d, COARSE);
-        if (st == SS_OK && why[0] == '\0' && choose_folds(&rows, opts->folds, turns, fold, &r->interleaved))
+    if (n >= FEWEST && (st = ss_driven_new(&d, column[0], column[1], column[2], n, opts)) == SS_OK) {
+        turns = ss_driven_turns(&d, fmax(DRIVEN_TURN, d.least), NULL);
+        find_doubt(why, sizeof why, &d, turns);
+        if (why[0] == '\0' && choose_folds(&d, opts->folds, turns, &r->interleaved))
             snprintf(why, sizeof why, "the two %s visit other ranges of the motion",
                      r->interleaved ? "folds" : "halves");
+        if (why[0] == '\0' && (st = ss_driven_thin(&rows, &d, DRIVEN_ROWS)) == SS_OK)
+            st = ss_driven_thin(&coarse, &d, COARSE);
     }
     r->sign = d.sign;
     r->clipped = d.clipped;
@@ -345,14 +333,13 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size
         r->verdict = SS_NOT_JUDGED;
         snprintf(r->answer, sizeof r->answer, "not judged: %s", why);
     } else if (st == SS_OK)
-        st = judge(r, &d, &rows, &coarse, fold, turns, signal, of, opts);
+        st = judge(r, &d, &rows, &coarse, turns, signal, of, opts);
     if (st == SS_OK && r->rows > 0)         /* to their places; what is missing leaves nothing */
         for (size_t i = signal->n, k = n; i-- > 0;)
             r->predicted[i] = k > 0 && row[k - 1] == i ? r->predicted[--k] : signal->values[of[1] * signal->n + i];
     ss_driven_free(&d);
     ss_driven_free(&rows);
     ss_driven_free(&coarse);
-    free(fold);
     return st;
 }
 
