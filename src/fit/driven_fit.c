@@ -298,15 +298,16 @@ improve(problem *p, driven_fit *fit)
     return st;
 }
 
-/* Keep p->now if it is among the best. */
+/* Keep these unknowns, whose columns are filled in, if they are among the best. */
 static void
-keep(driven_fit best[KEPT], driven_fit now)
+keep(problem *p, driven_fit best[FOLDS + 1][KEPT], const double u[UNKNOWNS])
 {
-    for (size_t k = 0; k < KEPT; k++)
-        if (now.loss < best[k].loss) {
-            driven_fit other = best[k];
-            best[k] = now;
-            now = other;
+    evaluate(p, u, NULL);
+    for (driven_fit *at = best[p->without], other; at < best[p->without] + KEPT; at++)
+        if (p->now.loss < at->loss) {
+            other = *at;
+            *at = p->now;
+            p->now = other;
         }
 }
 
@@ -327,10 +328,8 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[
         for (size_t k = 0; k < dim; k++)
             u[p->free[k]] = starts[p->free[k]].from + at[k] * (starts[p->free[k]].to - starts[p->free[k]].from);
         fill_columns(p, u);
-        for (p->without = 0; p->without <= ALL; p->without++) {
-            evaluate(p, u, NULL);
-            keep(best[p->without], p->now);
-        }
+        for (p->without = 0; p->without <= ALL; p->without++)
+            keep(p, best, u);
     }
     for (size_t i = 0; i < n; i++)
         for (p->without = 0; p->without <= ALL; p->without++) {
@@ -341,8 +340,7 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[
             for (size_t k = 0; k < p->n_free; k++)
                 u[p->free[k]] = others[i].fit[p->without].u[p->free[k]];
             fill_columns(p, u);
-            evaluate(p, u, NULL);
-            keep(best[p->without], p->now);
+            keep(p, best, u);
         }
     if (dim > 0)
         gsl_qrng_free(all_over);

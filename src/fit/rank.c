@@ -39,7 +39,7 @@ report_half(double done, void *user)
 static int
 is_compared(const ss_ranking *r)
 {
-    return r->n > 0 && !isnan(r->row[0].total);
+    return r != NULL && !isnan(r->row[0].total);
 }
 
 /* Does the signal move as the pulled scenes do rather than as the forced ones? */
@@ -72,50 +72,46 @@ rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene 
           ss_error *err)
 {
     const size_t n = r->n;
-    ss_ranking kind[2] = { *r, *r };
+    ss_rank_row *row = r->row;
+    ss_ranking *kind[2] = { NULL, NULL };
     ss_scene *some = malloc(n * sizeof *some);
-    size_t *index = malloc(n * sizeof *index);
-    ss_rank_row *row = malloc(n * sizeof *row), *next = row;
-    ss_status st = some != NULL && index != NULL && row != NULL ? SS_OK : ss_fail_memory(err, NULL);
-    for (int pulled = 0; st == SS_OK && pulled < 2; pulled++) {
-        ss_ranking *k = &kind[pulled];
+    ss_status st = some != NULL ? SS_OK : ss_fail_memory(err, NULL);
+    for (int pulled = 0; st == SS_OK && pulled <= (opts->quantity == SS_SPRING); pulled++) {
         ss_stretch half = { opts->progress, 0.5 * pulled, 0.5 * (1 + pulled) };
         ss_rank_opts o = *opts;
+        size_t m = 0;
         o.progress = (ss_progress){ report_half, &half };
-        k->row = next;
-        k->n = 0;
         for (size_t i = 0; i < n; i++)
-            if (ss_scene_is_pulled(&scene[i]) == pulled) {
-                *next++ = r->row[k->n];
-                some[k->n] = scene[i];
-                index[k->n++] = i;
-            }
-        if (!pulled || opts->quantity == SS_SPRING)
-            st = (pulled ? ss_pull_compare : ss_forced_compare)(k, signal, column, some, &o, err);
-        for (size_t i = 0; i < k->n; i++)
-            k->row[i].scene = index[k->row[i].scene];
+            if (ss_scene_is_pulled(&scene[i]) == pulled)
+                some[m++] = scene[i];
+        st = ss_ranking_new(&kind[pulled], signal, column, some, m, &o, err);
     }
     if (st == SS_OK) {
-        const int pulled = is_pull(&kind[0], &kind[1]);
-        const int both = kind[0].verdict == SS_NAMED && kind[1].verdict == SS_NAMED;
-        const ss_ranking *own = &kind[pulled];
-        next = r->row;
-        memcpy(next, own->row, own->n * sizeof *next);
-        next += own->n;
+        const int pulled = is_pull(kind[0], kind[1]);
+        const ss_ranking *own = kind[pulled];
+        size_t next = own->n, nth = 0;
         *r = *own;
-        r->row = next - own->n;
+        r->row = row;
         r->n = n;
         for (size_t i = 0; i < n; i++)
             if (ss_scene_is_pulled(&scene[i]) != pulled)
-                *next++ = last_row(i, &scene[i]);
-        if (both) {
+                row[next++] = last_row(i, &scene[i]);
+            else {
+                for (size_t k = 0; k < own->n; k++)
+                    if (own->row[k].scene == nth) {
+                        row[k] = own->row[k];
+                        row[k].scene = i;
+                    }
+                nth++;
+            }
+        if (kind[1] != NULL && kind[0]->verdict == SS_NAMED && kind[1]->verdict == SS_NAMED) {
             r->verdict = SS_UNDECIDED;
             snprintf(r->why, sizeof r->why, "a pull and a forced motion explain the signal");
         }
     }
+    ss_ranking_free(kind[0]);
+    ss_ranking_free(kind[1]);
     free(some);
-    free(index);
-    free(row);
     return st;
 }
 
