@@ -7,6 +7,7 @@
 #include "new_signal.h"
 #include "shipped.h"
 #include "unit.h"
+#include "find/slope.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 
@@ -520,6 +521,31 @@ the_forcing_is_no_harmonic(void **state)
     ss_signal_free(signal);
 }
 
+/* Of a force and a displacement that have nothing to do with each other there is none. */
+static void
+has_no_slope_without_a_spring(void **state)
+{
+    enum { N = 4000, WINDOWS = 10 };
+    double *f = malloc(3 * N * sizeof *f), *x = f + N, *y = x + N;
+    ss_window span[WINDOWS];
+    size_t known = 0;
+    (void)state;
+    assert_non_null(f);
+    for (size_t i = 0; i < N; i++)
+        f[i] = x[i] = 0, y[i] = sin(0.2 * (double)i);
+    for (size_t i = 0; i < WINDOWS; i++)
+        span[i] = (ss_window){ 400 * i + 10, 400 * i + 300 };
+    for (unsigned long seed = 0; seed < 20; seed++) {
+        ss_value slope;
+        ss_noise_add_once(f, N, 1, 2 * seed + 1, NULL);
+        ss_noise_add_once(x, N, 1, 2 * seed + 2, NULL);
+        assert_int_equal(ss_slope_find(f, x, y, span, WINDOWS, &slope), SS_OK);
+        known += isfinite(slope.value);
+    }
+    assert_true(known <= 1);
+    free(f);
+}
+
 static void
 reads_the_slope_of_force_over_displacement(void **state)
 {
@@ -739,6 +765,7 @@ main(void)
         cmocka_unit_test(the_ringing_of_a_sensor_is_no_contact),
         cmocka_unit_test(single_events_have_an_extent),
         cmocka_unit_test(no_slip_rate_where_repetitions_have_no_transition),
+        cmocka_unit_test(has_no_slope_without_a_spring),
         cmocka_unit_test(reads_the_slope_of_force_over_displacement),
         cmocka_unit_test(gaps_leave_out_what_they_reach_and_nothing_else),
         cmocka_unit_test(refuses_what_is_out_of_range),

@@ -8,7 +8,6 @@
 #define BREAK 0.05              /* probability of cutting all windows although there is no micro-slip; it is
                                    FIT_CHANCE if neither part has the least length, as then all are refused */
 #define LATEST 32.0             /* periods behind a window, see ss_slips_ring_on */
-#define TONE 0.25               /* from one hum that is tried to the next, re w: windows show no less */
 #define LOUDER 1.5              /* times the residual: an oscillation that is louder rings on */
 
 /* --- micro-slips too weak for any one window ----------------------------------------------- */
@@ -227,32 +226,24 @@ rings_there(fitter *k, tail behind)
     return is_one && fitted.ring > LOUDER * LOUDER * (double)m * behind.left + k->noise * ss_chisq2(FIT_CHANCE);
 }
 
-/* Does something go on behind more than half of the windows, at growing distances: the oscillation, or a hum at a
- * frequency nearby?  A train of micro-slips looks like a strongly damped oscillation, but the contact rings on
- * behind it; a hum goes on, too. */
+/* Does the oscillation go on behind more than half of the windows, at growing distances?  A train of micro-slips looks
+ * like a strongly damped oscillation, but the contact rings on behind it. */
 ss_status
 ss_slips_ring_on(fitter *k, int *is)
 {
-    static const double tone[] = { 0, 1 - TONE, 1, 1 + TONE };     /* re w; 0: the oscillation itself */
-    const double w = k->fit.w, s = k->fit.s;
     tail *behind = malloc((k->n + 1) * sizeof *behind);
     if (behind == NULL)
         return SS_ENOMEM;
     *is = 0;
     for (double late_by = 2; late_by <= LATEST && !*is; late_by *= 2) {
+        size_t seen = 0, on = 0;
         find_tails(k, late_by, behind);
-        for (size_t t = 0; t < sizeof tone / sizeof *tone; t++) {
-            size_t seen = 0, on = 0;
-            if (tone[t] > 0)
-                k->fit.w = tone[t] * w, k->fit.s = 0;
-            for (size_t i = 0; i < k->n; i++)
-                if (ss_window_length(behind[i].at) > 0) {
-                    seen++;
-                    on += (size_t)rings_there(k, behind[i]);
-                }
-            *is |= seen >= FIT_FEW && 2 * on > seen;
-        }
-        k->fit.w = w, k->fit.s = s;
+        for (size_t i = 0; i < k->n; i++)
+            if (ss_window_length(behind[i].at) > 0) {
+                seen++;
+                on += (size_t)rings_there(k, behind[i]);
+            }
+        *is = seen >= FIT_FEW && 2 * on > seen;
     }
     free(behind);
     return SS_OK;

@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include "find/judgement.h"
 
 enum { F, X, V, ROUGH_V, OF };  /* what the instruments are multiplied with; ROUGH_V: over two samples */
 typedef struct sums {
@@ -94,8 +95,9 @@ ss_slope_find(const double *f, const double *x, const double *y, const ss_window
     for (size_t i = 0; i < n; i++)
         scatter += pow(stiffness_of(&all, &each[i], V) - mean, 2);
     double value = stiffness_of(&all, &none, V), rough = stiffness_of(&all, &none, ROUGH_V);
-    if (n >= 2 && isfinite(value) && isfinite(scatter))
-        *slope = (ss_value){ fabs(value), hypot(sqrt(scatter * (m - 1) / m), rough - value) };
+    double error = hypot(sqrt(scatter * (m - 1) / m), rough - value);
+    if (n >= 2 && isfinite(value) && SIGMAS * error < fabs(value))
+        *slope = (ss_value){ fabs(value), error };
     free(each);
     return SS_OK;
 }
