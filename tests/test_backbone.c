@@ -400,6 +400,34 @@ each_derivative_of_a_slider_has_its_law(void **state)
     assert_true(linear > 100);
 }
 
+/* Of a column without a unit or a known name the exact motion tells which derivative it is: the numbers are right, where
+ * with the law of a displacement these two were viscous and other. */
+static void
+a_slider_tells_which_derivative_a_column_is(void **state)
+{
+    enum { N = 8000 };
+    const decay of = { .w = 20 * PI, .amplitude = 1, .zeta = .006L, .sliders = 1, .kappa = { .35L }, .d = { .45L } };
+    (void)state;
+    seed = 43;
+    for (int order = 1; order < 3; order++) {
+        ss_signal *signal = new_signal(N, 400, 100, "y", "");
+        double *y = signal->values, most = pow(20 * PI, order), error = 0;
+        size_t turns;
+        free(decay_run(&of, 1 / 400.L, N, NULL, order == 1 ? y : NULL, order == 2 ? y : NULL, &turns));
+        for (int k = 0; k < N; k++)
+            y[k] += .001 * most * gauss();
+        ss_backbone *b = find(signal, NULL);
+        double ratio = number(b, "contact_stiffness_ratio", &error);
+        print_message("ratio %g +- %g, truth .35\n", ratio, error);
+        assert_true(fabs(ratio - .35) <= 4 * error && error < .035);
+        double slip = number(b, "slip_amplitude", &error), truth = .45 * pow(20 * PI * sqrt(1.35), order);
+        print_message("slips at %g +- %g, truth %g\n", slip, error, truth);
+        assert_true(fabs(slip - truth) <= 4 * error && error < .1 * truth);
+        ss_backbone_free(b);
+        ss_signal_free(signal);
+    }
+}
+
 static void
 what_is_no_decay_has_no_rows(void **state)
 {
@@ -705,6 +733,7 @@ main(void)
         cmocka_unit_test(numbers_of_a_law_know_what_the_record_knows), cmocka_unit_test(many_points_a_period_leave_the_amplitude),
         cmocka_unit_test(sliders_that_stop_soon_are_known), cmocka_unit_test(rows_hold_where_a_joint_begins_to_slip),
         cmocka_unit_test(each_derivative_of_a_slider_has_its_law), cmocka_unit_test(an_offset_is_no_growth),
+        cmocka_unit_test(a_slider_tells_which_derivative_a_column_is),
         cmocka_unit_test(what_is_no_decay_has_no_rows), cmocka_unit_test(drag_beside_viscous_friction_is_no_microslip),
         cmocka_unit_test(what_is_no_mechanism_is_another),
         cmocka_unit_test(levels_give_the_damping), cmocka_unit_test(long_blocks_and_two_modes),

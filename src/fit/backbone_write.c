@@ -56,8 +56,8 @@ ss_backbone_write(const ss_backbone *b, const ss_signal *signal, size_t column, 
 {
     static const char *const own[] = {
         "decay", "mechanism", "other", "frequency", "damping_ratio", "friction*", "drag_over_mass",
-        "contact_stiffness*", "slip_amplitude", "exponent", "microslip_damping", "softening", "chi2_dof", "amplitude_*", "noise", "rate",
-        "start", "columns", NULL };
+        "contact_stiffness*", "slip_amplitude", "exponent", "microslip_damping", "softening", "chi2_dof",
+        "amplitude_*", "noise", "rate", "start", "columns", NULL };
     struct rows rows;
     char number[SS_NUMBER_MAX];
     if (b == NULL || signal == NULL || out == NULL)

@@ -611,6 +611,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     point *p = calloc(n, sizeof *p);
     told *what = calloc(n, sizeof *what);
     fitted f[SS_MECHANISMS];
+    decay_source as[] = { *source, *source };       /* what the column may be, if its unit does not tell */
     trial of = { .p = p, .n = n, .tracks = source->has_phase ? TRACKS : 1, .w = w / unit, .told = what,
                  .source = source, .b = b, .unit = unit, .ln_a = ln_a };
     ss_status st = p != NULL && what != NULL ? SS_OK : SS_ENOMEM;
@@ -630,6 +631,18 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         st = fit(f, &of);
         *f = f->bic < by_law.bic || f->p >= REJECT ? *f : by_law;
         of.is_exact = f->is_exact;
+        for (int order = 1; source->derivative < 0 && order < 3 && st != SS_ENOMEM; order++) {
+            fitted g = by_law;
+            trial with = of;
+            as[order - 1].derivative = order;
+            with.source = &as[order - 1];
+            with.is_exact = 1;
+            st = fit(&g, &with);
+            if (g.bic + NEARLY < f->bic) {
+                *f = g;
+                of = with;
+            }
+        }
     }
     fitted *best = f;
     while (best < f + SS_MECHANISMS - 1 && best->p < REJECT)
@@ -692,7 +705,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     for (size_t i = 0; i < n; i++) {
         double s[2], at[2];
         law_at(&of, best->u, b[i].level - ln_a, s, at);
-        double fall = s[0] / (1 + (.5 - fmax(source->derivative, 0)) * at[1] / at[0]);
+        double fall = s[0] / (1 + (.5 - fmax(of.source->derivative, 0)) * at[1] / at[0]);
         int is_named = out->n_mechanisms == 1;
         out->row[i].named[0] = is_named && source->has_phase ? at[0] * unit * source->rate / (2 * M_PI) : NAN;
         out->row[i].named[1] = is_named ? fall / hypot(fall, at[0]) : NAN;
