@@ -267,7 +267,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
         s->known.known = s->lesson.label > 0 ? &s->lesson : NULL;
         s->known.is_contact = isfinite(f->number[SS_TRANSITION_FREQUENCY].value);
         s->part = s->hop + s->behind + s->few;
-        while (s->part < s->window && f->n * s->part < ENOUGH * s->window)
+        while (f->n > 0 && s->part < s->window && f->n * s->part < ENOUGH * s->window)
             s->part += s->few / LEAST;
     }
     ss_features_free(s->before);
