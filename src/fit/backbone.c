@@ -675,6 +675,14 @@ is_mixed(const decay *d)
     return leaves(d) > MIXED * last->left / last->free;
 }
 
+/* 1: another way to follow the decay leaves less than half, and follows it nearly as far down. */
+static int
+is_better(const decay *other, const decay *d)
+{
+    double end = other->block[other->n_blocks - 1].y[LEVEL], was = d->block[d->n_blocks - 1].y[LEVEL];
+    return leaves(other) < leaves(d) / 2 && end < was + .3;
+}
+
 /* Find the decay of the line that is asked for, or else of the strongest, beside the next one if less than half is
  * left then; of another if this is none. */
 static ss_status
@@ -692,7 +700,7 @@ find(decay *d, const double *x, size_t n)
         if (!(line[other[k][0]] > 0 && line[other[k][1]] > 0) || (no_decay(d) == NULL && (k > 0 || !is_mixed(d))))
             continue;
         st = find_at(&with, x, n, line[other[k][0]], line[other[k][1]]);
-        if (st == SS_OK && no_decay(&with) == NULL && (no_decay(d) != NULL || leaves(&with) < leaves(d) / 2)) {
+        if (st == SS_OK && no_decay(&with) == NULL && (no_decay(d) != NULL || is_better(&with, d))) {
             decay was = *d;
             *d = with;
             with = was;

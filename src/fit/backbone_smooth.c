@@ -18,7 +18,6 @@ enum { PASSES = 20, PARTS = 4 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
 #define KNOWN 1e-14             /* variance of ln A and phase of a block, at least: rounding hides less */
 #define FAR 1.0                 /* the most by which ln s and p change in a pass */
-#define NEAR .1                /* of the error of ln s: a pass that changes it by less is the last */
 #define ONE_SIGMA .682689       /* of a normal distribution lie within its standard deviation */
 #define EXACT 3.0               /* times as likely as not a law is exact */
 #define SMALL .005              /* damping over its mean below which its logarithm is none */
@@ -275,7 +274,7 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
         double *to = level[i], gain = hypot(b[i].at.s, small);
         to[0] = b[i].level = p[i].mean[0];
         double by = -p[i].mean[1] / gain - to[1];
-        is_far |= fabs(by) > NEAR * p[i].error[1] / gain;
+        is_far |= fabs(by) > FAR;
         to[1] += fmax(fmin(by, FAR), -FAR);
         to[2] += fmax(fmin(p[i].mean[2] - to[2], FAR), -FAR);
         b[i].at.s = small * sinh(to[1]);
@@ -340,7 +339,7 @@ ss_blocks_smooth(block *b, size_t n, int has_phase, int derivative)
         level[i][0] = b[i].y[LEVEL];
         level[i][1] = asinh(b[i].at.s / (SMALL * unit));
     }
-    for (int pass = 0, is_far = 0; has_room && (pass == 0 || (is_far && pass < PASSES)); pass++)
+    for (int pass = 0, is_far = 0; has_room && (pass < 4 || (is_far && pass < PASSES)); pass++)
         is_far = smooth_level(p, b, n, SMALL * unit, level, lost, derivative);
     if (has_room && has_phase)
         smooth_phase(p, b, n, unit, lost);

@@ -33,6 +33,7 @@ enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
 #define SLIPPING .2             /* of what rates change by in half a period: the error of what a slider, which
                                    slips in a part of it, is said to do */
 #define HARMONIC .15            /* times a contact's stiffness re the spring's: the error that a sine makes */
+#define ROUNDED 1e-11           /* variance of ln A and phase of a block, at least, beside numbers of a law */
 #define STUCK .2                /* of ln A below where a slider sticks, its last slip is past */
 #define NEARLY 6.0              /* of BIC: the better one cannot be told */
 #define CHANCE .25              /* probability of such a gain of chi^2: one that contains the better one is a
@@ -529,6 +530,9 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
             *to = (place){ .see = { { 1 }, { 0, rate }, { 0, 0, bent } },
                            .turn = { { 1, past, past * lost / 2 }, { 0, 1, lost }, { 0, 0, 1 } } };
             ss_place_see(to, &b[i], (int)c, of->p[i].y[c] - at[i].y[c], of->p[i].rate[c] - at[i].rate[c], unit);
+            double less = fmax(ROUNDED / to->variance[0], 1);
+            to->variance[0] *= less;
+            to->variance[1] *= less;
             ss_place_walk(to, lost);
             size_t from = i > 0 ? i - 1 : 0, next = i + 1 < n ? i + 1 : i;
             double half = M_PI / (of->w + f->u[W]) / (of->p[next].t - of->p[from].t);       /* of a period */
