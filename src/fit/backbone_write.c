@@ -33,6 +33,8 @@ write_mechanism(struct rows *rows, const ss_backbone *b)
         length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i > 0 ? ", " : "",
                                    ss_mechanism_names[b->mechanism[i]]);
     ss_rows_whole_word(rows, "mechanism", b->n_mechanisms > 0 ? text : "other");
+    if (b->other != NULL)
+        ss_rows_whole_word(rows, "other", b->other);
     for (size_t i = 0; i < b->n_numbers; i++)
         ss_rows_whole_value(rows, b->number[i].name, b->number[i].value, b->number[i].unit, 0);
 }
@@ -75,8 +77,6 @@ ss_backbone_write(const ss_backbone *b, const ss_signal *signal, size_t column, 
     if (rows.format->has_notes)
         write_mechanism(&rows, b);
     if (b->why == NULL) {
-        if (b->other != NULL)
-            ss_rows_note(&rows, "other: %s", b->other);
         ss_rows_note(&rows, "chi2_dof: %s", ss_number_rounded(number, b->chi2_dof, 4));
         ss_rows_note(&rows, "amplitude_start: %s %s", ss_number_text(number, b->row[0].amplitude), b->start);
         ss_rows_note(&rows, "amplitude_stop: %s %s", ss_number_text(number, b->row[b->n - 1].amplitude), b->stop);
