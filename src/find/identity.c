@@ -43,6 +43,8 @@
 enum { RATE = 24 };             /* most samples of a period that are used */
 enum { EVENTS = 17 };           /* places of an event that are tried, within a period of the middle */
 enum { STICKS = 24 };           /* most sticks that are looked behind */
+#define ONE 0.5                 /* of what rings: with more in one sinusoid that runs through all sticks it is a hum */
+enum { TRIALS = 200 };          /* most of its frequencies to either side */
 
 /* --- the rig's spring ------------------------------------------------------------------------ */
 
@@ -281,6 +283,35 @@ compare_all(const search *s, const ringdown *r, double *more)
     return SS_OK;
 }
 
+/* How much of what rings in the sticks is one sinusoid, which runs through all of them as a hum does, by the frequency
+ * within its errors at which that is most; 1: all of it. */
+static double
+run_through(const search *s, const ringdown *r)
+{
+    const size_t trials = (size_t)fmin(SIGMAS * r->all[0].error * (double)s->n, TRIALS);
+    const size_t stride = r->n_anchors / STICKS + 1;
+    double best = 0;
+    for (size_t j = 0; j <= 2 * trials; j++) {
+        const double w = r->all[0].value + ((double)j - (double)trials) / (double)s->n;
+        double sum[2] = { 0 }, squares = 0, n = 0;
+        for (size_t i = 0; i < r->n_anchors; i += stride) {
+            const ss_window win = r->window[i];
+            const double step = 2 * M_PI / (double)(ss_window_length(win) + 1);
+            double z[2] = { 0 };
+            for (size_t k = win.first; k < win.end; k++) {
+                const double x = s->x[k] * (1 - cos(step * (double)(k + 1 - win.first)));
+                z[0] += x * cos(w * (double)k);
+                z[1] += x * sin(w * (double)k);
+            }
+            sum[0] += z[0], sum[1] += z[1];
+            squares += z[0] * z[0] + z[1] * z[1];
+            n += ss_window_length(win) > 0;
+        }
+        best = squares > 0 ? fmax(best, (sum[0] * sum[0] + sum[1] * sum[1]) / (n * squares)) : 1;
+    }
+    return best;
+}
+
 /* --- all of it -------------------------------------------------------------------------------- */
 
 /* Behind the reversals of a force each window is fitted by itself: there are no slips between to be compared. */
@@ -289,20 +320,23 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
 {
     int at_edge = 0;
     double more = NAN;
+    const int is_told = s->out->reverses || s->part->is_contact;
+    const double damping = r->all[1].value, error = is_told ? 0 : SIGMAS * r->all[1].error;
     /* a damping ratio above one half */
-    *why = 3 * pow(r->all[1].value, 2) > pow(r->all[0].value, 2)
+    *why = 3 * pow(damping, 2) > pow(r->all[0].value, 2)
         ? "what recurs is damped so much that a filter may make it"
-        : !(r->all[1].value > (s->out->reverses ? 0 : SIGMAS * r->all[1].error))
-            ? "what recurs is not shown to decay"
+        : !(damping > -error) ? "what recurs does not decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
-    if (*why != NULL || s->out->reverses || s->part->is_contact)
+    if (*why != NULL || is_told)
         return SS_OK;
     ss_status st = compare_all(s, r, &more);
     if (st == SS_OK && !(more >= SHOWN))
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
     s->is_shown = more >= SHOWN;
     s->of_sensor = !at_edge && more < CONTACT;
-    if (at_edge)
+    if (!(damping > error) && !(s->is_shown && run_through(s, r) < ONE))
+        *why = "what recurs is not shown to decay";
+    else if (at_edge)
         *why = "it rings where the spectrum ends without a peak, as a filter does";
     else if (s->of_sensor)
         *why = "it rings on where slips begin, as a sensor, a filter or a hum does";
