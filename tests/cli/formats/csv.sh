@@ -11,11 +11,13 @@ def same(text, table, what):
     columns = [l for l in lines if l.startswith("# columns: ")][-1].split(": ", 1)[1].split()
     data = [l.split("\t") for l in lines if l and not l.startswith("#")]
     head, *cells = rows(table)
-    own = [i for i, name in enumerate(head) if not name.startswith("all_")]
+    own = [i for i, name in enumerate(head) if not name.startswith("all_") and name != "answer"]
     for i, name in enumerate(head):     # the summary, which is a note in the text form
         if name.startswith("all_") and not name.endswith("_error"):
             note, = [l.split() for l in lines if l.startswith("# " + name[4:] + ": ")]
             assert all([r[i] or "-", r[i + 1] or "-"] == note[2:4] for r in cells), note
+        if name == "answer":
+            assert all("# answer: " + r[i] in lines for r in cells), name
     head, cells = [head[i] for i in own], [[r[i] for i in own] for r in cells]
     assert len(head) == len(set(head)), head
     assert all(len(r) == len(head) for r in cells), "ragged"
