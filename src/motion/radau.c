@@ -272,13 +272,14 @@ radau_step(engine *e, double h_max, ss_error *err)
     radau *r = (radau *)e;
     const state *m = &e->m->now;
     stages last[MAX_DIM];
-    double rates[MAX_DIM] = { 0 };              /* by the last polynomial, as those of the state may be rounding */
     memcpy(last, r->change, sizeof last);
-    for (int k = 0; k < MAX_DIM && r->over > 0; k++)
-        for (int j = 0; j < STAGES; j++)
-            rates[k] += r->slope[STAGES - 1][j] * last[k][j] * r->unit[k] / e->h;
-    if (m->model->sight != NULL)
+    if (m->model->sight != NULL) {
+        double rates[MAX_DIM] = { 0 };          /* by the last polynomial, as those of the state may be rounding */
+        for (int k = 0; k < MAX_DIM && r->over > 0; k++)
+            for (int j = 0; j < STAGES; j++)
+                rates[k] += r->slope[STAGES - 1][j] * last[k][j] * r->unit[k] / e->h;
         h_max = fmin(h_max, m->model->sight(m, r->over > 0 ? rates : e->dq0));
+    }
     double h = fmin(r->h_next, h_max);
     for (size_t k = 0; k < m->model->dim; k++)
         r->allowed[k] = (r->tol * r->scale[k] + r->relative * fabs(m->q[k])) / r->unit[k];
