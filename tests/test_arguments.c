@@ -464,6 +464,9 @@ options_know_their_size(void **state)
     steady.size = sizeof steady + 1;
     assert_int_equal(ss_steady_check(&steady, &scene, &e), SS_EINVAL);
     assert_non_null(strstr(e.text, "initialised"));
+    ss_steady_opts_init(&steady, sizeof steady.size - 1);       /* no room for the size: nothing is written */
+    assert_true(steady.size == sizeof steady + 1);
+    ss_steady_opts_init(NULL, sizeof steady);
 }
 
 static void

@@ -8,10 +8,13 @@
 #include <string.h>
 #include "base/error.h"
 
-/* Fill in the first `size` bytes of the caller's options; the library's own have `known` bytes. */
+/* Fill in the first `size` bytes of the caller's options, if there is room for the size; the library's own have `known`
+ * bytes. */
 static inline void
 ss_options_init(void *opts, size_t size, const void *defaults, size_t known)
 {
+    if (opts == NULL || size < sizeof size)
+        return;
     memset(opts, 0, size);
     memcpy(opts, defaults, size < known ? size : known);
     memcpy(opts, &size, sizeof size);

@@ -15,12 +15,7 @@
 
 static const ss_read_opts defaults = { .size = sizeof defaults };
 
-void
-ss_read_opts_init(ss_read_opts *opts, size_t size)
-{
-    if (opts != NULL && size >= sizeof size)
-        ss_options_init(opts, size, &defaults, sizeof defaults);
-}
+SS_OPTIONS(ss_read_opts, defaults)
 
 /* The caller's options, all of which this library has. */
 static ss_status

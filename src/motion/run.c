@@ -19,12 +19,7 @@
 const ss_range ss_sim_tolerances = { 1e-14, 0.1 };
 static const ss_sim_opts usual = { .size = sizeof usual, .method = NULL, .tol = 1e-12 };
 
-void
-ss_sim_opts_init(ss_sim_opts *opts, size_t size)
-{
-    if (opts != NULL && size >= sizeof size)
-        ss_options_init(opts, size, &usual, sizeof usual);
-}
+SS_OPTIONS(ss_sim_opts, usual)
 
 ss_status
 ss_sim_opts_take(ss_sim_opts *own, const ss_sim_opts *given, ss_error *err)

@@ -33,12 +33,7 @@ enum { MOST_TAPS = 1 << 24, BLOCK_LEAST = 16, REACH = 16 };     /* REACH: taps o
 
 static const ss_filter_opts defaults = { .size = sizeof defaults, .stop = 80 };
 
-void
-ss_filter_opts_init(ss_filter_opts *opts, size_t size)
-{
-    if (opts != NULL && size >= sizeof size)
-        ss_options_init(opts, size, &defaults, sizeof defaults);
-}
+SS_OPTIONS(ss_filter_opts, defaults)
 
 /* --- the taps ------------------------------------------------------------------------------ */
 
