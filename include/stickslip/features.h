@@ -112,9 +112,11 @@ typedef struct ss_loading {
 #define SS_FEATURE_ENUMERATOR(NAME, name, unit, about, needs, by) NAME,
 typedef enum ss_feature { SS_FEATURE_NUMBER_LIST(SS_FEATURE_ENUMERATOR) SS_FEATURE_NUMBERS } ss_feature;
 #undef SS_FEATURE_ENUMERATOR
+/* "transition_frequency", "Hz"; a NULL unit contains that of the column; NULL from SS_FEATURE_NUMBERS on. */
+const ss_label *ss_feature_label(ss_feature which);
 
 typedef struct ss_features {
-    size_t n;
+    size_t n;                   /* transitions */
     ss_transition *transition;  /* in time order */
     ss_loading *loading;        /* one for each transition if these are falls of a force; else NULL */
     int reverses;               /* 1: transitions are reversals of a force */
@@ -176,10 +178,11 @@ ss_status ss_features_write(const ss_features *features, const ss_signal *signal
  * at the latest two periods and 0.2 s behind its end, but for the work.  Each row tells what up to 64 periods before it
  * show, of which a search takes as many as have 8 transitions; the first rows come after 16 periods. */
 typedef struct ss_features_stream ss_features_stream;
-/* head is copied.  SS_EINVAL: there is no fmin, or it is not below half the rate. */
+/* head is copied; the caller keeps `to` open until the end, and closes it.  SS_EINVAL: there is no fmin, or it is not
+ * below half the rate. */
 ss_status ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t column,
                                  const ss_features_opts *opts, FILE *to, ss_format format, ss_error *err);
-/* Add n samples of all columns. */
+/* Add n samples of all columns, which must be finite and are copied. */
 ss_status ss_features_stream_push(ss_features_stream *stream, double *const column[], size_t n, ss_error *err);
 /* Write the rows that are left, and then the numbers that they have in common: means over windows of 64 periods,
  * and errors that have their scatter.  SS_ESCALE: the signal is too short for fmin. */

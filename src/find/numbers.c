@@ -1,7 +1,6 @@
 /* numbers.c -- see numbers.h. */
 #include "find/numbers.h"
 
-
 /* Those that are found together with the transitions. */
 static ss_status
 by_search(search *s)

@@ -27,7 +27,5 @@ unsigned ss_features_have(const ss_features *f, const ss_features_opts *opts);
 
 /* Find the numbers that follow from the others, in the order of the list. */
 ss_status ss_numbers_find(search *s);
-/* The name and the unit of a number; NULL from SS_FEATURE_NUMBERS on. */
-const ss_label *ss_feature_label(ss_feature which);
 
 #endif
