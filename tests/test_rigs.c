@@ -510,6 +510,18 @@ random_contacts_agree_with_the_oracle(void **state)
     agree_with_the_oracle(random_contact);
 }
 
+/* Its last slips shrink to 4e-10 s, and go 1e-14 of x beyond the limit. */
+static void
+a_slip_that_goes_hardly_beyond_its_limit_is_one(void **state)
+{
+    ss_scene scene = random_contact(485);
+    trial t = trial_of(485, &scene);
+    (void)state;
+    assert_true(agrees_with_the_oracle(&t, "exact", DBL_EPSILON) < 1e-12);
+    free(t.x);
+    oracle_free(t.o);
+}
+
 /* Near critical damping the second half of a swing ends at 1e-22 of its height: no number format of the
  * engines sees that, and they say so. */
 static void
@@ -573,6 +585,7 @@ main(void)
         cmocka_unit_test(a_base_covers_the_scene_or_is_refused),
         cmocka_unit_test(random_rigs_agree_with_the_oracle),
         cmocka_unit_test(random_contacts_agree_with_the_oracle),
+        cmocka_unit_test(a_slip_that_goes_hardly_beyond_its_limit_is_one),
         cmocka_unit_test(a_slip_that_fades_into_rounding_is_not_resolved),
         cmocka_unit_test(a_belt_and_a_pull_are_one_motion),
     };

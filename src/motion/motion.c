@@ -80,9 +80,9 @@ ss_motion_rebase(motion *m)
 motion
 ss_motion_of(const ss_scene *scene, int exact, double tol)
 {
-    motion m = { .now = ss_state_of(scene, tol) };
+    motion m = { .now = ss_state_of(scene, exact ? EXACT_DOUBT : tol) };
     m.phase = m.now.theta;
-    m.doubt = m.now.x_scale * (exact ? EXACT_DOUBT : tol);
+    m.doubt = m.now.x_scale * m.now.tol;
     return m;
 }
 

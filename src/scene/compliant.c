@@ -152,11 +152,9 @@ push(const state *m, double x)
 }
 
 /* A contact that goes no further than this beyond its limit only touches it.  The distance is ten times
- * the absolute tolerance of x, which is the error of an integrator in the course of a stick.  In units of
- * the limit it is at least 1e-10 and at most 1e-6, a hundredth of the excursion of the shortest
- * micro-slips (2e-4 for one of 0.1 ms in the light scene). */
+ * the error of x in a step, which is that of an integrator in the course of a stick.  In units of the limit it is
+ * at most 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4 for one of 0.1 ms in the light scene). */
 #define GRAZE_TOL 10
-#define GRAZE_LEAST 1e-10
 #define GRAZE_MOST 1e-6
 
 static int
@@ -165,7 +163,7 @@ start(state *m)
     const ss_scene *s = m->scene;
     double up = deflection_limit(s, 1), down = deflection_limit(s, -1), v = s->v0 - s->surface_velocity;
     double limit = up < down ? up : down;
-    m->graze = fmin(fmax(GRAZE_TOL * m->tol * m->x_scale, GRAZE_LEAST * limit), GRAZE_MOST * limit);
+    m->graze = fmin(GRAZE_TOL * m->tol * m->x_scale, GRAZE_MOST * limit);
     if (v == 0 && static_friction(s) > 0) {
         microstick(m, s->x0, is_alike(s) || s->own[GAP] > 0 ? 0 : push(m, s->x0), 0, 0);
         return 0;

@@ -53,7 +53,7 @@ typedef struct state {
                                        until u_knot */
     double u_piece, u_knot;
     double x_scale;                 /* the scale of x: absolute tolerances are tol times it */
-    double tol;                     /* of the integrator */
+    double tol;                     /* the error of x in a step, of x_scale */
 
     int mode;
     int side;                       /* of its play on which a contact is: 1, -1, or 0 in the gap */
