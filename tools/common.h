@@ -87,7 +87,7 @@ char *tool_name_scene(const char *path, const tool_texts *settings);
 /* Append a word to a list of at least 8 bytes for a message: "a, b", and " ..." where no more fits. */
 void tool_list(char *list, size_t size, const char *word);
 /* The index of a column by name or number, or die with a list of the columns.  If name is NULL:
- * that of "a", or else of the only column. */
+ * that of which the file has coefficients, or "a", or else the only column. */
 size_t tool_column(const ss_header *head, const char *path, const char *name);
 
 /* --- output -------------------------------------------------------------------------------- */

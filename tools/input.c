@@ -205,7 +205,10 @@ tool_list(char *list, size_t size, const char *word)
 size_t
 tool_column(const ss_header *head, const char *path, const char *name)
 {
-    int c = ss_header_column(head, name != NULL ? name : "a");
+    const char *const usual[] = { ss_header_find_note(head, "column"), "a" };
+    int c = name != NULL ? ss_header_column(head, name) : -1;
+    for (int i = 0; name == NULL && c < 0 && i < 2; i++)
+        c = usual[i] != NULL ? ss_header_column(head, usual[i]) : -1;
     if (c < 0 && name == NULL && head->n_columns == 1)
         c = 0;
     if (c >= 0)

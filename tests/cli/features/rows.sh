@@ -23,6 +23,9 @@ ss-sim compliant-heavy | ss-morlet -o run.h5
 ss-features run.h5 -o run.tsv
 ss-contour --features run.tsv run.h5 -o run.gp
 grep -c feature_colour run.gp
+# a file of coefficients is asked about the column that they are of
+ss-sim compliant-light | ss-morlet -c f -o force.h5
+ss-features force.h5 | grep '^# column:'
 # wrong usage, bad data
 for wrong in '--threshold=0' '--stiffness=1' '--norm=l3' '--drop=-1'; do
     ss-features $wrong run.h5 2>> said && echo taken || echo $?
