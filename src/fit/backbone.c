@@ -19,11 +19,12 @@
 
 enum {
     RICH = 32,                  /* samples a period that are enough */
-    FEW = 3,                    /* blocks that are a decay */
+    FEW = 3, MANY = 200,        /* blocks that are a decay, and that tell all of it */
     TRIED = 2,                  /* lines beside the strongest, one of which may be the decay */
     REFITS = 2,                 /* smooth curves, each through blocks fitted about the last */
     PARTS = 8,                  /* in which a line is looked at */
     SOME = 1024,                /* terms of a spectrum that tell what is usual */
+    ENOUGH = 1 << 16,           /* samples that show a line */
     HARMONICS = 9,              /* of the decay, which are no lines */
     LEVELS = 20,                /* blocks of a level, at most */
     LEVEL_ROWS = 3,             /* in one, at least */
@@ -65,14 +66,15 @@ typedef struct decay {
 static ss_status
 spectrum(real_fft *f, size_t *size, const double *x, size_t n, int is_tapered)
 {
-    for (*size = 2; *size < (is_tapered ? 2 * n : n);)
+    for (*size = 2; *size < n;)
         *size *= 2;
     if (ss_real_fft_new(f, *size, 0) != SS_OK)
         return SS_ENOMEM;
     memset(f->x, 0, *size * sizeof *f->x);
-    for (size_t i = 0; i < n; i++)
-        f->x[i] = is_tapered ? x[i] * (1 + cos(M_PI * ((double)i + .5) / (double)n)) / 2
-            : i > 0 ? x[i] - x[i - 1] : 0;
+    for (size_t i = 0; i < n; i++) {
+        double part = ((double)i + .5) / (double)n;
+        f->x[i] = is_tapered ? x[i] * (1 - part * part * (3 - 2 * part)) : i > 0 ? x[i] - x[i - 1] : 0;
+    }
     ss_real_fft_run(f);
     for (size_t k = 0; k <= *size / 2; k++)
         f->x[k] = f->x[2 * k] * f->x[2 * k] + f->x[2 * k + 1] * f->x[2 * k + 1];
@@ -214,7 +216,7 @@ grows(const decay *d, size_t from, double amplitude)
 /* --- block by block -------------------------------------------------------------------------- */
 
 /* The length of a block at an amplitude and a bend: three periods, more beside a line that is near; less where ln
- * A would fall by more than FALL; more where noise asks for it, or where there would be over 400 blocks. */
+ * A would fall by more than FALL; more where noise asks for it, or where there would be over MANY blocks. */
 static size_t
 block_length(const decay *d, bend at, double amplitude, double noise)
 {
@@ -227,7 +229,7 @@ block_length(const decay *d, bend at, double amplitude, double noise)
     if (at.s * length > FALL)
         length = fmax(FALL / at.s, 1.5 * period);
     length = fmax(length, fmin(samples, LONG * period));
-    return (size_t)ceil(fmax(fmax(length, (double)(d->end - d->first) / 400), 14 + 3. * (double)d->beside.n));
+    return (size_t)ceil(fmax(fmax(length, (double)(d->end - d->first) / MANY), 14 + 3. * (double)d->beside.n));
 }
 
 /* The best of fits of the first block, from many frequencies; of a long one to its start first. */
@@ -389,16 +391,17 @@ settle(decay *d)
 
 /* --- lines beside it ------------------------------------------------------------------------- */
 
-/* What the smooth curve leaves of the samples of all blocks but the first, which a blow or a slip may be in, to be
- * freed; NULL: no memory. */
+/* What the smooth curve leaves of the first ENOUGH samples, at least, of all blocks but the first, which a blow or
+ * a slip may be in, to be freed; NULL: no memory. */
 static double *
 leave(const decay *d, size_t *n)
 {
-    size_t first = d->block[1].first;
-    *n = d->block[d->n_blocks - 1].end - first;
-    double *left = malloc((*n + 1) * sizeof *left);
-    for (size_t i = 1; left != NULL && i < d->n_blocks; i++)
-        ss_block_leave(&d->block[i], d->x, left + d->block[i].first - first);
+    double *left = malloc((d->n + 1) * sizeof *left);
+    *n = 0;
+    for (size_t i = 1; left != NULL && i < d->n_blocks && *n < ENOUGH; i++) {
+        ss_block_leave(&d->block[i], d->x, left + *n);
+        *n += d->block[i].end - d->block[i].first;
+    }
     return left;
 }
 
@@ -484,7 +487,7 @@ add_line(decay *d, int *found)
     double best = OUTSTANDING, ratio, w, *left = leave(d, &n);
     ss_status st = left != NULL ? SS_OK : SS_ENOMEM;
     *found = 0;
-    for (; st == SS_OK && (double)n * d->w > PARTS * 2 * M_PI; n /= 2) {
+    for (; st == SS_OK && (double)n * d->w > PARTS * 2 * M_PI; n /= 4) {
         st = find_beside(d, left, n, &ratio, &w);
         double s = st == SS_OK && ratio > best ? line_decay(&w, left, n) : INFINITY;
         if (s < DIES * w) {

@@ -45,6 +45,17 @@ turned(turner *g)
     return now;
 }
 
+/* The same of a real factor. */
+static inline double
+fallen(turner *g)
+{
+    double now = creal(g->now);
+    g->now = now * creal(g->turn);
+    g->turn = creal(g->turn) * creal(g->bend);
+    g->bend = creal(g->bend) * creal(g->twist);
+    return now;
+}
+
 void
 ss_block_leave(const block *b, const double *x, double *left)
 {
@@ -77,15 +88,16 @@ static size_t
 add_up(double sum[ROOM][ROOM], size_t m, const double *x, size_t first, size_t end, bend at, size_t harmonics,
        const lines *beside)
 {
-    double middle = (double)(first + end - 1) / 2, half = (double)(end - first) / 2, column[ROOM][AT_ONCE];
-    turner g = turner_at(at, (double)first - middle), line[LINES_MAX];
-    turner pure = turner_at((bend){ .w = at.w, .dw = at.dw, .ddw = at.ddw }, (double)first - middle);
+    double middle = (double)(first + end - 1) / 2, by_half = 2 / (double)(end - first), column[ROOM][AT_ONCE];
+    double start = (double)first - middle;
+    turner size = turner_at((bend){ .s = at.s, .ds = at.ds, .dds = at.dds }, start), line[LINES_MAX];
+    turner pure = turner_at((bend){ .w = at.w, .dw = at.dw, .ddw = at.ddw }, start);
     size_t n = 0, kept = 0;
     for (size_t i = 0; i < beside->n; i++)
-        line[i] = turner_at((bend){ .s = beside->s[i], .w = beside->w[i] }, (double)first - middle);
+        line[i] = turner_at((bend){ .s = beside->s[i], .w = beside->w[i] }, start);
     for (size_t k = first; k < end; k++) {
-        double complex z = turned(&g), h = turned(&pure), power = h;
-        double u = ((double)k - middle) / half;
+        double complex h = turned(&pure), z = fallen(&size) * h, power = h;
+        double u = ((double)k - middle) * by_half;
         size_t c = 4;
         column[0][kept] = creal(z), column[1][kept] = -cimag(z);
         column[2][kept] = u * creal(z), column[3][kept] = -u * cimag(z);
