@@ -228,7 +228,7 @@ reads_every_au_encoding(void **state)
         { BYTES(AU(SIZE_UNKNOWN, "\3", "\1") "\x7f\xff\xff\xff"), 32767. / 32768, -1. / 32768 },
         { BYTES(AU(SIZE_UNKNOWN, "\4", "\1") "\x20\0\0\x80\0\1"), 0.25, -1 + 1. / 8388608 },
         { BYTES(AU(SIZE_UNKNOWN, "\5", "\1") "\0\0\0\1\xc0\0\0\0"), 1. / 2147483648, -0.5 },
-        { BYTES(AU(SIZE_UNKNOWN, "\6", "\1") "\x3f\xc0\0\0\xc2\xf6\xe9\x79"), 1.5, -123.456f },
+        { BYTES(AU(SIZE_UNKNOWN, "\6", "\1") "\x3f\xc0\0\0\xc2\xf6\xe9\x79"), 1.5, (float)-123.456 },
         { BYTES(AU(SIZE_UNKNOWN, "\7", "\1") "\x3f\xb9\x99\x99\x99\x99\x99\x9a\xff\xef\xff\xff\xff\xff"
                 "\xff\xff"), 0.1, -DBL_MAX },
         { BYTES(AU("\0\0\0\2", "\2", "\1") "\x40\x80"), 0.5, -1 },

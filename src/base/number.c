@@ -389,7 +389,7 @@ ss_number_parse_point(const char *text, char point, char **end)
         d.w /= 10;
         d.e++;
     }
-    int exact = FLT_EVAL_METHOD == 0 && !d.dropped && !(d.w >> 53);     /* then one rounding */
+    int exact = FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD <= 1 && !d.dropped && !(d.w >> 53);     /* then one rounding */
     if (exact && d.e >= 0 && d.e <= 22)
         x = (double)d.w * pow10[d.e];
     else if (exact && d.e < 0 && d.e >= -22)

@@ -8,7 +8,7 @@ for command in 'ss-contour -c force run.tsv' 'ss-plot run.tsv' 'ss-plot --spectr
     script -qec "$command" /dev/null < /dev/null > log && echo 'none' || echo "status $?"
     tr -d '\r' < log
 done
-lines() { script -qec "$1" /dev/null < /dev/null | tr -d '\r' | sed -n '1p'; }
+lines() { script -qec "$1" /dev/null < /dev/null | tr -d '\r' | sed -n '1 { s/libstickslip [0-9.]* /libstickslip /; p; }'; }
 lines 'ss-plot run.tsv -o -'
 lines 'ss-plot run.tsv | cat'
 lines 'ss-plot --spectrum --format tsv -c x run.tsv'
