@@ -22,6 +22,7 @@
  */
 #include "find/identity.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <stickslip/spectrum.h>
@@ -284,32 +285,32 @@ compare_all(const search *s, const ringdown *r, double *more)
 }
 
 /* How much of what rings in the sticks is one sinusoid, which runs through all of them as a hum does, by the frequency
- * within its errors at which that is most; 1: all of it. */
+ * within its errors at which that is most; 1: all of it.  The errors are so small that it turns evenly in a window. */
 static double
 run_through(const search *s, const ringdown *r)
 {
-    const size_t trials = (size_t)fmin(SIGMAS * r->all[0].error * (double)s->n, TRIALS);
-    const size_t stride = r->n_anchors / STICKS + 1;
-    double best = 0;
-    for (size_t j = 0; j <= 2 * trials; j++) {
-        const double w = r->all[0].value + ((double)j - (double)trials) / (double)s->n;
-        double sum[2] = { 0 }, squares = 0, n = 0;
-        for (size_t i = 0; i < r->n_anchors; i += stride) {
-            const ss_window win = r->window[i];
-            const double step = 2 * M_PI / (double)(ss_window_length(win) + 1);
-            double z[2] = { 0 };
-            for (size_t k = win.first; k < win.end; k++) {
-                const double x = s->x[k] * (1 - cos(step * (double)(k + 1 - win.first)));
-                z[0] += x * cos(w * (double)k);
-                z[1] += x * sin(w * (double)k);
-            }
-            sum[0] += z[0], sum[1] += z[1];
-            squares += z[0] * z[0] + z[1] * z[1];
-            n += ss_window_length(win) > 0;
-        }
-        best = squares > 0 ? fmax(best, (sum[0] * sum[0] + sum[1] * sum[1]) / (n * squares)) : 1;
+    const double w = r->all[0].value, trials = fmin(SIGMAS * r->all[0].error * (double)s->n, TRIALS);
+    double complex z[STICKS];
+    double middle[STICKS], squares = 0, best = 0;
+    size_t n = 0;
+    for (size_t i = 0; i < r->n_anchors; i += r->n_anchors / STICKS + 1) {
+        const ss_window win = r->window[i];
+        const double step = 2 * M_PI / (double)(ss_window_length(win) + 1);
+        double complex sum = 0;
+        for (size_t k = win.first; k < win.end; k++)
+            sum += s->x[k] * (1 - cos(step * (double)(k + 1 - win.first))) * cexp(-I * w * (double)k);
+        middle[n] = (double)(win.first + win.end) / 2;
+        squares += creal(sum * conj(sum));
+        z[n] = sum;
+        n += ss_window_length(win) > 0;
     }
-    return best;
+    for (double j = -floor(trials); j <= trials; j++) {
+        double complex sum = 0;
+        for (size_t i = 0; i < n; i++)
+            sum += z[i] * cexp(-I * j / (double)s->n * middle[i]);
+        best = fmax(best, creal(sum * conj(sum)));
+    }
+    return squares > 0 ? best / ((double)n * squares) : 1;
 }
 
 /* --- all of it -------------------------------------------------------------------------------- */
@@ -327,18 +328,19 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
         ? "what recurs is damped so much that a filter may make it"
         : !(damping > -error) ? "what recurs does not decay"
         : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
+    s->rings_as = *why != NULL ? OF_NOTHING : OF_SOMETHING;
     if (*why != NULL || is_told)
         return SS_OK;
     ss_status st = compare_all(s, r, &more);
     if (st == SS_OK && !(more >= SHOWN))
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
-    s->is_shown = more >= SHOWN;
-    s->of_sensor = !at_edge && more < CONTACT;
-    if (!(damping > error) && !(s->is_shown && run_through(s, r) < ONE))
+    s->rings_as = more >= SHOWN ? OF_CONTACT : at_edge ? OF_FILTER : more < CONTACT ? OF_SENSOR : OF_SOMETHING;
+    if (!(damping > error) && !(s->rings_as == OF_CONTACT && run_through(s, r) < ONE)) {
         *why = "what recurs is not shown to decay";
-    else if (at_edge)
+        s->rings_as = s->rings_as == OF_SENSOR ? OF_SENSOR : OF_SOMETHING;
+    } else if (s->rings_as == OF_FILTER)
         *why = "it rings where the spectrum ends without a peak, as a filter does";
-    else if (s->of_sensor)
+    else if (s->rings_as == OF_SENSOR || (s->must_show && s->rings_as != OF_CONTACT))
         *why = "it rings on where slips begin, as a sensor, a filter or a hum does";
     return st;
 }

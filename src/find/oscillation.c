@@ -212,19 +212,22 @@ fit_without_hum(search *s, ringdown *r, double f)
 }
 
 /* The error of all frequencies by a clock that wanders.  What rings is a clock, too: from one transition to the
- * next it differs by that much, so the lengths of cycles that vary by themselves are no wandering. */
+ * next it differs by that much, so the lengths of cycles that vary by themselves are no wandering.  Neighbours that
+ * are correlated by rho count as (1 - rho) / (1 + rho), as in cycles. */
 static double
 clock_error(const search *s, const ringdown *r)
 {
-    double squares = 0, n = 0;
+    double squares = 0, products = 0, before = 0, n = 0;
     for (size_t i = 0; i < s->out->n; i++)
         if (isfinite(r->each[i][0].value)) {
             double differs = r->each[i][0].value - r->all[0].value;
-            squares += differs * differs, n++;
+            squares += differs * differs, products += differs * before, n++;
+            before = differs;
         }
     /* behind the reversals of a force the windows, each by itself, scatter by it already */
     double wander = s->out->reverses ? 0 : s->cycles.wander * r->all[0].value;
-    return n < 3 ? wander : fmin(wander, sqrt(squares / (n - 1) / n));
+    double rho = squares > 0 ? fmax(0, fmin(0.9, products / squares)) : 0;
+    return n < 3 ? wander : fmin(wander, sqrt(squares / (n - 1) / n * (1 + rho) / (1 - rho)));
 }
 
 /* Write the fits to the transitions; what rings behind the next transition belongs to that. */

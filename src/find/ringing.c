@@ -11,6 +11,7 @@
 #include "signal/gaps.h"
 
 #define BAND 0.25               /* [octaves] the largest distance of maxima of one kind */
+static const double faster[] = { 1.25, 1.6, 2, 2.5, 3.2, 4 };    /* a fit starts within a factor of sqrt(2) */
 #define RANGE 20.0              /* [dB] range of the swells in the row of the oscillation */
 
 /* The label of a maximum in terms of the sinusoid that makes it. */
@@ -152,6 +153,24 @@ snap_to_spikes(const search *s, ss_transition *tr, double period)
     }
 }
 
+/* What recurs may be the rig's own oscillation, while it slips.  A contact rings faster; it must show that it is
+ * one, as nothing else speaks for it. */
+static ss_status
+fit_faster(search *s, const size_t *anchor, double f)
+{
+    const char **why = &s->out->number[SS_TRANSITION_FREQUENCY].why, *first = *why;
+    ss_status st = SS_OK;
+    s->must_show = 1;
+    for (size_t k = 0; st == SS_OK && s->rings_as != OF_CONTACT && k < sizeof faster / sizeof *faster; k++)
+        st = ss_oscillation_fit(s, anchor, faster[k] * f, 0);
+    if (s->rings_as == OF_CONTACT) {
+        know(s->out, SS_TRANSITION_FREQUENCY_RAW, unknown);
+        s->label = 0;
+    } else
+        *why = first;
+    return st;
+}
+
 /* Refine transitions of which only swells are known: fit their oscillation, then move their ends from the
  * fit, or from the swell, to the jumps and kinks beside them. */
 static ss_status
@@ -164,6 +183,8 @@ refine(search *s, const ss_maximum *swell, double f)
     for (size_t i = 0; i < out->n; i++)
         anchor[i] = (size_t)(swell[i].t * s->rate);
     ss_status st = ss_oscillation_fit(s, anchor, f, 0);
+    if (st == SS_OK && s->rings_as == OF_NOTHING && s->part->known == NULL)
+        st = fit_faster(s, anchor, f);
     free(anchor);
     for (size_t i = 0; st == SS_OK && i < out->n; i++) {
         ss_transition *tr = &out->transition[i];

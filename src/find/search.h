@@ -19,6 +19,13 @@ static const ss_value unknown = { NAN, NAN };
 static const ss_number no_number = { NAN, NAN, NAN, NULL };
 static const ss_maximum no_maximum = { NAN, NAN, NAN, NAN };
 
+/* Of what the oscillation is that was fitted last. */
+typedef enum identity {
+    OF_NOTHING,                 /* none was, or it is no contact's by what is known of it alone */
+    OF_SOMETHING, OF_FILTER, OF_SENSOR,
+    OF_CONTACT                  /* it ends where slips begin */
+} identity;
+
 typedef struct search {
     const ss_signal *signal;
     double *x;                  /* the column over largest, so that squares stay in range */
@@ -42,8 +49,8 @@ typedef struct search {
     int is_cleaned;             /* x has lost a steady hum: it is not the column any more */
     int is_second;              /* it lost that in a first search */
     int has_offset;             /* the zero of a force may not be that of friction; -1: its slips are rises */
-    int of_sensor;              /* what rings is a sensor's, not the contact's */
-    int is_shown;               /* what rings ends where slips begin, as the contact's does */
+    identity rings_as;
+    int must_show;              /* what rings is the contact's only if it ends where slips begin */
     int spiked;                 /* transitions end with their last spike, which may be anywhere before the
                                    next transition */
     ss_features *out;

@@ -153,7 +153,7 @@ count_cycles(search *s)
 {
     ss_features *out = s->out;
     int more = (double)out->n > (double)s->cycles.n;
-    if (!s->is_shown)
+    if (s->rings_as != OF_CONTACT)
         forget_ringing(out);
     if (s->quantity == QUANTITY_UNKNOWN && s->cycles.symmetry > -CYCLES_ALIKE) {
         out->n = out->recurring = 0;
@@ -339,11 +339,11 @@ ss_slip_rate_find(search *s)
     know(out, SS_SLIP_RATE, mean_rate(s, event));
     if (out->loading != NULL)
         count_falls(s, event);
-    else if (s->of_sensor)
+    else if (s->rings_as == OF_SENSOR)
         forget_slips(out, "what rings is a sensor's: short sticks may hide in it");
-    else if (motion.n >= FEW && !rests.is_doubtful)
+    else if (motion.n >= FEW && !rests.is_doubtful && slips_in_cycle(s, motion) % least_in_cycle(s) == 0)
         count_motions(s, motion, end, &rests);
-    else if (motion.n >= FEW && out->n > 0)
+    else if (motion.n >= FEW && out->n > 0 && rests.is_doubtful)
         forget_slips(out, "the signal rests at a level that it also crosses so slowly that rests are not certain");
     else if (repeats)
         count_events(s, t, &rests);

@@ -102,6 +102,9 @@ ss-sim --events -b uneven.tsv:z -s settle=4 -s duration=6 coulomb | awk '$2 == "
 ss-sim -b uneven.tsv:z -s settle=4 -s duration=6 coulomb | ss-noise --snr 60 | ss-features -c a > found
 covers slip_rate 2.5 < found
 awk -v n="$(cat begun)" '$2 == "slips:" { print "slips:", ($3 >= n - 1 && $3 <= n + 1 ? "as many" : $3 " of " n) }' found
+# a force under a name that says nothing, which stays at two levels: it leaves each of them once a cycle
+ss-sim coulomb | ss-noise --snr 60 --seed 3 |
+    awk '/^#/ { next } !n++ { print "t,Kraft" } { print $1 "," $5 }' | ss-features | covers slip_rate 5
 # 12 motions between rests of uneven length, and glitches in three rests
 awk 'BEGIN { print "t,v [m/s]"; for (k = 0; k < 12; k++) from[k] = 1 + k + .2 * sin(3 * k); k = 0
     for (i = 0; i < 14000; i++) { t = i / 1000; if (k < 11 && t > from[k] + .4) k++
@@ -131,3 +134,9 @@ ss-sim -m exact -s mass=.0111292031 -s stiffness=25.2913284 -s damping=.03081194
     -s rate=243.593217 compliant-light | ss-features > found
 covers transition_frequency "$(awk 'BEGIN { s = (.0308119451 + .00952717075) / .0111292031 / 2
     printf "%.12g", sqrt((25.2913284 + 91.899806) / .0111292031 - s * s) / 6.283185307179586 }')" < found
+# a contact not much stiffer than the rig, whose swells are those of the rig while it slips
+ss-sim -m exact -s mass=.0786843356 -s stiffness=3.22513284 -s friction=.000315501227 -s static_friction=.000335430235 \
+    -s contact_stiffness=16.297428 -s contact_damping=.0126690803 -s base_amplitude=.000275565047 \
+    -s base_frequency=.116037665 -s settle=345 -s duration=150 -s rate=80.65 compliant-light |
+    ss-features --mass .0786843356 > found
+covers total_stiffness 19.52256084 < found
