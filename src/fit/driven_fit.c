@@ -278,7 +278,7 @@ improve(problem *p, driven_fit *fit)
     double u[UNKNOWNS], difference[UNKNOWNS], *residual = malloc(p->d->n * sizeof *residual);
     least_end end;
     least how = { .unknowns = p->n_free, .model = residuals, .user = p, .range = range, .difference = difference,
-                  .farthest = 1, .steps = 10, .tol = NUDGE, .gain = NUDGE };
+                  .farthest = 1, .steps = 10, .tol = NUDGE, .gain = NUDGE, .costly = 1 };
     if (residual == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < p->d->n; i++)

@@ -102,41 +102,54 @@ fill_terms(double (*term)[TERMS], const driven *d, const double *own)
     }
 }
 
-/* Add the products of the first terms of some rows with each other and with what is left of these, times `by`. */
+/* Add the products of the first terms of a row with each other and with what is left of it: most terms are 0. */
 static void
-add_products(double sum[TERMS + 1][TERMS], double (*term)[TERMS], int terms, const driven *d, const double *left,
-             size_t from, size_t end, double by)
+add_products(double sum[TERMS + 1][TERMS], const double term[TERMS], int terms, double left)
 {
-    for (size_t i = from; i < end; i++)
-        for (int k = 0; k <= terms && d->used[i]; k++)
-            for (int l = 0; l <= k && l < terms; l++)
-                sum[k][l] += by * (k < terms ? term[i][k] : left[i]) * term[i][l];
+    int of[TERMS], n = 0;
+    for (int k = 0; k < terms; k++)
+        if (term[k] != 0)
+            of[n++] = k;
+    for (int k = 0; k < n; k++) {
+        const double one = term[of[k]];
+        for (int l = 0; l <= k; l++)
+            sum[of[k]][of[l]] += one * term[of[l]];
+        sum[terms][of[k]] += one * left;
+    }
 }
 
 ss_status
 ss_driven_free_law(double free_law[BLOCKS], const driven *d, const double *left, const double *own)
 {
     const int terms = own != NULL ? TERMS : SPRING;
-    double (*term)[TERMS] = malloc(d->n * sizeof *term), sum[TERMS + 1][TERMS] = { { 0 } }, count = 0;
-    if (term == NULL)
+    struct sums { double block[BLOCKS][TERMS + 1][TERMS], all[TERMS + 1][TERMS]; } *sum = calloc(1, sizeof *sum);
+    double (*term)[TERMS] = malloc(d->n * sizeof *term), count = 0;
+    if (term == NULL || sum == NULL) {
+        free(term);
+        free(sum);
         return SS_ENOMEM;
+    }
     fill_terms(term, d, own != NULL ? own : d->x);
-    add_products(sum, term, terms, d, left, 0, d->n, 1);
     for (size_t i = 0; i < d->n; i++)
-        count += d->used[i];
+        if (d->used[i]) {
+            add_products(sum->block[i * BLOCKS / d->n], term[i], terms, left[i]);
+            count++;
+        }
+    for (size_t b = 0; b < BLOCKS; b++)
+        for (int k = 0; k <= terms; k++)
+            for (int l = 0; l < terms; l++)
+                sum->all[k][l] += sum->block[b][k][l];
     for (size_t b = 0; b < BLOCKS; b++) {
-        const size_t from = b * d->n / BLOCKS, end = (b + 1) * d->n / BLOCKS;
-        double others[TERMS + 1][TERMS];
-        memcpy(others, sum, sizeof sum);
-        add_products(others, term, terms, d, left, from, end, -1);
-        for (int k = 0; k < terms; k++)
-            others[k][k] += SHARED * sum[k][k] + DBL_MIN;
+        double (*others)[TERMS] = sum->block[b];
+        for (int k = 0; k <= terms; k++)
+            for (int l = 0; l < terms; l++)
+                others[k][l] = sum->all[k][l] - others[k][l] + (k == l ? SHARED * sum->all[k][k] + DBL_MIN : 0);
         gsl_matrix_view A = gsl_matrix_view_array_with_tda(others[0], (size_t)terms, (size_t)terms, TERMS);
         gsl_vector_view C = gsl_vector_view_array(others[terms], (size_t)terms);
         gsl_linalg_cholesky_decomp1(&A.matrix);
         gsl_linalg_cholesky_svx(&A.matrix, &C.vector);
         free_law[b] = 0;
-        for (size_t i = from; i < end; i++) {
+        for (size_t i = (b * d->n + BLOCKS - 1) / BLOCKS; i * BLOCKS / d->n == b; i++) {
             double rest = left[i];
             for (int k = 0; k < terms; k++)
                 rest -= others[terms][k] * term[i][k];
@@ -144,6 +157,7 @@ ss_driven_free_law(double free_law[BLOCKS], const driven *d, const double *left,
         }
     }
     free(term);
+    free(sum);
     return SS_OK;
 }
 
