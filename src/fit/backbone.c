@@ -28,6 +28,7 @@ enum {
     HARMONICS = 9,              /* of the decay, which are no lines */
     LEVELS = 20,                /* blocks of a level, at most */
     LEVEL_ROWS = 3,             /* in one, at least */
+    BEHIND = 6,                 /* blocks behind the end, at most */
     SLOW = 4                    /* periods to twice the amplitude, as no blow takes */
 };
 #define LONG 12.0               /* periods of a block, where noise wants it long */
@@ -502,6 +503,31 @@ add_line(decay *d, int *found)
     return st;
 }
 
+/* --- behind it ------------------------------------------------------------------------------- */
+
+/* Fit what is behind the last block, if that is no other motion, as if it went on at its frequency: it is too
+ * small for a block of its own, and laws differ in how small it is. */
+static ss_status
+look_behind(decay *d)
+{
+    const block last = d->block[d->n_blocks - 1];
+    double length = (double)(last.end - last.first), half = .5 / fmax(last.at.s, 1e-9);     /* of an e-fold */
+    double noise = last.noise * exp(2 * (last.level - last.y[LEVEL]));
+    size_t first = last.end, n = (size_t)fmax(fmin(half, 4 * length), length), *of = &d->source->behind;
+    for (; *of < BEHIND && first + n <= d->n && d->source->beats == NULL; ++*of, first += n) {
+        block *grown = ss_list_room(d->block, &d->room, d->n_blocks + *of, sizeof *grown);
+        if (grown == NULL)
+            return SS_ENOMEM;
+        d->block = grown;
+        block *b = &grown[d->n_blocks + *of];
+        if (!ss_block_fit(b, d->x, first, first + n, (bend){ .w = last.at.w }, &d->beside, 1)
+            || b->y[LEVEL] > last.level || b->left / b->free > noise * (1 + 5 * sqrt(2 / b->free)))
+            break;
+        b->noise = noise;
+    }
+    return SS_OK;
+}
+
 /* --- levels without phase -------------------------------------------------------------------- */
 
 /* The straight line through levels [dB] first ... end - 1, in nepers. */
@@ -767,6 +793,8 @@ find_and_name(ss_backbone **out, const double *x, size_t n, const ss_backbone_op
     if (st == SS_OK && b->why == NULL)
         st = (b->row = calloc(d.n_blocks, sizeof *b->row)) != NULL ? SS_OK : SS_ENOMEM;
     now.beside = d.beside;
+    if (st == SS_OK && b->why == NULL && source.has_phase)
+        st = look_behind(&d);
     if (st == SS_OK && b->why == NULL)
         st = ss_mechanism_find(b, d.block, d.n_blocks, &now);
     int is_cut = st == SS_OK && !cuts_blow && source.has_phase && (b->why != NULL || is_hit(&d));
@@ -798,7 +826,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
         return ss_fail(err, SS_EINVAL, "an option is out of its range");
     const ss_column *of = &signal->head->column[column];
     decay_source source = { signal->head->rate, !(own.level_frequency > 0), of->unit, ss_motion_order(of->unit),
-                            derivative_of(of), own.mass, 1, { 0 }, NULL };
+                            derivative_of(of), own.mass, 1, { 0 }, 0, NULL };
     if (own.mass > 0 && source.order < 0)
         return ss_fail(err, SS_EINVAL, "a mass needs a column in m, m/s or m/s^2, and %s is in '%s'", of->name,
                        of->unit);

@@ -99,13 +99,14 @@ typedef struct decay_source {
     double mass;                /* [kg]; 0: unknown */
     double unit;                /* of amplitudes in the column's unit: a power of 2, near the largest */
     lines beside;               /* in all blocks */
+    size_t behind;              /* blocks behind the last, which are fitted once: their y alone counts */
     const char *beats;          /* not NULL: no mechanism, as the amplitude grows again */
 } decay_source;
 
 /* 0, 1, 2 for a unit of x, x' or x'' in SI units; -1: it is none. */
 int ss_motion_order(const char *unit);
-/* Name the mechanism that n blocks show, drawn smooth: mechanism, chi2_dof and number of *out.  What a block leaves
- * becomes what a slider's exact motion, if it is named, does not explain. */
+/* Name the mechanism that n blocks, drawn smooth, and those behind them show: mechanism, chi2_dof and number of
+ * *out.  What a block leaves becomes what a slider's exact motion, if it is named, does not explain. */
 ss_status ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *source);
 
 #endif

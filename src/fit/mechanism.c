@@ -34,9 +34,10 @@ enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
                                    slips in a part of it, is said to do */
 #define HARMONIC .15            /* times a contact's stiffness re the spring's: the error that a sine makes */
 #define ROUNDED 1e-11           /* variance of ln A and phase of a block, at least, beside numbers of a law */
+#define GONE 1e-3               /* of the last amplitude: what a law says behind it, at least */
 #define STUCK .2                /* of ln A below where a slider sticks, its last slip is past */
 #define NEARLY 6.0              /* of BIC: the better one cannot be told */
-#define CHANCE .25              /* probability of such a gain of chi^2: one that contains the better one is a
+#define CHANCE .1               /* probability of such a gain of chi^2: one that contains the better one is a
                                    rival then */
 #define SHOWN 1e-2              /* the same: one that the better one contains is none then */
 #define SOFTER .5               /* of its losses c: by Masing's rules friction softens by pi/4 (1 + 2/p) c */
@@ -69,15 +70,16 @@ typedef struct point {
     double t, y[TRACKS], rate[TRACKS];
     double tie[TRACKS], rate_sigma[TRACKS];     /* of the rate's error to that of y, and the rest of it */
     double gain[TRACKS], whole[TRACKS];     /* of the filter; the error of what it does not expect */
+    double half;                /* of a block behind the last, whose y count as amplitudes; 0: it is not behind */
 } point;
 
 typedef struct trial {
     int kind;                   /* an ss_mechanism or a rival */
     const point *p;
-    size_t n, tracks;
+    size_t n, behind, tracks;
     double w;                   /* about which w is counted, in units of the mean damping */
-    struct told *told;          /* n to work with */
-    const block *b;             /* n, from which points are */
+    struct told *told;          /* n + behind to work with */
+    const block *b;             /* n + behind, from which points are */
     double unit, ln_a;          /* mean damping, per sample; ln of the start's amplitude */
     int is_exact;               /* 1: a slider's blocks are those of its motion */
     const decay_source *source;
@@ -143,7 +145,7 @@ static void
 tell_two(told *out, const trial *of, const double u[UNKNOWNS])
 {
     double complex first = -u[S] + u[W] * I, second = -u[C] + u[SHAPE] * I;
-    for (size_t i = 0; i < of->n; i++) {
+    for (size_t i = 0; i < of->n + of->behind; i++) {
         const point *p = &of->p[i];
         double complex a = cexp(first * p->t), b = cexp(u[BEND] + u[RATIO] * I + second * p->t);
         double complex sum = a + b, rate = (first * a + second * b) / sum;
@@ -168,6 +170,19 @@ carry_on(const trial *of, const double u[UNKNOWNS], double dt, double y[TRACKS],
         for (size_t c = 0; c < TRACKS; c++)
             y[c] += h / 6 * (k[0][c] + 2 * k[1][c] + 2 * k[2][c] + k[3][c]);
     }
+}
+
+/* The amplitude a time h after a, until it is gone: where friction stops the motion ln A has no end. */
+static double
+fade(const trial *of, const double u[UNKNOWNS], double h, double a, double gone)
+{
+    double k[4], rate[TRACKS], lag[2], at;
+    for (int j = 0; j < 4; j++) {
+        at = fmax(a + (j == 0 ? 0 : (j < 3 ? h / 2 : h) * k[j - 1]), gone);
+        rates(of, u, log(at), rate, lag);
+        k[j] = rate[LEVEL] * at;
+    }
+    return fmax(a + h / 6 * (k[0] + 2 * k[1] + 2 * k[2] + k[3]), gone);
 }
 
 /* Where a slider slips for a cycle or two, the law is an average over too little.  So move the exact model from a
@@ -238,7 +253,26 @@ tell(told *out, const trial *of, const double u[UNKNOWNS])
         memcpy(out[i].y, y, sizeof y);
         rates(of, u, y[LEVEL], out[i].rate, out[i].lag);
     }
+    double a = exp(y[LEVEL]), gone = GONE * a;
+    for (double h = 0; i < of->n + of->behind; i++) {           /* the mean over a block, by Simpson's rule */
+        double apart = of->p[i].t - of->p[i - 1].t, before = fade(of, u, apart - h - of->p[i].half, a, gone);
+        h = of->p[i].half;
+        double middle = fade(of, u, h, before, gone);
+        a = fade(of, u, h, middle, gone);
+        y[PHASE] += apart * out[of->n - 1].rate[PHASE];
+        out[i].y[LEVEL] = log((before + 4 * middle + a) / 6);
+        out[i].y[PHASE] = y[PHASE];
+    }
     return st;
+}
+
+/* What a law leaves of the oscillation behind the last block, along and across it, where a walk is off. */
+static void
+leave_behind(double left[TRACKS], const point *p, const told *says, const double off[TRACKS])
+{
+    double turn = p->y[PHASE] - says->y[PHASE] - off[PHASE], seen = exp(p->y[LEVEL]);
+    left[LEVEL] = seen * cos(turn) - exp(fmin(says->y[LEVEL] + off[LEVEL], 40));
+    left[PHASE] = seen * sin(turn);
 }
 
 /* Residuals of variance 1 if the mechanism is right: of y by the filter's gains, of rates beside y's. */
@@ -258,18 +292,24 @@ leave(const double *u, double *residual, double *slopes, void *user)
             *residual++ = (p->rate[c] - of->told[i].rate[c] - p->tie[c] * left) / p->rate_sigma[c];
             off[c] += p->gain[c] * news;
         }
+    for (size_t i = of->n; i < of->n + of->behind; i++) {
+        double left[TRACKS];
+        leave_behind(left, &of->p[i], &of->told[i], off);
+        for (int c = 0; c < TRACKS; c++)
+            *residual++ = left[c] / of->p[i].whole[c];
+    }
     const double *last = of->told[of->n - 1].y;
     return isfinite(last[LEVEL]) && isfinite(last[PHASE]) ? SS_OK : SS_EDATA;
 }
 
 /* Blocks in units of the start's amplitude and of the mean damping; errors of what a mechanism says. */
 static void
-make_points(point *p, const block *b, size_t n, double unit, double ln_a, double w)
+make_points(point *p, const block *b, size_t n, size_t behind, double unit, double ln_a, double w)
 {
     double walked[TRACKS] = { 0 };
-    for (size_t i = 0; i < n; i++) {
-        double before_it = i > 0 ? b[i - 1].at.s : 0, behind = i + 1 < n ? b[i + 1].at.s : 0;
-        double s = fmax(b[i].at.s, fmax(before_it, behind)) / unit;
+    for (size_t i = 0; i < n + behind; i++) {
+        double before_it = i > 0 && i <= n ? b[i - 1].at.s : 0, behind_it = i + 1 < n ? b[i + 1].at.s : 0;
+        double s = fmax(i < n ? b[i].at.s : b[n - 1].at.s, fmax(before_it, behind_it)) / unit;
         double step = i > 0 ? (b[i].t - b[i - 1].t) * unit : 0;
         p[i].t = b[i].t * unit;
         p[i].y[LEVEL] = b[i].y[LEVEL] - ln_a;
@@ -285,6 +325,13 @@ make_points(point *p, const block *b, size_t n, double unit, double ln_a, double
             p[i].gain[c] = before / whole;
             walked[c] = before * (1 - p[i].gain[c]);
             p[i].tie[c] = cov[1] / cov[0] / unit;
+            if (i >= n) {
+                p[i].half = (double)(b[i].end - b[i].first) / 2 * unit;
+                double law = sqrt(before + pow(b[n - 1].at.s / w, 2)) * exp(b[n - 1].level - ln_a);
+                p[i].whole[c] = hypot(sqrt(b[i].noise * cov[0]) * exp(p[i].y[LEVEL]), law);
+                walked[c] = before;
+                continue;
+            }
             double alone = b[i].noise * fmax(cov[2] - cov[1] * cov[1] / cov[0], 0);
             p[i].rate_sigma[c] = hypot(sqrt(alone) / unit, trust);
         }
@@ -394,9 +441,9 @@ fit(fitted *f, const trial *of)
             : has_sign ? (ss_range){ -1e9, 1e9 } : (ss_range){ 0, 1e3 };
         unknowns += is_free;
     }
-    least of_fit = { .rows = 2 * of->tracks * of->n, .unknowns = UNKNOWNS, .model = leave, .user = (void *)of,
-                     .range = range, .difference = difference, .costly = !of->is_exact, .steps = 60, .tol = 1e-7,
-                     .noise = 1 };
+    least of_fit = { .rows = 2 * (of->tracks * of->n + of->behind), .unknowns = UNKNOWNS, .model = leave,
+                     .user = (void *)of, .range = range, .difference = difference, .costly = !of->is_exact,
+                     .steps = 60, .tol = 1e-7, .noise = 1 };
     ss_status st = ss_least_fit(&end, &of_fit, f->u, NULL, f->covariance);
     f->is_exact = of->is_exact;
     f->squares = end.squares;
@@ -511,29 +558,38 @@ typedef struct mixed {
 static ss_status
 smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit, double weight)
 {
-    size_t n = of->n, states = 3, which[UNKNOWNS];
+    size_t n = of->n, m = n + of->behind, states = 3, which[UNKNOWNS];
     double start[STATES][STATES] = { { 0 } }, x[STATES] = { 0 };
-    told *at = calloc(n, sizeof *at), *by = calloc(n, sizeof *by);
-    place *p = calloc(2 * n, sizeof *p), end[TRACKS], both;
+    told *at = calloc(m, sizeof *at), *by = calloc(m, sizeof *by);
+    place *p = calloc(2 * m, sizeof *p), end[TRACKS], both;
     if (at == NULL || by == NULL || p == NULL || tell(at, of, f->u) != SS_OK) {
         free(at), free(by), free(p);
         return SS_ENOMEM;
     }
     for (size_t c = 0; c < of->tracks; c++)
-        for (size_t i = 0; i < n; i++) {
-            place *to = &p[c * n + i];
+        for (size_t i = 0; i < m; i++) {
+            place *to = &p[c * m + i];
             double s = fmax(-at[i].rate[LEVEL], 1e-9), rate = c == LEVEL ? -s : 1;
-            double t = i + 1 < n ? of->p[i + 1].t - of->p[i].t : 0;
-            double lost = i + 1 < n ? fmax(at[i].y[LEVEL] - at[i + 1].y[LEVEL], 1e-9) : 0;
+            double t = i + 1 < m ? of->p[i + 1].t - of->p[i].t : 0;
+            double lost = i + 1 < m ? fmax(at[i].y[LEVEL] - at[i + 1].y[LEVEL], 1e-9) : 0;
             double past = c == LEVEL ? -lost : t;
             double bent = s * s - given_back(of->source->derivative, s * s);
             *to = (place){ .see = { { 1 }, { 0, rate }, { 0, 0, bent } },
                            .turn = { { 1, past, past * lost / 2 }, { 0, 1, lost }, { 0, 0, 1 } } };
+            ss_place_walk(to, lost);
+            if (i >= n) {                       /* y counts times A; the rate does not */
+                double left[TRACKS];
+                leave_behind(left, &of->p[i], &at[i], (double[TRACKS]){ 0 });
+                memcpy(to->see, (double[2][STATES]){ { exp(at[i].y[LEVEL]) } }, sizeof (double[2][STATES]));
+                to->seen[0] = left[c];
+                to->variance[0] = pow(of->p[i].whole[c], 2);
+                to->variance[1] = 1;
+                continue;
+            }
             ss_place_see(to, &b[i], (int)c, of->p[i].y[c] - at[i].y[c], of->p[i].rate[c] - at[i].rate[c], unit);
             double less = fmax(ROUNDED / to->variance[0], 1);
             to->variance[0] *= less;
             to->variance[1] *= less;
-            ss_place_walk(to, lost);
             size_t from = i > 0 ? i - 1 : 0, next = i + 1 < n ? i + 1 : i;
             double half = M_PI / (of->w + f->u[W]) / (of->p[next].t - of->p[from].t);       /* of a period */
             double change = fabs(at[next].rate[c] - at[from].rate[c]) * half;
@@ -555,9 +611,10 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
         u[k] += sigma / 10;
         st = tell(by, of, u);
         for (size_t c = 0; c < of->tracks; c++)
-            for (size_t i = 0; i < n; i++) {
-                p[c * n + i].see[0][states] = (by[i].y[c] - at[i].y[c]) * 10;
-                p[c * n + i].see[1][states] = (by[i].rate[c] - at[i].rate[c]) * 10;
+            for (size_t i = 0; i < m; i++) {
+                place *to = &p[c * m + i];
+                to->see[0][states] = to->see[0][0] * (by[i].y[c] - at[i].y[c]) * 10;
+                to->see[1][states] = (by[i].rate[c] - at[i].rate[c]) * 10;
             }
         which[states - 3] = k;
         for (size_t j = 3; j <= states; j++) {          /* as little known as by one number of all 4 n */
@@ -568,7 +625,7 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
         states++;
     }
     for (size_t c = 0; c < of->tracks; c++)
-        ss_blocks_track(&p[c * n], n, states, x, start, &end[c], of->tracks == 1);
+        ss_blocks_track(&p[c * m], m, states, x, start, &end[c], of->tracks == 1);
     for (size_t c = 0; of->tracks > 1 && c < of->tracks; c++) {
         place *other = &end[1 - c];
         for (size_t j = 0; j < 3; j++) {
@@ -576,7 +633,7 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
             for (size_t k = 0; k < states; k++)
                 other->p[j][k] = other->p[k][j] = 0;
         }
-        ss_blocks_track(&p[c * n], n, states, other->x, other->p, &both, 1);
+        ss_blocks_track(&p[c * m], m, states, other->x, other->p, &both, 1);
     }
     const place *known = of->tracks > 1 ? &both : end;
     double error[STATES];
@@ -590,7 +647,7 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
         for (size_t i = 3; i < states; i++)
             f->covariance[which[j - 3] * UNKNOWNS + which[i - 3]] = error[i] * error[j] * known->p[i][j];
     for (size_t i = 0; i < n; i++) {
-        const place *level = &p[i], *phase = of->tracks > 1 ? &p[n + i] : level;
+        const place *level = &p[i], *phase = of->tracks > 1 ? &p[m + i] : level;
         double mean[3] = { at[i].rate[LEVEL] + at[i].local[LEVEL] + level->mean[1],
                            at[i].rate[PHASE] + at[i].local[PHASE] + phase->mean[1],
                            at[i].lag[0] + level->mean[2] };
@@ -612,15 +669,15 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
 {
     double unit = (b->level - b[n - 1].level) / (b[n - 1].t - b->t), w = b[n / 2].at.w;
     double ln_a = b->level;
-    point *p = calloc(n, sizeof *p);
-    told *what = calloc(n, sizeof *what);
+    point *p = calloc(n + source->behind, sizeof *p);
+    told *what = calloc(n + source->behind, sizeof *what);
     fitted f[SS_MECHANISMS];
     decay_source as[] = { *source, *source };       /* what the column may be, if its unit does not tell */
-    trial of = { .p = p, .n = n, .tracks = source->has_phase ? TRACKS : 1, .w = w / unit, .told = what,
-                 .source = source, .b = b, .unit = unit, .ln_a = ln_a };
+    trial of = { .p = p, .n = n, .behind = source->behind, .tracks = source->has_phase ? TRACKS : 1,
+                 .w = w / unit, .told = what, .source = source, .b = b, .unit = unit, .ln_a = ln_a };
     ss_status st = p != NULL && what != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
-        make_points(p, b, n, unit, ln_a, w);
+        make_points(p, b, n, source->behind, unit, ln_a, w);
     for (int k = 0; st == SS_OK && k < SS_MECHANISMS; k++)
         st = fit_first(&f[k], &of, k);
     if (st != SS_OK) {
