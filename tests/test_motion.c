@@ -274,8 +274,8 @@ names_rate_and_state_where_the_speed_varies(void **unused)
         if (!is_steady) {
             const double V0 = ss_scene_get(&k->scene, "reference_velocity") * 1e3, level = 1 + (a - b) * log(V0);
             assert_number(k, "normal_force", N * level, "kN");
-            assert_number(k, "direct_effect", a / level, "1");
-            assert_number(k, "evolution_effect", b / level, "1");
+            assert_number(k, "direct_effect", a / level, "");
+            assert_number(k, "evolution_effect", b / level, "");
             assert_number(k, "critical_slip_distance", Dc, "mm");
             assert_non_null(strstr(k->confounded, "normal_force with reference_friction"));
         }
@@ -344,7 +344,7 @@ names_dry_friction(void **unused)
     assert_number(k, "friction", 2, "kN");
     assert_number(k, "static_friction", 3.5, "kN");
     assert_number(k, "stribeck_velocity", 3, "mm/s");
-    assert_number(k, "stribeck_exponent", 1.5, "1");
+    assert_number(k, "stribeck_exponent", 1.5, "");
     assert_number(k, "sine", 0.9, "kN");
     assert_number(k, "viscous_friction", 0.08, "kN s/mm");
     assert_number(k, "viscous_difference", 0.03, "kN s/mm");
@@ -428,7 +428,7 @@ names_a_slider_that_is_uneven(void **unused)
     ss_motion_ranking *k = rank(&r, 0, NULL);
     assert_named(k, "compliant");
     assert_number(k, "contact_stiffness", 6, "kN/mm");
-    assert_number(k, "unevenness", 0.03, "1");
+    assert_number(k, "unevenness", 0.03, "");
     assert_number(k, "unevenness_by_place", 0.02, "1/mm");
     ss_motion_ranking_free(k);
     ss_signal_free(r.signal);
@@ -477,9 +477,9 @@ cannot_tell_laws_that_leave_the_same(void **unused)
     size_t best;
     candidate c[] = {
         { .name = "null", .law = 1, .left = 1, .fitted = 1, .noise = 1, .rough = 1, .work = 1 },
-        { .name = "one", .law = 2, .contains = 1, .left = 2.04e-3, .fitted = 2.04e-3, .noise = 0.67e-3, .rough = 1,
+        { .name = "one", .law = 2, .contains = 1, .left = 2.04e-3, .fitted = 2.04e-3, .noise = 1.34e-3, .rough = 1,
           .work = 1 },
-        { .name = "other", .law = 4, .contains = 1, .left = 2e-3, .fitted = 2e-3, .noise = 0.8e-3, .rough = 1,
+        { .name = "other", .law = 4, .contains = 1, .left = 2e-3, .fitted = 2e-3, .noise = 1.6e-3, .rough = 1,
           .work = 1 },
         { .left = 1 } };
     double block[4][BLOCKS];
@@ -494,13 +494,16 @@ cannot_tell_laws_that_leave_the_same(void **unused)
     c[2].contains = 3;          /* now one is a limit of the other */
     assert_int_equal(ss_verdict_find(answer, sizeof answer, c, 3, 1, &best), SS_NAMED);
     assert_string_equal(answer, "one explains 0.9980 of the force that was held out, no less than other, and leaves "
-                        "3.045 times the noise");
+                        "1.522 times the noise");
     c[1].left = c[1].fitted = 1;        /* and explains nothing */
-    c[1].noise = 0.5e-3;
+    c[1].noise = 1e-3;
     assert_int_equal(ss_verdict_find(answer, sizeof answer, c, 3, 1, &best), SS_NONE_FITS);
     assert_string_equal(answer, "none of these: more than noise is left; other explains 0.9980 of the force that was "
-                        "held out, and leaves 4 times the noise");
-    assert_true(fabs(c[2].excess - 4) < 1e-9);
+                        "held out, and leaves 2 times the noise");
+    assert_true(fabs(c[2].excess - 2) < 1e-9);
+    for (int b = 0; b < BLOCKS; b++)    /* two times, but not surely more than 1.5 times */
+        block[2][b] = c[2].left / BLOCKS * (b % 2 ? 1.8 : 0.2);
+    assert_int_equal(ss_verdict_find(answer, sizeof answer, c, 3, 1, &best), SS_NAMED);
 }
 
 /* --- no law --------------------------------------------------------------------------------- */

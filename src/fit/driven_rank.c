@@ -98,7 +98,7 @@ enum { AT = UNKNOWNS + COLUMNS, BESIDE = COLUMNS - VISCOUS, LATE = LAW_NUMBERS +
 /* What stands beside each law, and the delay. */
 static const struct { const char *name, *unit; } beside[] = {
     { "viscous_friction", "N s/m" }, { "tilt", "N/m" }, { "inertia", "N s^2/m" }, { "sine", "N" },
-    { "cosine", "N" }, { "viscous_difference", "N s/m" }, { "unevenness", "1" }, { "unevenness_by_place", "1/m" },
+    { "cosine", "N" }, { "viscous_difference", "N s/m" }, { "unevenness", "" }, { "unevenness_by_place", "1/m" },
     { "offset", "N" }, { "drift", "N/s" }, { "delay", "s" } };
 
 /* The unit in which laws are fitted over that of the recording, of a number in this unit of scenes. */

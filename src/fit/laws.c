@@ -6,7 +6,7 @@
 #define AMOUNT { "friction", "N" }
 #define STIFFNESS { "contact_stiffness", "N/m" }
 #define OTHER_SIDE { "friction_negative", "N" }, { "contact_stiffness_negative", "N/m" }
-#define FORM { "exponent", "1" }, { "beta_fraction", "1" }
+#define FORM { "exponent", "" }, { "beta_fraction", "" }
 
 static void
 coulomb(double number[], const double u[], const double c[])
@@ -94,7 +94,7 @@ static const driven_law list[] = {
         .contains = BIT(IS_LINEAR), .held = { [LENGTH] = SMALL, [GAP] = SMALL } },
     [IS_STRIBECK] = { .name = "stribeck", .model = "stribeck", .parts = 2, .numbers = stribeck,
         .number = { AMOUNT, { "static_friction", "N" }, { "stribeck_velocity", "m/s" },
-                    { "stribeck_exponent", "1" } }, .word = { "stribeck_shape", "exponential" },
+                    { "stribeck_exponent", "" } }, .word = { "stribeck_shape", "exponential" },
         .contains = SIMPLE, .free = BIT(SPEED) | BIT(SHAPE), .held = { [LENGTH] = SMALL } },
     [IS_COMPLIANT] = { .name = "compliant", .is_even = 1, .model = "compliant", .parts = 1, .numbers = compliant,
         .number = { AMOUNT, STIFFNESS }, .contains = SIMPLE, .free = BIT(LENGTH),
@@ -118,8 +118,8 @@ static const driven_law list[] = {
         .free = BIT(LENGTH) | BIT(EXPONENT) | BIT(BETA) | BIT(GAP) },
     [IS_RATE_AND_STATE] = { .name = "rate-and-state", .model = "rate-and-state", .parts = 3,
         .numbers = rate_and_state,
-        .number = { { "normal_force", "N" }, { "reference_friction", "1" }, { "reference_velocity", "m/s" },
-                    { "direct_effect", "1" }, { "evolution_effect", "1" }, { "critical_slip_distance", "m" } },
+        .number = { { "normal_force", "N" }, { "reference_friction", "" }, { "reference_velocity", "m/s" },
+                    { "direct_effect", "" }, { "evolution_effect", "" }, { "critical_slip_distance", "m" } },
         .confounded = "normal_force with reference_friction", .contains = SIMPLE, .free = BIT(LENGTH) },
 };
 

@@ -7,7 +7,7 @@
  * wrong by so much nobody can tell another that is hardly worse.  Of the laws as good as the best the simplest is
  * named, if all others contain it.
  *
- * * The best law is none if most of what it leaves is no noise: then a law is missing. */
+ * * The best law is none if what it leaves is no noise, by two errors: then a law is missing. */
 #include "fit/verdict.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@
 #define AS_GOOD 0.03                /* of the least loss, or of the noise: laws that differ by less are as good */
 #define ALIKE 0.5                   /* of the best law's error: laws whose errors differ by less are as good */
 #define EXPLAINED 0.8               /* of the power, by a law that is named */
-#define BEYOND_NOISE 3              /* times the noise is left: two thirds are an error of the law */
+#define BEYOND_NOISE 1.5            /* times the noise is surely left: the law's error is more than half the noise */
 #define TAKEN 0.1                   /* of its work a friction takes, unless it is hardly reached */
 #define QUIET 1e-4                  /* of the power: sensors are linear to a hundredth */
 
@@ -95,11 +95,12 @@ errors_behind(const candidate *c, const candidate *best, double power)
 static const char *
 find_fault(const candidate c[], size_t n, const candidate *best)
 {
+    const double surely = 1 - 2 * ss_verdict_error(best->block, NULL) / ss_verdict_sum(best->block);
     return c[0].tied ? "no law explains more than the null"
         : c[n].tied ? "no law explains more than a spring of any shape and a damper"
         : 1 - best->left < EXPLAINED ? "too little is explained"
         : best->work < TAKEN ? "friction is hardly reached"
-        : best->excess > BEYOND_NOISE ? "more than noise is left" : NULL;
+        : best->excess * surely > BEYOND_NOISE ? "more than noise is left" : NULL;
 }
 
 ss_verdict
