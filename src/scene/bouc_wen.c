@@ -177,7 +177,7 @@ follow(const ss_scene *s, double z, double moved)
         return way + (z - way) * exp(-fabs(moved));
     const int steps = (int)fmin(ceil(fabs(moved) / length), MOST);
     const double h = way * fmin(fabs(moved) / fmax(steps, 1), length);
-    for (int i = 0; i < steps; i++) {       /* of order 4 by two derivatives, of which the second has none at z = 0 */
+    for (int i = 0; i < steps; i++) {       /* of order 4 by two derivatives; the second has a bound at 0 */
         const double rate = yield(s, sign(z), (int)way, z, &slope), bend = fmax(-2, fmin(h * slope, 2)) * rate;
         const double at = z + h / 2 * (rate + bend / 4), middle = yield(s, sign(at), (int)way, at, &slope);
         z += h * (rate + (bend + 2 * fmax(-2, fmin(h * slope, 2)) * middle) / 6);

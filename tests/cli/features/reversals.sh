@@ -48,3 +48,5 @@ covers loading_stiffness 1e6 < found
 # one table of files has them, too
 ss-features -c f --summary clean.tsv | awk -F '\t' '/^# columns/ { sub("# columns: ", ""); n = split($0, name, "\t") }
     !/^#/ { for (i = 1; i <= n; i++) if (name[i] == "friction" || name[i] == "drop") print name[i], $i }'
+# of a displacement that is named another tool knows more
+ss-features -c f --displacement x clean.tsv 2>&1 | grep '^ss-features'
