@@ -684,16 +684,19 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
     return st;
 }
 
-/* The mean square that all blocks leave. */
+/* The squares that all blocks leave, and what blocks of another way to follow the decay show behind them. */
 static double
-leaves(const decay *d)
+leaves(const decay *d, const decay *other)
 {
-    double left = 0, n = 0;
-    for (size_t i = 0; i < d->n_blocks; i++) {
+    size_t end = d->block[d->n_blocks - 1].end;
+    double left = 0;
+    for (size_t i = 0; i < d->n_blocks; i++)
         left += d->block[i].left;
-        n += d->block[i].free;
+    for (size_t i = 0; i < other->n_blocks; i++) {
+        const block *b = &other->block[i];
+        left += b->first >= end ? exp(2 * b->y[LEVEL]) / 2 * (double)(b->end - b->first) : 0;
     }
-    return left / n;
+    return left;
 }
 
 /* 1: the blocks leave at first what dies out, as another mode does that curves through them follow. */
@@ -701,15 +704,10 @@ static int
 is_mixed(const decay *d)
 {
     const block *last = &d->block[d->n_blocks - 1];
-    return leaves(d) > MIXED * last->left / last->free;
-}
-
-/* 1: another way to follow the decay leaves less than half, and follows it nearly as far down. */
-static int
-is_better(const decay *other, const decay *d)
-{
-    double end = other->block[other->n_blocks - 1].y[LEVEL], was = d->block[d->n_blocks - 1].y[LEVEL];
-    return leaves(other) < leaves(d) / 2 && end < was + .3;
+    double n = 0;
+    for (size_t i = 0; i < d->n_blocks; i++)
+        n += d->block[i].free;
+    return leaves(d, d) > MIXED * n * last->left / last->free;
 }
 
 /* Find the decay of the line that is asked for, or else of the strongest, beside the next one if less than half is
@@ -729,7 +727,8 @@ find(decay *d, const double *x, size_t n)
         if (!(line[other[k][0]] > 0 && line[other[k][1]] > 0) || (no_decay(d) == NULL && (k > 0 || !is_mixed(d))))
             continue;
         st = find_at(&with, x, n, line[other[k][0]], line[other[k][1]]);
-        if (st == SS_OK && no_decay(&with) == NULL && (no_decay(d) != NULL || is_better(&with, d))) {
+        if (st == SS_OK && no_decay(&with) == NULL
+            && (no_decay(d) != NULL || leaves(&with, d) < leaves(d, &with) / 2)) {
             decay was = *d;
             *d = with;
             with = was;
