@@ -128,7 +128,7 @@ answers_in_a_sentence(void **state)
     ss_models_free(models);
     models = models_of(&light);
     assert_int_equal(models->row[0].microslips, 15);        /* one a half-cycle in the settled motion */
-    assert_answer(models, "x=0.5,events=30", "coulomb suffices for x within 50 % and events within 30");
+    assert_answer(models, "x=50%,events=30", "coulomb suffices for x within 50 % and events within 30");
     assert_answer(models, "transition_frequency=1e-3,x=0.5",
                   "coulomb suffices for x within 50 %; contact_damping=0 suffices for transition_frequency within 0.1 %");
     ss_models_free(models);
@@ -137,7 +137,8 @@ answers_in_a_sentence(void **state)
 static void
 refuses_what_the_scene_has_not(void **state)
 {
-    static const char *const wrong[] = { "", "x", "x=", "y=1", "x=-1", "x=1,x=2", "map=3db", "x=1dB", "x=nan" };
+    static const char *const wrong[] = { "", "x", "x=", "y=1", "x=-1", "x=1,x=2", "map=3db", "x=1dB", "x=nan",
+        "x=%", "x=1%%", "events=1%", "map=1%" };
     ss_scene scene = read_shipped_named("state-variable");
     ss_need need[SS_COMPARED_MOST];
     size_t n;

@@ -5,15 +5,15 @@
 #include "options.h"
 
 static const char usage[] =
-"usage: ss-sweep [options] --vary=KEY=FROM:TO:N[:log] ... SCENE\n"
+"usage: ss-sweep [options] [--vary=KEY=FROM:TO:N[:log] ...] SCENE\n"
 "Find the periodic state that the scene settles to at every point of a grid and\n"
 "write one row each.  SCENE is a file, - or the name of a shipped scene.\n"
 "  -y, --vary=K=A:B:N    N values of K from A to B, with :log in equal ratios\n"
 "                        (repeatable; the last varies fastest)\n"
 "  -m, --measure=LIST    of stops,stick,amplitude,x_max,v_max,a_max,energy,\n"
 "                        period,cycles,microslips,transition,x_phase,v_phase,\n"
-"                        floquet,floquet2,floquet_angle,cycle_time,lyapunov,\n"
-"                        lyapunov_error,model_error_x|v|a|f and these with _rms\n"
+"                        floquet[2|_angle],cycle_time,lyapunov[_error],\n"
+"                        model_error_x|v|a|f[_rms],peak_velocity,force_drop,growth\n"
 "  -s, --set=KEY=VALUE   replace a value of the scene (repeatable)\n"
 "      --simulate        find the period by simulation alone, see the manual\n"
 "      --shoot           find a period by Newton's method at once\n"

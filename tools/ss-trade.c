@@ -25,7 +25,7 @@ TOOL_READING_USAGE
 "  -m, --models          the scene beside each simpler one that it contains:\n"
 "                        errors of x, v, a, f, of the contours, of the features\n"
 "  -n, --need=LIST       the cheapest that keeps a list of NAME=ERROR, such as\n"
-"                        x=1e-2,a=0.1,map=3dB,microslips, in one sentence\n"
+"                        x=1%,a=0.1,map=3dB,microslips, in one sentence\n"
 "  -o, --output=FILE     .tsv .csv .json, or a picture of error over time as .gp,\n"
 "                        .png, .svg, .pdf, .eps; --format=tsv|csv|json\n"
 "  -q, --quiet           no progress; -v, --verbose: report the measurement\n"

@@ -115,9 +115,8 @@ typedef struct ss_steady {
  * at the same x - U t, so the multipliers are 0.  An elastic contact needs the method exact or
  * taylor for shooting, multipliers and exponents.
  *
- * The Lyapunov exponent of a periodic motion is that of its largest multiplier; there is none if
- * this is 0 or hidden by rounding, for example because a stick ends every difference.  The
- * exponent of another motion is a mean over max_cycles (or settle) further cycles (Benettin et al.
+ * The Lyapunov exponent of a periodic motion is that of its largest multiplier; -infinity if this
+ * is 0 or hidden by rounding, for example because a stick ends every difference.  The exponent of another motion is a mean over max_cycles (or settle) further cycles (Benettin et al.
  * 1980); its error is the scatter among 20 parts of them.
  *
  * SS_OK: every measure wanted is known.  SS_EDATA: one is not known or not reliable, and err says
@@ -167,7 +166,7 @@ typedef struct ss_sweep_opts {
     void *user;                 /* passed to the sink */
     ss_progress progress;       /* called as the sink is */
 } ss_sweep_opts;
-/* No axes, all points, one thread.  size: sizeof (ss_sweep_opts). */
+/* No axes, which is one point, all points, one thread.  size: sizeof (ss_sweep_opts). */
 void ss_sweep_opts_init(ss_sweep_opts *opts, size_t size);
 
 /* SS_EINVAL if no point can be computed: the model lacks the number of an axis or a measure, an

@@ -24,7 +24,7 @@ find_multipliers(finder *f, const motion *start, int period)
         c->status = ss_tangent_multipliers(&t, &value[SS_FLOQUET], &value[SS_FLOQUET_2], &value[SS_FLOQUET_ANGLE]);
     /* below this, rounding or the error that the tolerance allows may have made the multiplier */
     double least = c->how->kind == CLOSED_FORM ? 1e-10 : 1e-6, time = period * value[SS_CYCLE_TIME];
-    value[SS_LYAPUNOV] = value[SS_FLOQUET] > least ? log(value[SS_FLOQUET]) / time : NAN;
+    value[SS_LYAPUNOV] = value[SS_FLOQUET] <= least ? -INFINITY : log(value[SS_FLOQUET]) / time;
     value[SS_LYAPUNOV_ERROR] = 0;
 }
 

@@ -179,9 +179,7 @@ check_complete(const finder *f)
     for (int i = 0; i < SS_MEASURES; i++)
         if ((o->measures & 1u << i) && isnan(value[i]))
             return ss_fail(err, SS_EDATA, i == SS_TRANSITION
-                           ? "%s: no oscillation, a has no three extrema in one"
-                           : i == SS_LYAPUNOV ? "%s: neighbouring motions become one, within rounding"
-                           : "%s: not a number",
+                           ? "%s: no oscillation, a has no three extrema in one" : "%s: not a number",
                            measure[i].label.name);
     return SS_OK;
 }
@@ -262,7 +260,7 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *give
         limit = compare_with_limit(&f);
     ss_periodic_free(&f);
     for (int i = 0; i < SS_MEASURES; i++)
-        if (st != SS_OK || !(opts->measures & 1u << i) || !isfinite(out->value[i]))
+        if (st != SS_OK || !(opts->measures & 1u << i) || (!isfinite(out->value[i]) && i != SS_LYAPUNOV))
             out->value[i] = i == SS_PERIOD && st == SS_OK ? out->value[i] : NAN;
     out->value[SS_GROWTH] = growth;
     if (limit != SS_OK)

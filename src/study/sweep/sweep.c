@@ -4,15 +4,17 @@
  * threads. */
 #include <stickslip/sweep.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip/signal.h>
+#include "base/number.h"
 #include "base/options.h"
-#include "scene/key.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "scene/key.h"
 #include "study/sweep/grid.h"
 
 static const ss_sweep_opts usual = { .size = sizeof usual, .shards = 1, .threads = 1 };
@@ -70,6 +72,19 @@ ss_axis_parse(ss_axis *out, const char *text, ss_error *err)
     return SS_OK;
 }
 
+/* Rounding leaves a value of an axis within this part of its largest. */
+#define ROUNDED (32 * DBL_EPSILON)
+
+/* The decimal of twelve digits that rounding has made x of, such as .2; else x. */
+static double
+decimal_of(double x, double largest)
+{
+    char text[SS_NUMBER_MAX];
+    ss_print_to(text, sizeof text, "%.11e", fabs(x) <= ROUNDED * largest ? 0 : x);
+    double decimal = ss_number_parse(text, NULL);
+    return fabs(decimal - x) <= ROUNDED * largest ? decimal : x;
+}
+
 /* The i-th value, from 0. */
 static double
 axis_value(const ss_axis *axis, size_t i)
@@ -78,13 +93,12 @@ axis_value(const ss_axis *axis, size_t i)
         return axis->from;
     if (i + 1 >= axis->n)
         return axis->to;
-    double n = (double)(axis->n - 1), done = (double)i, part = done / n;
-    double ratio = axis->to / axis->from, x = axis->from * (n - done) + axis->to * done;
-    if (axis->log && ratio > 0 && isfinite(ratio))
-        return axis->from * pow(ratio, part);
-    if (axis->log)                      /* the ratio of the ends may exceed a double */
-        return pow(axis->from, 1 - part) * pow(axis->to, part);
-    return isfinite(x) ? x / n : axis->from * (1 - part) + axis->to * part;
+    double n = (double)(axis->n - 1), part = (double)i / n;
+    if (axis->log) {                    /* their ratio may exceed a double */
+        double x = pow(axis->from, 1 - part) * pow(axis->to, part);
+        return decimal_of(x, x);
+    }
+    return decimal_of(axis->from * (1 - part) + axis->to * part, fmax(fabs(axis->from), fabs(axis->to)));
 }
 
 void
@@ -98,8 +112,6 @@ ss_status
 ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err)
 {
     size_t all = 1;
-    if (opts->n_axes == 0)
-        return ss_fail(err, SS_EINVAL, "nothing to vary");
     for (size_t i = 0; i < opts->n_axes; i++) {
         if (opts->axis[i].n < 1)
             return ss_fail(err, SS_EINVAL, "%s: at least one value is needed", opts->axis[i].key);

@@ -79,7 +79,7 @@ write_row(struct rows *rows, const ss_sweep_text *sweep, const ss_sweep_row *row
         if (m == SS_PERIOD && value == 0)
             ss_rows_word(rows, ss_measure_label(m)->name, "aperiodic");
         else
-            ss_rows_number(rows, ss_measure_label(m)->name, ss_measure_label(m)->unit, value);
+            ss_rows_number(rows, ss_measure_label(m)->name, ss_measure_label(m)->unit, isinf(value) ? NAN : value);
     }
     ss_rows_word(rows, "status", row->reason);
     ss_rows_end(rows);
@@ -162,7 +162,7 @@ check_row(const ss_sweep_text *sweep, size_t index, const char *line, double val
             double x = ss_number_parse(cell, &end);
             int aperiodic = m == SS_PERIOD && strncmp(cell, "aperiodic", 9) == 0;
             row.steady.value[m] = aperiodic ? 0 : end > cell && isfinite(x) ? x : NAN;
-            unknown += isnan(row.steady.value[m]);
+            unknown += m != SS_LYAPUNOV && isnan(row.steady.value[m]);
         }
         if ((cell = strchr(cell, format->separator)) == NULL)
             return SS_EDATA;
@@ -223,11 +223,14 @@ find_end(const ss_sweep_text *sweep, FILE *in, const char *name, const char *hea
          ss_error *err)
 {
     size_t at = 0, lines = 0;
+    const char *line = header;
     ss_status st = SS_OK;
     for (int c; st == SS_OK && header[at] != '\0' && (c = getc(in)) != EOF; at++) {
-        lines += c == '\n';
         if (c != (unsigned char)header[at])
-            st = ss_fail(err, SS_EDATA, "%s: another sweep than this: its header differs", name);
+            st = ss_fail(err, SS_EDATA, "%s:%zu: another sweep than this one, which has '%.*s'", name, lines + 1,
+                         (int)strcspn(line, "\n"), line);
+        lines += c == '\n';
+        line = c == '\n' ? header + at + 1 : line;
     }
     if (st == SS_OK && header[at] == '\0') {
         *end = (long)at;

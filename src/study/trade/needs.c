@@ -36,8 +36,11 @@ parse_need(ss_need *need, const char *text, size_t length, ss_error *err)
             : ss_fail(err, SS_EINVAL, "%s needs an error that it may have, as in %s=0.01", name, name);
     need->within = ss_number_parse(text + letters + 1, &end);
     int is_number = end > text + letters + 1 && need->within >= 0 && isfinite(need->within);
-    if (strncmp(end, ss_compared_unit(i), strlen(ss_compared_unit(i))) == 0)
-        end += strlen(ss_compared_unit(i));
+    const char *unit = is_count(i) || ss_compared_unit(i)[0] != '\0' ? ss_compared_unit(i) : "%";
+    if (unit[0] != '\0' && strncmp(end, unit, strlen(unit)) == 0) {
+        need->within /= unit[0] == '%' ? 100 : 1;
+        end += strlen(unit);
+    }
     return is_number && end == text + length ? SS_OK
         : ss_fail(err, SS_EINVAL, "'%.*s' is not %s=ERROR, an error of 0 or more", (int)length, text, name);
 }

@@ -9,6 +9,8 @@ ss-sweep -m period,amplitude --vary alpha=1000:3000:2 state-variable | grep -v '
 ss-sweep --vary base_frequency=0:2.5:2 -m stops --shoot coulomb | grep -v '^#'
 ss-sweep --set base_frequency=0 --set static_friction=1.4 -m cycle_time,stick,period --vary surface_velocity=0:1e-2:3 \
     coulomb | grep -v '^#' | rows
+# nothing varied: one row
+ss-sweep -m stops,period coulomb | grep -v '^#'
 # a key of the model that is set may be varied, though the scene's own model has no such key
 falling='-m x_max -s model=stribeck -s static_friction=1.35'
 # shellcheck disable=SC2086  # several words

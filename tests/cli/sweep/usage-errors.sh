@@ -2,7 +2,6 @@
 try() { ss-sweep "$@" -o a.tsv || echo "exit $?"; }
 vary=--vary=mass=1:2:2
 try
-try coulomb
 try $vary coulomb extra
 try $vary nowhere.scene
 try --vary mass=1:2 coulomb
