@@ -239,8 +239,8 @@ write_point(double t, double f, double level, void *user)
     ss_script_write(to->out, f, 4 - (int)floor(log10(f)), "\n");
 }
 
-/* A steady oscillation of amplitude A has |W| = A sqrt(a / 2) pi^(1/4) at its ridge, or with the norm 1/a that
- * over sqrt(a). */
+/* Of A cos(w t), |W| is A (a / 2)^1/2 pi^1/4 exp(-(a w - c)^2 / 2), largest where 2 a w = c + (c^2 + 2)^1/2; with
+ * the norm 1/a it is that over a^1/2, largest where a w = c. */
 static void
 write_row(double t, double f, double level, void *user)
 {
@@ -249,10 +249,11 @@ write_row(double t, double f, double level, void *user)
     const char *norm = ss_header_find_note(c->head, "norm"), *unit = ss_header_find_note(c->head, "unit");
     int is_l1 = norm != NULL && strcmp(norm, "l1") == 0;
     double w = to->map->top * pow(10, level / 20), a = is_l1 ? 1 : c->center / (2 * M_PI * f);
+    double phase = is_l1 ? c->center : (c->center + sqrt(c->center * c->center + 2)) / 2, off = phase - c->center;
     ss_rows_number(&to->rows, "t", "s", t);
-    ss_rows_number(&to->rows, "frequency", "Hz", f);
+    ss_rows_number(&to->rows, "frequency", "Hz", f * phase / c->center);
     ss_rows_number(&to->rows, "amplitude", unit != NULL ? unit : "",
-                   w / sqrt(a / 2) / sqrt(sqrt(M_PI)));
+                   w / sqrt(a / 2) / sqrt(sqrt(M_PI)) * exp(off * off / 2));
     ss_rows_end(&to->rows);
 }
 

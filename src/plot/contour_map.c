@@ -210,15 +210,18 @@ falls(const double *level, size_t rows, size_t r, size_t step)
     return least <= at(level, r) - RISE;
 }
 
-/* ln f of the parabola's top through three rows. */
+/* The label and the level of the top of the parabola through three rows.  In the scale, 1 / f, that of a steady
+ * oscillation is a parabola, but for the factor a^1/2 of a norm. */
 static double
-top_of(const contour_map *map, const double *level, size_t r)
+top_of(const contour_map *map, const double *level, size_t r, double *height)
 {
-    double x0 = log(map->f[r - 1]), x1 = log(map->f[r]), x2 = log(map->f[r + 1]);
-    double left = (at(level, r) - at(level, r - 1)) / (x1 - x0);
-    double right = (at(level, r + 1) - at(level, r)) / (x2 - x1);
+    double x0 = 1 / map->f[r + 1], x1 = 1 / map->f[r], x2 = 1 / map->f[r - 1];
+    double left = (at(level, r) - at(level, r + 1)) / (x1 - x0);
+    double right = (at(level, r - 1) - at(level, r)) / (x2 - x1);
     double curve = (right - left) / (x2 - x0);
-    return curve < 0 ? fmin(fmax((x0 + x1) / 2 - left / (2 * curve), x0), x2) : x1;
+    double x = curve < 0 ? fmin(fmax((x0 + x1) / 2 - left / (2 * curve), x0), x2) : x1;
+    *height = at(level, r) + (x - x1) * (left + curve * (x - x0));
+    return 1 / x;
 }
 
 /* Is the time within the cone of influence at label f? */
@@ -242,10 +245,10 @@ ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
             if (here < -map->span || here <= at(level, r - 1) || here < at(level, r + 1)
                 || !falls(level, map->rows, r, 1) || !falls(level, map->rows, r, (size_t)-1))
                 continue;
-            double f = exp(top_of(map, level, r));
+            double top, f = top_of(map, level, r, &top);
             if (in_cone(c, t, f))
                 continue;
-            visit(t, f, here, user);
+            visit(t, f, top, user);
             n++;
         }
     return n;
