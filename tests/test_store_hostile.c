@@ -1,7 +1,7 @@
 /* test_store_hostile.c -- a damaged or hostile file is refused, or does no harm. */
 #include "store_file.h"
+#include "io/frames.h"
 #include "read_opts.h"
-
 
 /* Every prefix of a file must be refused or read, never crash. */
 static void
@@ -242,13 +242,12 @@ put_variable_text(hid_t file, const char *name, size_t n, int letter)
 
 /* Where the file refers to a text of n bytes: its length (4 bytes), the address of a global heap (8)
  * and an index in it (4), see IV.B of the HDF5 file format. */
-static unsigned char *
-find_reference(unsigned char *bytes, size_t size, uint32_t n)
+static char *
+find_reference(char *bytes, size_t size, uint32_t n)
 {
     for (size_t i = 0; i + 16 <= size; i++) {
-        uint64_t heap;
-        memcpy(&heap, bytes + i + 4, 8);
-        if (memcmp(bytes + i, &n, 4) == 0 && heap + 4 <= size && memcmp(bytes + heap, "GCOL", 4) == 0)
+        uint64_t heap = ss_bytes_get(bytes + i + 4, 8, 1);
+        if (ss_bytes_get(bytes + i, 4, 1) == n && heap + 4 <= size && memcmp(bytes + heap, "GCOL", 4) == 0)
             return bytes + i;
     }
     fail_msg("no text of %u bytes", (unsigned)n);
@@ -277,8 +276,8 @@ one_text_under_many_names_is_not_read_many_times(void **state)
     assert_int_equal(strlen(ss_header_find_note(signal->head, "small7")), SMALL + 7);
     ss_signal_free(signal);
     signal = NULL;
-    unsigned char *bytes = (unsigned char *)read_bytes(&size);
-    const unsigned char *large = find_reference(bytes, size, LARGE);
+    char *bytes = read_bytes(&size);
+    const char *large = find_reference(bytes, size, LARGE);
     for (int i = 0; i < NAMES; i++)
         memcpy(find_reference(bytes, size, (uint32_t)(SMALL + i)), large, 16);
     FILE *out = fopen(path, "wb");

@@ -194,10 +194,8 @@ new_features(void)
     ss_features *out = calloc(1, sizeof *out);
     for (int k = 0; out != NULL && k < SS_FEATURE_NUMBERS; k++)
         out->number[k] = no_number;
-    if (out != NULL) {
+    if (out != NULL)
         out->number[SS_SLIPS].value = 0;
-        say(out, SS_TRANSITION_FREQUENCY, "the recording is too short");
-    }
     return out;
 }
 
@@ -262,8 +260,13 @@ ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, c
         free(s.at.span);
         free(s.found);
     }
-    if (st == SS_ESCALE && !(opts.fmin > 0))            /* it is too short to have features */
+    if (st == SS_ESCALE && !(opts.fmin > 0)) {
+        static const char why[] = "the recording is too short";
+        say(found, SS_SLIPS, why);
+        say(found, SS_REPETITION_FREQUENCY, why);
+        say(found, SS_TRANSITION_FREQUENCY, why);
         st = SS_OK;
+    }
     if (st == SS_OK && found->spikes == NULL && (found->spikes = calloc(1, sizeof *found->spikes)) == NULL)
         st = ss_fail_memory(err, NULL);
     free(gap);
