@@ -14,7 +14,7 @@
 #include <string.h>
 #include "base/sort.h"
 
-enum { TERMS = 4, WIDEST = 64 };    /* of the cubic; half the widest window, in rows */
+enum { TERMS = 4, WIDEST = 64, SERIES = 5 };    /* of the cubic; half the widest window, in rows; t, x, v, a, f */
 #define NOISY 1e-3                  /* of the force's range, from row to row: it is clipped, not saturated */
 #define JUMP 4                      /* times the largest of four differences of noise: seldom */
 #define UNKNOWN_MEMORY 0.03         /* the part of the time in which the memory of a law is not known yet */
@@ -87,15 +87,14 @@ static ss_status
 make_room(driven *d, size_t n)
 {
     d->n = n;
-    d->room = calloc(5 * n, sizeof *d->room);
+    d->room = calloc(SERIES * n, sizeof *d->room);
     d->used = calloc(n, 1);
-    d->row = calloc(n, sizeof *d->row);
     d->t = d->room;
     d->x = d->t + n;
     d->v = d->x + n;
     d->a = d->v + n;
     d->f = d->a + n;
-    return d->room != NULL && d->used != NULL && d->row != NULL ? SS_OK : SS_ENOMEM;
+    return d->room != NULL && d->used != NULL ? SS_OK : SS_ENOMEM;
 }
 
 void
@@ -103,7 +102,6 @@ ss_driven_free(driven *d)
 {
     free(d->room);
     free(d->used);
-    free(d->row);
 }
 
 /* Leave out rows at an end of the range of a noisy force if more of them stand there than chance puts on one
@@ -179,7 +177,6 @@ ss_driven_new(driven *d, const double t[], const double motion[], const double f
         smooth(t, motion, n, i, window, (size_t[]){ n, n }, out);
         d->t[i] = t[i] - t[0];
         d->f[i] = force[i];
-        d->row[i] = i;
         d->used[i] = d->t[i] >= UNKNOWN_MEMORY * (t[n - 1] - t[0])      /* and the motion is known, if it is late */
             && (double)i + d->most_delay < (double)n;
         d->x[i] = out[0];
@@ -280,13 +277,9 @@ ss_driven_thin(driven *thin, const driven *d, size_t most)
         if (i % stride != 0 && !is_turn[i])
             continue;
         const size_t k = thin->n++;
-        thin->t[k] = d->t[i];
-        thin->x[k] = d->x[i];
-        thin->v[k] = d->v[i];
-        thin->a[k] = d->a[i];
-        thin->f[k] = d->f[i];
+        for (size_t c = 0; c < SERIES; c++)
+            thin->room[c * d->n + k] = d->room[c * d->n + i];
         thin->used[k] = d->used[i];
-        thin->row[k] = i;
     }
     free(is_turn);
     return SS_OK;

@@ -42,7 +42,6 @@ typedef struct driven {
     size_t n;
     double *t, *x, *v, *a, *f;      /* the motion smoothed; f with its sign in the equation of motion */
     char *used;                     /* 0: the force of this row is left out */
-    size_t *row;                    /* of the record that was thinned */
     double least, slow;             /* a motion and a speed less than these are noise */
     double step;                    /* mean time between rows, before they were thinned */
     double length, speed, force, middle;    /* the units, and the mean of x, in those of the recording */

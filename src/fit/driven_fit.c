@@ -150,23 +150,27 @@ fill_columns(problem *p, const double u[UNKNOWNS])
 
 /* --- the amplitudes ------------------------------------------------------------------------ */
 
-/* Solve the normal equations g c = b, whose lower half is given, of m columns in ascending order, scaled. */
+/* Solve normal equations of m unknowns, whose lower half is given, scaled, for n right sides, which become the
+ * solutions. */
 static void
-solve(double g[COLUMNS][COLUMNS], const double b[], const int of[], size_t m, double c[])
+solve(double h[], size_t m, double right[][UNKNOWNS + COLUMNS], size_t n)
 {
-    double a[COLUMNS * COLUMNS], size[COLUMNS];
-    for (size_t k = 0; k < m; k++) {
-        size[k] = g[of[k]][of[k]] > 0 ? sqrt(g[of[k]][of[k]]) : 1;
-        c[k] = b[of[k]] / size[k];
-        for (size_t l = 0; l <= k; l++)
-            a[k * m + l] = g[of[k]][of[l]] / (size[k] * size[l]) + (k == l ? RIDGE : 0);
-    }
-    gsl_matrix_view A = gsl_matrix_view_array(a, m, m);
-    gsl_vector_view C = gsl_vector_view_array(c, m);
-    gsl_linalg_cholesky_decomp1(&A.matrix);
-    gsl_linalg_cholesky_svx(&A.matrix, &C.vector);
+    double size[UNKNOWNS + COLUMNS];
     for (size_t k = 0; k < m; k++)
-        c[k] /= size[k];
+        size[k] = h[k * (m + 1)] > 0 ? sqrt(h[k * (m + 1)]) : 1;
+    for (size_t k = 0; k < m; k++)
+        for (size_t l = 0; l <= k; l++)
+            h[k * m + l] = h[k * m + l] / (size[k] * size[l]) + (k == l ? RIDGE : 0);
+    gsl_matrix_view H = gsl_matrix_view_array(h, m, m);
+    gsl_linalg_cholesky_decomp1(&H.matrix);
+    for (size_t i = 0; i < n; i++) {
+        gsl_vector_view C = gsl_vector_view_array(right[i], m);
+        for (size_t k = 0; k < m; k++)
+            right[i][k] /= size[k];
+        gsl_linalg_cholesky_svx(&H.matrix, &C.vector);
+        for (size_t k = 0; k < m; k++)
+            right[i][k] /= size[k];
+    }
 }
 
 /* Find the amplitudes of the columns: one that would be negative, and may not, is 0.  Offset and drift are those
@@ -175,7 +179,8 @@ static void
 find_amplitudes(problem *p)
 {
     const driven *d = p->d;
-    double g[COLUMNS][COLUMNS] = { { 0 } }, b[COLUMNS] = { 0 }, c[COLUMNS];
+    double g[COLUMNS][COLUMNS] = { { 0 } }, b[COLUMNS] = { 0 }, of_m[COLUMNS * COLUMNS];
+    double right[1][UNKNOWNS + COLUMNS], *const c = right[0];
     int of[COLUMNS], worst = 0;
     size_t m = 0;
     for (int k = 0; k < OFFSET; k++)
@@ -193,7 +198,12 @@ find_amplitudes(problem *p)
         }
     }
     while (worst >= 0) {
-        solve(g, b, of, m, c);
+        for (size_t k = 0; k < m; k++) {
+            c[k] = b[of[k]];
+            for (size_t l = 0; l <= k; l++)
+                of_m[k * m + l] = g[of[k]][of[l]];
+        }
+        solve(of_m, m, right, 1);
         worst = -1;
         for (size_t k = 0; k < m; k++)
             if (of[k] <= VISCOUS && c[k] < 0 && (worst < 0 || c[k] * b[of[k]] < c[worst] * b[of[worst]]))
@@ -317,14 +327,13 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[
 {
     static const size_t points[] = { 1, 24, 40, 60 };
     const size_t dim = p->n_free - (p->d->most_delay > 0);
-    gsl_qrng *all_over = dim > 0 ? gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)dim) : NULL;
-    if (dim > 0 && all_over == NULL)
+    gsl_qrng *all_over = gsl_qrng_alloc(gsl_qrng_sobol, dim > 0 ? (unsigned)dim : 1);
+    if (all_over == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < (dim < 4 ? points[dim] : points[3]); i++) {
         double u[UNKNOWNS], at[UNKNOWNS];
         memcpy(u, p->law->held, sizeof u);
-        if (dim > 0)
-            gsl_qrng_get(all_over, at);
+        gsl_qrng_get(all_over, at);
         for (size_t k = 0; k < dim; k++)
             u[p->free[k]] = starts[p->free[k]].from + at[k] * (starts[p->free[k]].to - starts[p->free[k]].from);
         fill_columns(p, u);
@@ -342,8 +351,7 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[
             fill_columns(p, u);
             keep(p, best, u);
         }
-    if (dim > 0)
-        gsl_qrng_free(all_over);
+    gsl_qrng_free(all_over);
     return SS_OK;
 }
 
@@ -357,7 +365,7 @@ find_covariance(problem *p, driven_result *r, double *slopes)
     const driven *d = p->d;
     const driven_fit *fit = &r->fit[ALL];
     size_t of[UNKNOWNS + COLUMNS], m = 0;
-    double h[(UNKNOWNS + COLUMNS) * (UNKNOWNS + COLUMNS)] = { 0 }, size[UNKNOWNS + COLUMNS];
+    double h[(UNKNOWNS + COLUMNS) * (UNKNOWNS + COLUMNS)] = { 0 };
     double score[BLOCKS + 1][UNKNOWNS + COLUMNS] = { { 0 } };
     for (size_t k = 0; k < COLUMNS; k++)
         if (fit->c[k] != 0) {
@@ -389,25 +397,12 @@ find_covariance(problem *p, driven_result *r, double *slopes)
     }
     /* The mean of a value is known to half a step of the converter, unless noise moves it (Widrow 1956). */
     const double stands = d->code / 2 * exp(-2 * M_PI * M_PI * fit->loss / (d->code * d->code));
-    for (size_t k = 0; k < m; k++) {
-        size[k] = sqrt(h[k * (m + 1)]);
-        if (size[k] > 0)
-            r->covariance[of[k]][of[k]] = stands * stands / d->codes * (double)d->n / (size[k] * size[k]);
-    }
     for (size_t k = 0; k < m; k++)
-        for (size_t l = 0; l <= k; l++)
-            h[k * m + l] = size[k] > 0 && size[l] > 0
-                ? h[k * m + l] / (size[k] * size[l]) + (k == l ? RIDGE : 0) : k == l;
-    gsl_matrix_view H = gsl_matrix_view_array(h, m, m);
-    gsl_linalg_cholesky_decomp1(&H.matrix);
-    for (size_t b = 0; b < BLOCKS; b++) {
-        for (size_t k = 0; k < m; k++)
-            score[b][k] /= size[k] > 0 ? size[k] : 1;
-        gsl_vector_view S = gsl_vector_view_array(score[b], m);
-        gsl_linalg_cholesky_svx(&H.matrix, &S.vector);
-        for (size_t k = 0; k < m; k++)
-            score[b][k] *= sqrt((double)BLOCKS / (double)(BLOCKS - m)) / (size[k] > 0 ? size[k] : 1);
-    }
+        if (h[k * (m + 1)] > 0)
+            r->covariance[of[k]][of[k]] = stands * stands / d->codes * (double)d->n / h[k * (m + 1)];
+    solve(h, m, score, BLOCKS);
+    for (size_t i = 0; i < BLOCKS * m; i++)
+        score[i / m][i % m] *= sqrt((double)BLOCKS / (double)(BLOCKS - m));
     for (size_t k = 0; k < m; k++)
         score[BLOCKS][k] = of[k] < UNKNOWNS ? (r->fit[0].u[of[k]] - r->fit[1].u[of[k]]) / 2
             : (r->fit[0].c[of[k] - UNKNOWNS] - r->fit[1].c[of[k] - UNKNOWNS]) / 2;

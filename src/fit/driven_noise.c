@@ -122,8 +122,8 @@ ss_status
 ss_driven_free_law(double free_law[BLOCKS], const driven *d, const double *left, const double *own)
 {
     const int terms = own != NULL ? TERMS : SPRING;
-    struct sums { double block[BLOCKS][TERMS + 1][TERMS], all[TERMS + 1][TERMS]; } *sum = calloc(1, sizeof *sum);
-    double (*term)[TERMS] = malloc(d->n * sizeof *term), count = 0;
+    double (*term)[TERMS] = malloc(d->n * sizeof *term), (*sum)[TERMS + 1][TERMS] = calloc(BLOCKS, sizeof *sum);
+    double count = 0;
     if (term == NULL || sum == NULL) {
         free(term);
         free(sum);
@@ -132,18 +132,17 @@ ss_driven_free_law(double free_law[BLOCKS], const driven *d, const double *left,
     fill_terms(term, d, own != NULL ? own : d->x);
     for (size_t i = 0; i < d->n; i++)
         if (d->used[i]) {
-            add_products(sum->block[i * BLOCKS / d->n], term[i], terms, left[i]);
+            add_products(sum[i * BLOCKS / d->n], term[i], terms, left[i]);
             count++;
         }
-    for (size_t b = 0; b < BLOCKS; b++)
-        for (int k = 0; k <= terms; k++)
-            for (int l = 0; l < terms; l++)
-                sum->all[k][l] += sum->block[b][k][l];
     for (size_t b = 0; b < BLOCKS; b++) {
-        double (*others)[TERMS] = sum->block[b];
-        for (int k = 0; k <= terms; k++)
-            for (int l = 0; l < terms; l++)
-                others[k][l] = sum->all[k][l] - others[k][l] + (k == l ? SHARED * sum->all[k][k] + DBL_MIN : 0);
+        double others[TERMS + 1][TERMS] = { { 0 } };
+        for (size_t i = 0; i < BLOCKS; i++)
+            for (int k = 0; k <= terms && i != b; k++)
+                for (int l = 0; l < terms; l++)
+                    others[k][l] += sum[i][k][l];
+        for (int k = 0; k < terms; k++)
+            others[k][k] += SHARED * others[k][k] + DBL_MIN;
         gsl_matrix_view A = gsl_matrix_view_array_with_tda(others[0], (size_t)terms, (size_t)terms, TERMS);
         gsl_vector_view C = gsl_vector_view_array(others[terms], (size_t)terms);
         gsl_linalg_cholesky_decomp1(&A.matrix);

@@ -5,6 +5,7 @@
 #include "fit/driven.h"
 #include "fit/verdict.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,7 +62,7 @@ static void
 find_doubt(char *why, size_t room, const driven *d, size_t turns)
 {
     size_t moving = 0;
-    double most = 0, range[BLOCKS][2];
+    double most = 0, range[BLOCKS];
     why[0] = '\0';
     if (!isfinite(d->length + d->speed + d->force))
         snprintf(why, room, "its numbers are too large");
@@ -77,17 +78,15 @@ find_doubt(char *why, size_t room, const driven *d, size_t turns)
         snprintf(why, room, "the motion turns only %zu times", turns);
     if (why[0] != '\0')
         return;
-    for (size_t b = 0; b < BLOCKS; b++)
-        range[b][0] = INFINITY, range[b][1] = -INFINITY;
-    for (size_t i = 0; i < d->n; i++) {
-        double *r = range[i * BLOCKS / d->n];
-        r[0] = fmin(r[0], d->x[i]);
-        r[1] = fmax(r[1], d->x[i]);
+    for (size_t b = 0; b < BLOCKS; b++) {
+        const size_t first = b * d->n / BLOCKS, end = (b + 1) * d->n / BLOCKS;
+        double from, to;
+        gsl_stats_minmax(&from, &to, d->x + first, 1, end - first);
+        range[b] = to - from;
+        most = fmax(most, range[b]);
     }
     for (size_t b = 0; b < BLOCKS; b++)
-        most = fmax(most, range[b][1] - range[b][0]);
-    for (size_t b = 0; b < BLOCKS; b++)
-        moving += range[b][1] - range[b][0] > DRIVEN_TURN * most;
+        moving += range[b] > DRIVEN_TURN * most;
     if (2 * moving < BLOCKS)
         snprintf(why, room, "the motion is mostly rest");
 }
