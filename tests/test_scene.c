@@ -116,6 +116,9 @@ loads_a_shipped_scene_by_its_name_and_a_file_by_its_path(void **state)
         assert_int_equal(ss_scene_load(&b, shipped->name, setting, 1, &err), SS_OK);
         assert_memory_equal(&a, &b, sizeof a);
     }
+    ss_base *base = (ss_base *)path;            /* none: */
+    assert_int_equal(ss_scene_load_base(&base, &b, "coulomb", &err), SS_OK);
+    assert_null(base);
     assert_int_equal(ss_scene_load(&b, "coulomb", (const char *[]){ "c = 1" }, 1, &err), SS_EINVAL);
     assert_memory_equal(&a, &b, sizeof a);
 

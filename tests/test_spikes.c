@@ -458,6 +458,7 @@ a_slow_drift_is_no_drop(void **state)
     assert_int_equal(n, 0);
     free(drop);
     assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, &(ss_drop_opts){ .height = 0 }, NULL), SS_EINVAL);
+    assert_int_equal(ss_drops_find(&drop, &n, x, 0, RATE, &(ss_drop_opts){ .height = 1 }, NULL), SS_EINVAL);
     x[7] = NAN;
     assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, &(ss_drop_opts){ .height = 1 }, NULL), SS_EINVAL);
     assert_int_equal(ss_drops_find(&drop, &n, x, 1, RATE, &(ss_drop_opts){ .height = 1 }, NULL), SS_OK);

@@ -196,9 +196,9 @@ class Judge:
         def names(what):
             rows = subprocess.run(["nm", "-A", "--defined-only", *what], cwd=tree, check=True, stdout=subprocess.PIPE, text=True).stdout
             return [row.rsplit(" ", 2) for row in rows.splitlines()]
-        has = {name for _, kind, name in names([f"build/tests/{test}"]) if kind in "TDBR"}
+        has = {name for _, kind, name in names([f"build/tests/{test}"]) if kind in "TDBRiW"}
         objects = [str(p.relative_to(tree)) for p in (tree / "build/src").rglob("*.o")]
-        return {row[0].split(":")[0].removeprefix("build/")[:-1] + "c" for row in names(objects) if row[1] in "TDBR" and row[2] in has}
+        return {row[0].split(":")[0].removeprefix("build/")[:-1] + "c" for row in names(objects) if row[1] in "TDBRiW" and row[2] in has}
 
     def link_for(self, test):
         """The library; test_memory replaces its allocations, and so has it within."""

@@ -60,5 +60,6 @@ for f in small zero small-odd wide bits0 bits7 bits64 bits65535 many; do ss-cat 
 { riff 0; fmt 1 1 16; data 4; printf 'abcdefghijklmnop'; } > letters.wav
 { riff 0; fmt 1 1 16; data 4; le 2 1 2; printf LIST; le 4 9; byte 1 2 3; } > long.wav
 { riff 0; fmt 1 1 16; data 4; le 2 1 2; printf LIST; le 2 0; } > half-chunk.wav
+{ riff 0; fmt 1 1 16; data 4; le 2 1 2; byte 1; printf 'bcd'; le 4 0; } > no-name.wav
 rows chunks.wav
-for f in letters long half-chunk; do ss-cat $f.wav > out || echo "exit $?"; done
+for f in letters long half-chunk no-name; do ss-cat $f.wav > out || echo "exit $?"; done

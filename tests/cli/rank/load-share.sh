@@ -1,4 +1,4 @@
-# Two steps of one sample, integrated by awk: a .006, b .009, Dc 8 um, k 1500 /m.  With --share both have the same numbers,
+# Two steps of one sample, integrated by awk: a .006, b .009, Dc 8 um, k 1500 /m.  With --share both have the same numbers and errors,
 # which are nearer to the truth than three of their errors.
 awk 'BEGIN { a = .006; b = .009; Dc = 8; k = 1.5e-3; seed = 1; print "time (s),load (um),mu"
     for (i = 0; i < 1000; i++) {
@@ -21,4 +21,4 @@ awk 'BEGIN { truth["direct_effect"] = .006; truth["evolution_effect"] = .009
         truth["critical_slip_distance"] = 8e-6; truth["stiffness"] = 1500 }
     /^# answer:/ { print $3 }
     /^# (direct_effect|evolution_effect|critical_slip_distance|stiffness):/ { key = substr($2, 1, length($2) - 1)
-        print key, ($3 - truth[key]) ^ 2 < 9 * $4 ^ 2, key in before ? before[key] == $3 : "first"; before[key] = $3 }' found
+        print key, ($3 - truth[key]) ^ 2 < 9 * $4 ^ 2, key in before ? before[key] == $3 " " $4 : "first"; before[key] = $3 " " $4 }' found
