@@ -184,21 +184,20 @@ write() { printf '%s\n' "$2" > "$new/$1" || die 1 "$dir/$1: not written"; }
 newline='
 '
 options='' finding='' backbone='' decays='' dir='' jobs='' quiet='' row=0
-while [ $# -gt 0 ]; do
-    case $1 in
-    --) shift; break ;;
+left=$# file=''                        # arguments to look at; files, between which options may be, go behind them
+while [ "$left" -gt 0 ]; do
+    case $file$1 in
+    --) file=/; shift; left=$((left - 1)); continue ;;
     --*=*) name=${1%%=*} value=${1#*=} takes=1 ;;
     -[cjo]?*) value=${1#-?} name=${1%"$value"} takes=1 ;;
     -?*) name=$1 value=${2-} takes=2 ;;
-    *) break ;;
+    *) set -- "$@" "$1"; shift; left=$((left - 1)); continue ;;
     esac
     case $name in
     -h|--help) { usage; } 2> /dev/null || die 1 'write error'; exit ;;
     --version) { echo "ss-report (libstickslip) $version"; } 2> /dev/null || die 1 'write error'; exit ;;
-    -[qv]|--quiet|--verbose) quiet=$name; shift; continue ;;
-    --decay) decays=1; shift; continue ;;
-    esac
-    case $name in
+    -[qv]|--quiet|--verbose) quiet=$name takes=1 ;;
+    --decay) decays=1 takes=1 ;;
     -o|--output) dir=${value%/} ;;
     -j|--jobs) jobs="--jobs=$(quote "$value")" ;;
     -c|--column|--mass)
@@ -210,8 +209,8 @@ while [ $# -gt 0 ]; do
         finding="$finding $name=$(quote "$value")" ;;
     *) die 2 "unrecognized option '$name'" ;;
     esac
-    [ $# -ge "$takes" ] || die 2 "option '$name' requires an argument"
-    shift "$takes"
+    [ "$left" -ge "$takes" ] || die 2 "option '$name' requires an argument"
+    shift "$takes"; left=$((left - takes))
 done
 [ -n "$dir" ] || die 2 "-o DIR is needed, a folder to be made"
 [ $# -gt 0 ] || die 2 "no recordings; name files"

@@ -7,7 +7,8 @@ hostile='x<script>alert(1)<b>&"q'\''.csv'
 ss-report -q -j 2 -o pages run.tsv "$hostile" empty.csv none.csv 2> said && echo "status $?"
 cat said
 ls pages
-ss-report -q -o again/ run.tsv "$hostile" empty.csv none.csv 2> /dev/null && diff -r pages again
+# options before, between and behind the files
+ss-report -q run.tsv "$hostile" -o again/ empty.csv -j2 -- none.csv 2> /dev/null && diff -r pages again
 
 # what a page holds
 page=pages/0001-run.tsv.html
@@ -46,7 +47,7 @@ ss-report -q -o none/pages run.tsv || echo "status $?"
 ss-report -o y || echo "status $?"
 ss-report run.tsv || echo "status $?"
 ss-report --nope || echo "status $?"
-ss-report -o || echo "status $?"
+ss-report run.tsv -o || echo "status $?"
 ss-report -o y - || echo "status $?"
 ss-report -o y /dev/stdin < run.tsv || echo "status $?"
 mkfifo pipe
