@@ -171,16 +171,18 @@ long_decays_without_noise_have_their_damping(void **state)
     ss_signal_free(signal);
 }
 
-/* Parameters of the exact rigs, within 4 of their errors; forces with a mass of 2 kg. */
+/* Parameters of the exact rigs, within 4 of their errors; forces with a mass of 2 kg, also where the column is in mm, or
+ * in g as if it were an acceleration: the force is that of the scene. */
 static void
 parameters_and_scenes_are_those_of_the_rig(void **state)
 {
-    static const struct { size_t rig; const char *name; double truth; } row[] = {
-        { 0, "frequency", 10 }, { 0, "damping_ratio", .01 }, { 1, "friction_over_stiffness", .01 }, { 1, "frequency", 10 },
-        { 1, "friction", 2 * 400 * PI * PI * .01 }, { 2, "damping_ratio", .005 }, { 2, "friction_over_stiffness", .004 },
-        { 3, "contact_stiffness_ratio", .1 }, { 3, "slip_amplitude", .2 }, { 3, "damping_ratio", .002 },
-        { 3, "contact_stiffness", 2 * 400 * PI * PI * .1 }, { 3, "friction", 2 * 400 * PI * PI * .02 },
-        { 4, "drag_over_mass", .03 } };
+    static const struct { size_t rig; const char *unit, *name; double truth; } row[] = {
+        { 0, "m", "frequency", 10 }, { 0, "m", "damping_ratio", .01 }, { 1, "m", "friction_over_stiffness", .01 }, { 1, "m", "frequency", 10 },
+        { 1, "m", "friction", 2 * 400 * PI * PI * .01 }, { 2, "m", "damping_ratio", .005 }, { 2, "m", "friction_over_stiffness", .004 },
+        { 3, "m", "contact_stiffness_ratio", .1 }, { 3, "m", "slip_amplitude", .2 }, { 3, "m", "damping_ratio", .002 },
+        { 3, "m", "contact_stiffness", 2 * 400 * PI * PI * .1 }, { 3, "m", "friction", 2 * 400 * PI * PI * .02 },
+        { 4, "m", "drag_over_mass", .03 }, { 1, "mm", "friction", 2 * 400 * PI * PI * .01e-3 },
+        { 1, "g", "friction", 2 * 9.80665 * .01 }, { 3, "mm", "friction", 2 * 400 * PI * PI * .02e-3 } };
     ss_backbone_opts opts;
     (void)state;
     ss_backbone_opts_init(&opts, sizeof opts);
@@ -192,7 +194,7 @@ parameters_and_scenes_are_those_of_the_rig(void **state)
         ss_scene scene = { 0 };
         double error = 0;
         seed = 11 + i;
-        ss_signal *signal = record(&rigs[row[i].rig], .003, "m", &turn, &turns);
+        ss_signal *signal = record(&rigs[row[i].rig], .003, row[i].unit, &turn, &turns);
         ss_backbone *b = find(signal, &opts);
         double value = number(b, row[i].name, &error);
         print_message("%s %g +- %g, truth %g\n", row[i].name, value, error, row[i].truth);
@@ -202,6 +204,7 @@ parameters_and_scenes_are_those_of_the_rig(void **state)
         if (st == SS_OK) {
             assert_int_equal(ss_scene_check(&scene, &err), SS_OK);
             assert_true(fabs(sqrt(scene.stiffness / scene.mass) / (20 * PI) - 1) < .01);
+            assert_true(strcmp(row[i].name, "friction") != 0 || fabs(scene.friction / value - 1) < 1e-9);
         } else
             assert_string_equal(err.text, "no scene: no model has quadratic friction");
         ss_backbone_free(b);

@@ -757,18 +757,15 @@ find_scaled(decay *d, const double *x, size_t n)
     return st;
 }
 
-/* Which derivative of a displacement or an angle a column is, by its unit, or by its name; -1: it is not known. */
+/* Which derivative of a displacement or an angle a column is, by its unit, of this size, or by its name; -1: it is
+ * not known. */
 static int
-derivative_of(const ss_column *c)
+derivative_of(const ss_column *c, double *size)
 {
-    char dimension;
-    int per_time;
-    if (ss_unit_size(c->unit, &dimension, &per_time) > 0 && dimension != 'N')
-        return per_time;
-    for (int i = 0; i < 3; i++)
-        if (strcmp(c->name, ss_quantity_names[i]) == 0)
-            return i;
-    return -1;
+    int order = ss_motion_order(c->unit, size);
+    for (int i = 0; i < 3 && order < 0; i++)
+        order = strcmp(c->name, ss_quantity_names[i]) == 0 ? i : -1;
+    return order;
 }
 
 /* Follow the decay and name its mechanism.  What the first block leaves is a blow, and the decay begins behind it,
@@ -824,11 +821,12 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
         || (own.periods != 0 && !(own.periods >= 1.5)))
         return ss_fail(err, SS_EINVAL, "an option is out of its range");
     const ss_column *of = &signal->head->column[column];
-    decay_source source = { signal->head->rate, !(own.level_frequency > 0), of->unit, ss_motion_order(of->unit),
-                            derivative_of(of), own.mass, 1, { 0 }, 0, NULL };
-    if (own.mass > 0 && source.order < 0)
-        return ss_fail(err, SS_EINVAL, "a mass needs a column in m, m/s or m/s^2, and %s is in '%s'", of->name,
-                       of->unit);
+    decay_source source = { .rate = signal->head->rate, .has_phase = !(own.level_frequency > 0), .column = of->unit,
+                            .mass = own.mass, .unit = 1 };
+    source.derivative = derivative_of(of, &source.size);
+    if (own.mass > 0 && !(source.size > 0))
+        return ss_fail(err, SS_EINVAL, "a mass needs a length, a speed or an acceleration, as in mm, m/s or g; %s"
+                       " is in '%s'", of->name, of->unit);
     const double *x = signal->values + column * signal->n;
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(x[i]))

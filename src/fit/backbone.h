@@ -94,8 +94,8 @@ typedef struct decay_source {
     double rate;                /* samples a second */
     int has_phase;
     const char *column;         /* its unit */
-    int order;                  /* of the derivative of x in SI units that it is; -1: it is none */
-    int derivative;             /* the same in any unit, or by its name; -1: it is not known */
+    double size;                /* of that in SI units; 0: it is no motion of a mass */
+    int derivative;             /* of a displacement or an angle, by its unit or its name; -1: it is not known */
     double mass;                /* [kg]; 0: unknown */
     double unit;                /* of amplitudes in the column's unit: a power of 2, near the largest */
     lines beside;               /* in all blocks */
@@ -103,8 +103,9 @@ typedef struct decay_source {
     const char *beats;          /* not NULL: no mechanism, as the amplitude grows again */
 } decay_source;
 
-/* 0, 1, 2 for a unit of x, x' or x'' in SI units; -1: it is none. */
-int ss_motion_order(const char *unit);
+/* 0, 1, 2 for a unit of x, x' or x'', a length or an angle, -1: it is none; and its size in SI units, 0 of an
+ * angle. */
+int ss_motion_order(const char *unit, double *size);
 /* Name the mechanism that n blocks, drawn smooth, and those behind them show: mechanism, chi2_dof and number of
  * *out.  What a block leaves becomes what a slider's exact motion, if it is named, does not explain. */
 ss_status ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *source);

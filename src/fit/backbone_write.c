@@ -7,13 +7,15 @@
 #include "io/record.h"
 
 int
-ss_motion_order(const char *unit)
+ss_motion_order(const char *unit, double *size)
 {
-    static const char *const units[] = { "m", "m/s", "m/s^2" };
-    for (int i = 0; i < 3; i++)
-        if (strcmp(unit, units[i]) == 0)
-            return i;
-    return -1;
+    char dimension;
+    int per_time;
+    double is = strcmp(unit, "g") == 0 ? 9.80665 : ss_unit_size(unit, &dimension, &per_time);
+    if (strcmp(unit, "g") == 0)
+        dimension = 'm', per_time = 2;
+    *size = is > 0 && dimension == 'm' ? is : 0;
+    return is > 0 && dimension != 'N' ? per_time : -1;
 }
 
 /* Write the mechanism and its numbers, or why there is no decay. */
@@ -107,23 +109,24 @@ ss_backbone_scene(ss_scene *scene, const ss_backbone *b, const ss_signal *signal
         return SS_FAIL_NULL(err);
     if (column >= signal->head->n_columns)
         return ss_fail_column(err, column, signal->head->n_columns);
-    int order = ss_motion_order(signal->head->column[column].unit);
+    double size;
+    const int order = ss_motion_order(signal->head->column[column].unit, &size);
     if (b->n_mechanisms != 1)
         return ss_fail(err, SS_EDATA, "no scene: %s", b->why != NULL ? b->why : b->other != NULL
                        ? b->other : "the mechanism cannot be told");
     if (b->mechanism[0] == SS_MICROSLIP || b->mechanism[0] == SS_QUADRATIC)
         return ss_fail(err, SS_EDATA, "no scene: no model has %s friction", ss_mechanism_names[b->mechanism[0]]);
-    if (order < 0 || !(mass > 0) || number_of(b, "frequency") == 0)
-        return ss_fail(err, SS_EDATA, "no scene: it needs a column in m, m/s or m/s^2, and a mass > 0");
+    if (!(size > 0) || !(mass > 0) || number_of(b, "frequency") == 0)
+        return ss_fail(err, SS_EDATA, "no scene: it needs a length, a speed or an acceleration, and a mass > 0");
     double w = 2 * M_PI * number_of(b, "frequency"), stiffness = mass * w * w;
     double contact = stiffness * number_of(b, "contact_stiffness_ratio");
-    double slip = number_of(b, "slip_amplitude") * pow((stiffness + contact) / mass, -order / 2.);
+    double slip = size * number_of(b, "slip_amplitude") * pow((stiffness + contact) / mass, -order / 2.);
     *scene = (ss_scene){
         .model = ss_model_named(contact > 0 ? "compliant" : "coulomb"), .mass = mass, .stiffness = stiffness,
         .damping = 2 * mass * w * number_of(b, "damping_ratio"),
-        .v0 = b->row[0].amplitude * pow(2 * M_PI * b->row[0].frequency.value, 1 - order),
+        .v0 = size * b->row[0].amplitude * pow(2 * M_PI * b->row[0].frequency.value, 1 - order),
         .friction = contact > 0 ? contact * slip
-            : stiffness * number_of(b, "friction_over_stiffness") * pow(w, -order),
+            : size * stiffness * number_of(b, "friction_over_stiffness") * pow(w, -order),
         .duration = b->row[b->n - 1].t - b->row[0].t, .rate = signal->head->rate };
     if (contact > 0) {
         ss_status st = ss_scene_set(scene, "contact_stiffness", contact, err);

@@ -518,7 +518,7 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
         double by_stiffness = M_PI / 2 * unit * a / w;
         add(out, f, "friction_over_stiffness", of->column, C, by_stiffness);
         if (of->mass > 0)
-            add(out, f, "friction", "N", C, of->mass * pow(w, 2 - of->order) * by_stiffness);
+            add(out, f, "friction", "N", C, of->mass * of->size * pow(w, 2 - of->derivative) * by_stiffness);
     } else if (f->kind == SS_QUADRATIC)
         add(out, f, "drag_over_mass", per, C, 3 * M_PI / 4 * unit / w / a);
     else if (f->kind == SS_JENKINS) {
@@ -528,7 +528,7 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
         if (of->mass > 0) {
             const double *cov = f->covariance;
             double c = f->u[C], d = f->u[SHAPE];
-            double slip = of->mass * contact * a * pow(w * w + c * contact, -of->order / 2.);
+            double slip = of->mass * of->size * contact * a * pow(w * w + c * contact, -of->derivative / 2.);
             add(out, f, "contact_stiffness", "N/m", C, of->mass * contact);
             add(out, f, "friction", "N", C, slip * d);
             double both = 2 * c * d * cov[C * UNKNOWNS + SHAPE] + c * c * cov[SHAPE * UNKNOWNS + SHAPE];
