@@ -356,24 +356,27 @@ set_motion(job *j, const ss_column *motion)
     j->motion_opts.angle = size;
 }
 
-/* Write the motion, the force, what the first law predicts, and what it leaves. */
+/* Write the motion, the force, what the first law predicts, what it leaves, and the recording's own time. */
 static void
 write_residual(const job *j, const ss_signal *signal, size_t motion, size_t force, const ss_motion_ranking *r)
 {
-    const size_t column[] = { signal->head->n_columns - 1, motion, force, force, force };
-    static const char *const name[] = { "predicted", "left" };
+    const size_t n = signal->n, column[] = { motion, force, signal->head->n_columns - 1 };
+    const double *x = signal->values + motion * n, *f = signal->values + force * n;
+    const double *t = signal->values + column[2] * n;
+    static const char *const name[] = { "predicted", "left", "stamp" };
     ss_signal *out = NULL;
     ss_error err = { 0 };
     ss_header *head = NULL;
-    tool_check(ss_header_select(&head, signal->head, column, 3, 0, &err), &err);
-    for (size_t i = 0; i < 2; i++)
-        tool_check(ss_header_add_column(head, name[i], signal->head->column[force].unit, &err), &err);
-    tool_check(ss_signal_new(&out, head, signal->n, &err), &err);
-    for (size_t i = 0; i < signal->n; i++) {
-        for (size_t k = 0; k < 3; k++)
-            out->values[k * out->n + i] = signal->values[column[k] * signal->n + i];
-        out->values[3 * out->n + i] = r->predicted[i];
-        out->values[4 * out->n + i] = out->values[2 * out->n + i] - r->predicted[i];
+    tool_check(ss_header_select(&head, signal->head, column, 2, 0, &err), &err);
+    for (size_t i = 0; i < 3; i++) {
+        const ss_column *alike = &signal->head->column[i < 2 ? force : column[2]];
+        tool_check(ss_header_add_column(head, name[i], alike->unit, &err), &err);
+    }
+    tool_check(ss_signal_new(&out, head, n, &err), &err);
+    for (size_t i = 0; i < n; i++) {
+        const double row[] = { x[i], f[i], r->predicted[i], f[i] - r->predicted[i], t[i] };
+        for (size_t k = 0; k < sizeof row / sizeof *row; k++)
+            out->values[k * n + i] = row[k];
     }
     tool_write(out, j->residual, tool_output_kind(j->residual, TOOL_SIGNALS, TOOL_TSV));
     ss_header_free(head);

@@ -14,7 +14,7 @@ awk '!/^#/ { if (NR % 7 != 3 && NR % 11 != 5) print $1 "," 1e3 * $2 "," (-$4) }'
 ss-rank --motion slip_mm --column force_N uneven.csv | sed -n 's% explains.*%%; s%^# friction: 1.2[78].*%# friction: right%; 2p; /^# fri/p; /^# force/p'
 # what is left, and a scene that runs
 ss-rank --motion x --column f --residual left.csv all.tsv > /dev/null
-awk -F, 'NR == 1 { print } NR > 200 { s += $6 * $6; f += $4 * $4 } END { print s / f < 1e-4 }' left.csv
+awk -F, 'NR == 1 { print } NR > 200 { s += $5 * $5; f += $3 * $3 } END { print s / f < 1e-4 }' left.csv
 ss-rank --motion x --column f --fit -s mass=2.42 -s stiffness=2310 -s x0=1e-3 all.tsv > law.scene
 sed -n '1s/ explains.*//p; /^model/p; /^mass/p' law.scene
 ss-sim law.scene | tail -n 1 | awk '{ print NF }'
