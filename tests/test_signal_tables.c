@@ -114,6 +114,19 @@ static const struct table_case {
       "\xc2\xb5\xe2\x82\xac\xf0\x9f\x98\x80[]", 1, 0, 2 },
     { "nearly UTF-8", "t,\xc0\xaf\xed\xa0\x80\n0,1\n1,2\n", NULL, 0,
       "\xc3\x80\xc2\xaf\xc3\xad\xc2\xa0__[]", 1, 0, 2 },
+    { "a row of units with an unknown one, below the time", "Time;Force;Torque\ns;N;furlong\n0;1;2\n.01;2;3\n", NULL, 0,
+      "Force[N] Torque[furlong]", 100, 0, 3 },
+    { "a row of units in capitals (MTS)", "Time\tAxial Displacement\tAxial Force\nSec\tmm\tkN\n0\t1\t2\n0.5\t2\t3\n", NULL,
+      0, "Axial_Displacement[mm] Axial_Force[kN]", 2, 0, 3 },
+    { "a row of units in words (Keysight)", "x-axis,C1,C2\nsecond,Volt,arb\n0,1,2\n0.5,2,3\n", NULL, 0,
+      "C1[Volt] C2[arb]", 2, 0, 3 },
+    { "names below a title of as many words", "run,of,today\nt,s,mu\n0,1,2\n0.5,2,3\n", NULL, 0, "s[] mu[]", 2, 0, 3 },
+    { "settings beside the first rows (Tektronix)", "Record Length,5,,-0.5,1,\nSample Interval,0.25,,-0.25,2,\n"
+      "Trigger Point,1,,0,3,\n,,,0.25,4,\nSource,CH1,,0.5,5,\n,,,0.75,6,\n", NULL, 0, "ch5[]", 4, -0.5, 6 },
+    { "names of months", "when,x\n31-Dec-2023 23:59:59.5,1\n1-jan-2024 00:00:00.0,2\n", NULL, 0, "x[]", 2, 86399.5, 2 },
+    { "units behind commas and in", "Time, ms;Kraft, kN;Weg in mm;Run, 2;velocity_in_s\n0;1;2;3;4\n2;2;3;4;5\n", NULL, 0,
+      "Kraft[kN] Weg[mm] Run,_2[] velocity_in_s[in/s]", 500, 0, 5 },
+    { "a name behind a comment's mark", "%Time,x\n0,1\n0.5,2\n", NULL, 0, "x[]", 2, 0, 2 },
     { "the same name twice", "t,x,x\n0,1,2\n1,2,3\n", NULL, 0, "x[] x_2[]", 1, 0, 3 },
 };
 

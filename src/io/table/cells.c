@@ -84,6 +84,13 @@ is_no_number(const char *cell)
     return 0;
 }
 
+/* 9.9E37 is infinite, and 9.91E37 no number (SCPI 1999, 7.2.1.4 and 5). */
+int
+ss_is_value(double x)
+{
+    return isfinite(x) && !(fabs(x) >= 9.9e37 && fabs(x) <= 9.91e37);
+}
+
 /* Reads as ss_number_parse does, and also Fortran's 1.0D+00. */
 static double
 parse(char *cell, char **end)
@@ -110,7 +117,7 @@ ss_cell_read(char *cell, char separator, double *x)
     if (comma != NULL)
         *comma = ',';
     if (number)
-        return isfinite(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
+        return ss_is_value(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
     if (is_no_number(cell))
         return CELL_NOT_FINITE;
     return *cell >= '0' && *cell <= '9' && ss_stamp_read(cell).parts != 0 ? CELL_STAMP : CELL_TEXT;

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "signal/header.h"
 #include "io/table/text.h"
+#include "io/table/time_unit.h"
 
 /* --- units --------------------------------------------------------------------------------- */
 
@@ -21,8 +22,9 @@ static int
 is_unit_symbol(const char *p, size_t n)
 {
     static const char *const symbol[] = { "m", "s", "g", "N", "Pa", "V", "A", "Hz", "K", "W", "J",
-        "rad", "Ohm", "bar", "sec", "min", "h", "in", "inch", "ft", "lb", "lbf", "kip", "psi", "deg",
-        "\u00b0", "\u00b0C", "\u00b0F", "%", "rpm", "dB", "strain", "\u03a9", NULL };
+        "rad", "Ohm", "bar", "sec", "min", "h", "in", "inch", "ft", "lb", "lbf", "kip", "kips", "psi", "deg",
+        "\u00b0", "\u00b0C", "\u00b0F", "degC", "degF", "%", "rpm", "RPM", "dB", "strain", "\u03a9", "Nm", "mil",
+        "micron", "Volt", "Volts", NULL };
     static const char *const prefix[] = { "", "m", "\u00b5", "\u03bc", "u", "n", "k", "M", "G", "c",
         "d", "h", NULL };
     for (int i = 0; prefix[i] != NULL; i++) {
@@ -102,27 +104,6 @@ kind_of_row(struct text *x, const char *line)
     return numbers > 0 ? ROW_MIXED : ROW_NAMES;
 }
 
-/* Cut "name (unit)", "name [unit]" or "name/unit" in two. */
-static void
-split_name(char *cell, char **name, char **unit)
-{
-    size_t n = strlen(cell);
-    char closing = n > 0 ? cell[n - 1] : '\0';
-    char *opening = closing == ')' ? strchr(cell, '(') : closing == ']' ? strchr(cell, '[') : NULL;
-    if (opening == NULL || opening == cell) {
-        ss_split_label(cell, name, unit);
-        *name = ss_cell_trim(*name);
-        *unit = ss_cell_trim(*unit);
-        return;
-    }
-    cell[n - 1] = '\0';
-    if (opening > cell && opening[-1] == '/')
-        opening[-1] = '\0';
-    *opening = '\0';
-    *name = ss_cell_trim(cell);
-    *unit = ss_cell_trim(opening + 1);
-}
-
 /* A cell of the units row without the brackets around it. */
 static char *
 bare_unit(char *cell)
@@ -132,6 +113,61 @@ bare_unit(char *cell)
         return cell;
     cell[n - 1] = '\0';
     return ss_cell_trim(cell + 1);
+}
+
+/* Is a line of words one of units, since it has one of time below the name of a time, or a whole word for it?  *yes
+ * becomes 1 if so. */
+static ss_status
+has_unit_of_time(struct text *x, const char *names, const char *units, int *yes)
+{
+    size_t n = ss_text_split(x, names, x->separator), at = 0;
+    while (n != NONE && at < n && !ss_is_called_time(x->cell[at]))
+        at++;
+    const int is_named = at < n;
+    if (n == NONE || (n = ss_text_split(x, units, x->separator)) == NONE)
+        return SS_ENOMEM;
+    const char *unit = bare_unit(x->cell[is_named ? at : 0]);
+    *yes = ss_time_unit_find(unit) != NULL && (is_named || unit[1] != '\0');
+    return SS_OK;
+}
+
+/* The unit at the end of "name, unit" or "name in unit", cut off; NULL: there is none. */
+static char *
+cut_unit(char *cell)
+{
+    static const char *const before[] = { ",", " in " };
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
+        for (char *at = strstr(cell, before[i]); at != NULL; at = strstr(at + 1, before[i])) {
+            char *unit = at + strlen(before[i]);
+            unit += strspn(unit, " ");
+            if (*unit != '\0' && strchr("0123456789.-", *unit) == NULL && is_unit(unit)) {
+                *at = '\0';
+                return unit;
+            }
+        }
+    return NULL;
+}
+
+/* Cut "name (unit)", "name [unit]", "name/unit" or what cut_unit knows in two. */
+static void
+split_name(char *cell, char **name, char **unit)
+{
+    size_t n = strlen(cell);
+    char closing = n > 0 ? cell[n - 1] : '\0';
+    char *opening = closing == ')' ? strchr(cell, '(') : closing == ']' ? strchr(cell, '[') : NULL;
+    if (opening == NULL || opening == cell) {
+        char *end = cut_unit(cell);
+        ss_split_label(cell, name, unit);
+        *name = ss_cell_trim(*name);
+        *unit = end != NULL ? end : ss_cell_trim(*unit);
+        return;
+    }
+    cell[n - 1] = '\0';
+    if (opening > cell && opening[-1] == '/')
+        opening[-1] = '\0';
+    *opening = '\0';
+    *name = ss_cell_trim(cell);
+    *unit = ss_cell_trim(opening + 1);
 }
 
 static ss_status
@@ -252,8 +288,11 @@ name_by_lines(struct text *x, ss_error *err)
         return SS_ENOMEM;
     if (last == ROW_MIXED && (st = check_mixed(x, before, err)) != SS_OK)
         return st;
+    int is_units = last == ROW_UNITS;
+    if (last == ROW_NAMES && before == ROW_NAMES && (st = has_unit_of_time(x, above, last_line, &is_units)) != SS_OK)
+        return st;
     x->t.named = last == ROW_NAMES || last == ROW_UNITS;
-    return last == ROW_UNITS && before == ROW_NAMES ? name_columns(x, above, last_line)
+    return is_units && before == ROW_NAMES ? name_columns(x, above, last_line)
         : name_columns(x, x->t.named ? last_line : NULL, NULL);
 }
 

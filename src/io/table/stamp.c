@@ -54,8 +54,19 @@ read_up_to(const char *p, int most, long *x)
     return end;
 }
 
-/* Read a date whose year comes last: with points the day is first, else day and month may stand in either
- * order. */
+/* Read the name of a month by three letters, likewise. */
+static const char *
+read_month(const char *p, long *month)
+{
+    static const char names[] = "janfebmaraprmayjunjulaugsepoctnovdec";
+    for (*month = 1; *month <= 12; ++*month)
+        if (strncasecmp(p, names + 3 * (*month - 1), 3) == 0)
+            return p + 3;
+    return NULL;
+}
+
+/* Read a date whose year comes last: with points or a month's name the day is first, else day and month may stand
+ * in either order. */
 static const char *
 read_date_of_year_last(const char *p, long day[ORDERS])
 {
@@ -63,11 +74,12 @@ read_date_of_year_last(const char *p, long day[ORDERS])
     const char *mark = (p = read_up_to(p, 2, &a));
     if (p == NULL || *p == '\0' || strchr("./-", *p) == NULL)
         return NULL;
-    p = read_up_to(p + 1, 2, &b);
+    const char *name = read_month(p + 1, &b);
+    p = name != NULL ? name : read_up_to(p + 1, 2, &b);
     if (p == NULL || *p != *mark || (p = read_digits(p + 1, 4, &y)) == NULL)
         return NULL;
     day[DAY_FIRST] = find_day(y, b, a);
-    day[MONTH_FIRST] = *mark == '.' ? day[DAY_FIRST] : find_day(y, a, b);
+    day[MONTH_FIRST] = *mark == '.' || name != NULL ? day[DAY_FIRST] : find_day(y, a, b);
     return day[DAY_FIRST] != NO_DAY || day[MONTH_FIRST] != NO_DAY ? p : NULL;
 }
 

@@ -279,7 +279,7 @@ read_plain(const struct text *x, const char *p, double *row)
         if (x->t.column[i].kind != COLUMN_NUMBERS || *digit < '0' || *digit > '9')
             return 0;
         row[i] = ss_number_parse_point(p, point, &end);
-        if (*end != (i + 1 < x->t.n_columns ? x->separator : '\0') || !isfinite(row[i]))
+        if (*end != (i + 1 < x->t.n_columns ? x->separator : '\0') || !ss_is_value(row[i]))
             return 0;
     }
     return 1;
@@ -320,7 +320,7 @@ find_kinds(struct text *x, const char *row)
     for (size_t i = 0; shape != NULL && column != NULL && i < n; i++) {
         unsigned parts = ss_stamp_read(x->cell[i]).parts;
         int empty = shape[i] == 'e' && !ss_text_may_lack(x);
-        column[i].kind = shape[i] == 't' || empty ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS : COLUMN_NUMBERS;
+        column[i].kind = shape[i] == 't' || empty || (x->settings && i < 2) ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS : COLUMN_NUMBERS;
         column[i].begins_empty = empty && !x->labview;
         column[i].stamps = ss_stamp_column(parts);
     }
@@ -381,6 +381,21 @@ begin_table(struct text *x, size_t first, ss_error *err)
     return st;
 }
 
+/* *yes becomes 1 if a line has a setting and its value in two cells that the last of the kept lines has empty, as
+ * those of Tektronix's oscilloscopes have. */
+static ss_status
+has_settings(struct text *x, size_t line, int *yes)
+{
+    size_t numbers;
+    char *shape = ss_text_shape(x, x->head[line].text, x->next_separator, &numbers);
+    char *last = ss_text_shape(x, x->head[x->n_head - 1].text, x->next_separator, &numbers);
+    const ss_status st = shape != NULL && last != NULL ? SS_OK : SS_ENOMEM;
+    *yes = st == SS_OK && strncmp(shape, "tn", 2) == 0 && strncmp(last, "ee", 2) == 0;
+    free(shape);
+    free(last);
+    return st;
+}
+
 /* Begin with the first row of numbers, which is the last of the kept lines.  If there is none, or a line of words
  * and numbers stands above it, begin with the first line of words and numbers that is like those below it. */
 static ss_status
@@ -389,14 +404,17 @@ begin_first(struct text *x, int found, ss_error *err)
     size_t row = x->n_head - (found != 0), first = row, numbers;
     int mixed = !found;
     x->t.n_columns = x->next_columns;
+    ss_status st = SS_OK;
     if (found && row > 0 && !x->head[row - 1].comment) {
         char *shape = ss_text_shape(x, x->head[row - 1].text, x->next_separator, &numbers);
-        if (shape == NULL)
-            return SS_ENOMEM;
-        mixed = shape[0] == 'n' && strpbrk(shape, "te") != NULL;
+        st = shape != NULL ? has_settings(x, row - 1, &mixed) : SS_ENOMEM;
+        mixed |= st == SS_OK && shape[0] == 'n' && strpbrk(shape, "te") != NULL;
         free(shape);
     }
-    ss_status st = mixed ? find_mixed(x, &first) : SS_OK;
+    if (st == SS_OK && mixed)
+        st = find_mixed(x, &first);
+    if (st == SS_OK && first < x->n_head)
+        st = has_settings(x, first, &x->settings);
     if (st != SS_OK)
         return st;
     if (first == x->n_head && !found)

@@ -31,6 +31,7 @@ struct text {
     int labview;                /* does it begin as the files of LabVIEW do? */
     enum { LAYOUT_NO, LAYOUT_ONE, LAYOUT_MULTI } layout;        /* of its columns of x */
     int first_x;                /* is the first column no channel? */
+    int settings;               /* have the first rows a setting and its value before their numbers? */
 };
 
 /* The functions below return SS_ENOMEM without a text. */
@@ -41,6 +42,8 @@ struct text {
 char *ss_cell_trim(char *p);
 /* The number in a cell, with a decimal comma unless commas separate cells. */
 enum cell_kind ss_cell_read(char *cell, char separator, double *number);
+/* 1 if a number is finite, and none that instruments write in place of one. */
+int ss_is_value(double x);
 /* 1 if the cell has separators of thousands, 1,234.5 or 1'234; a number such as 1,234 may be one that
  * has a decimal comma. */
 int ss_cell_is_grouped(const char *cell);

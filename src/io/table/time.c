@@ -11,6 +11,7 @@
 #include "io/table/time_unit.h"
 
 enum { GAPS_MOST = 1000 };      /* at most so many samples for each one that is not missing */
+#define SAME 1.1                /* times a rate: that of uneven stamps is known no better */
 #define LONGEST 10              /* usual steps; stamps farther apart have a gap between them */
 /* A short file cannot claim much memory by two time stamps that lie far apart. */
 enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
@@ -73,6 +74,8 @@ read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, s
         double usual = ss_usual_step(s);
         *own = t->names->rate = 1 / usual;
         t->names->start = ss_sheet_stamp(time, ss_kept_row(&t->rows, 0));
+        if (*own > SAME * t->opts->resample && t->opts->resample > 0)
+            ss_sheet_warn(t, SS_OK, "%s: frequencies above %g Hz fold down", t->name, t->opts->resample / 2);
         return t->opts->resample > 0 ? find_resampled(t, s, usual, &timing->longest, err) : SS_OK;
     }
     st = find_uniform(t, s, time->zero * time->factor / time->divisor, digit, &timing->usual, err);
@@ -270,12 +273,15 @@ find_time(const struct sheet *t, int *guessed)
     size_t stamps = find_stamps(t);
     if (stamps != NONE)
         return stamps;
-    if (t->n_columns < 2 || t->column[0].kind != COLUMN_NUMBERS)
+    size_t first = 0;
+    while (first < t->n_columns && t->column[first].kind != COLUMN_NUMBERS)
+        first++;
+    if (first + 2 > t->n_columns)
         return NONE;
-    if (*column[0].unit != '\0' && ss_time_unit_find(column[0].unit) != NULL)
-        return 0;
+    if (*column[first].unit != '\0' && ss_time_unit_find(column[first].unit) != NULL)
+        return first;
     *guessed = !t->named;                       /* if named, it may be a deflection that ascends */
-    return *guessed ? 0 : NONE;
+    return *guessed ? first : NONE;
 }
 
 ss_status

@@ -60,6 +60,7 @@ ss_is_called_time(const char *name)
         "tempo tiempo elapsed elapsed_time x_value";
     static const char alone[] = "sec second seconds datenum mjd";
     size_t length;
+    name += *name == '%';                       /* MATLAB's comment */
     const struct time_unit *unit = ss_time_unit_in(name, &length);
     if (unit != NULL && length == 0)
         return unit->is_name || is_in_list(alone, name, strlen(name));
