@@ -705,9 +705,143 @@ says_what_has_no_cycle(void **state)
     ss_steady_opts_init(&opts, sizeof opts);
     s.base_frequency = s.base_amplitude = 0;
     s.base_velocity = .1;
-    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EINVAL);
-    assert_string_equal(err.text, "base_frequency is 0: there is no forcing cycle, and no stick with which "
-                        "one could begin");
+    s.damping = 1;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EDATA);
+    assert_ptr_equal(strstr(err.text, "it slides on with the pull: no cycle within"), err.text);
+}
+
+/* --- pulled, without a stick ---------------------------------------------------------------- */
+
+/* A LuGre slider by Runge's and Kutta's method, with no code of the library: x - U t, v, z in steps that end where
+ * v is 0, at the kink, and where v falls below .99 U after it was above 1.01 U. */
+typedef struct bristles {
+    double m, k, f_k, f_s, s_0, s_1, s_2, v_s, U;
+    double at[3], t;
+    int way, was_faster;
+} bristles;
+
+static void
+bristle_rates(const bristles *b, const double y[3], double rate[3])
+{
+    double w = y[1] / b->v_s, g = b->f_k + (b->f_s - b->f_k) * exp(-w * w);
+    rate[0] = y[1] - b->U;
+    rate[2] = y[1] - b->s_0 * b->way * y[1] * y[2] / g;
+    rate[1] = (-b->k * y[0] - b->s_0 * y[2] - b->s_1 * rate[2] - b->s_2 * y[1]) / b->m;
+}
+
+static bristles
+bristles_after(const bristles *from, double h)
+{
+    static const double part[] = { 0, .5, .5, 1 }, weight[] = { 1, 2, 2, 1 };
+    bristles to = *from;
+    double rate[3] = { 0 };
+    for (int k = 0; k < 4; k++) {
+        double y[3];
+        for (int i = 0; i < 3; i++)
+            y[i] = from->at[i] + part[k] * h * rate[i];
+        bristle_rates(from, y, rate);
+        for (int i = 0; i < 3; i++)
+            to.at[i] += h / 6 * weight[k] * rate[i];
+    }
+    to.t += h;
+    return to;
+}
+
+static void
+bristles_to_section(bristles *b)
+{
+    for (;;) {
+        const double h = 5e-4, level = .99 * b->U;
+        bristles to = bristles_after(b, h);
+        int falls = b->was_faster && to.at[1] <= level, turns = to.at[1] * b->way < 0;
+        if (falls || turns) {
+            double lo = 0, hi = h, border = falls ? level : 0, side = falls ? 1 : b->way;
+            for (int i = 0; i < 50; i++) {
+                double middle = (lo + hi) / 2;
+                *((bristles_after(b, middle).at[1] - border) * side > 0 ? &lo : &hi) = middle;
+            }
+            to = bristles_after(b, hi);
+            to.at[1] = border;
+        }
+        *b = to;
+        b->way = turns && !falls ? -b->way : b->way;
+        b->was_faster = !falls && (b->was_faster || b->at[1] > 1.01 * b->U);
+        if (falls)
+            return;
+    }
+}
+
+static void
+bristles_have_the_cycles_of_runge_and_kutta(void **state)
+{
+    static const struct { double v_s, U; int period; } row[] = {
+        { .05, .05, 1 }, { .5, .05, 1 }, { .5, .25, 1 }, { .2, .45, 1 }, { .2, .25, 2 }, { .2, .65, 2 },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        bristles b = { 1, 2, 1, 1.5, 50, 1, .1, row[i].v_s, row[i].U, { 0 }, 0, 1, 0 };
+        ss_scene s = read_shipped_named("lugre");
+        const struct { const char *key; double value; } set[] = {
+            { "bristle_stiffness", b.s_0 }, { "bristle_damping", b.s_1 }, { "viscous_friction", b.s_2 },
+            { "stribeck_velocity", b.v_s }, { "base_velocity", b.U } };
+        for (size_t k = 0; k < sizeof set / sizeof *set; k++)
+            assert_int_equal(ss_scene_set(&s, set[k].key, set[k].value, NULL), SS_OK);
+        for (int n = 0; n < 300; n++)
+            bristles_to_section(&b);
+
+        /* a period, and the derivative of its map by x and z */
+        bristles start = b;
+        double d[2][2], nearest = INFINITY;
+        const unsigned all = BIT(SS_CYCLE_TIME) | BIT(SS_PERIOD) | BIT(SS_X_PHASE) | BIT(SS_V_PHASE) | BIT(SS_FLOQUET)
+            | BIT(SS_FLOQUET_2);
+        const ss_steady at = steady_of(&s, all, SS_SEARCH_AUTO);
+        assert_true(at.value[SS_PERIOD] == row[i].period);
+        for (int n = 0; n < row[i].period; n++) {
+            bristles_to_section(&b);
+            nearest = fmin(nearest, fabs(at.value[SS_X_PHASE] - b.at[0]));
+        }
+        is_near(at.value[SS_CYCLE_TIME] * row[i].period, b.t - start.t, 1e-8, "cycle_time");
+        is_near(nearest, 0, 1e-8, "x_phase");
+        is_near(at.value[SS_V_PHASE], .99 * b.U, 1e-14, "v_phase");
+        for (int j = 0; j < 2; j++) {
+            const double by = 1e-5 / (j == 0 ? 1 : b.s_0);
+            bristles up = start, down = start;
+            up.at[2 * j] += by;
+            down.at[2 * j] -= by;
+            for (int n = 0; n < row[i].period; n++) {
+                bristles_to_section(&up);
+                bristles_to_section(&down);
+            }
+            for (int k = 0; k < 2; k++)
+                d[k][j] = (up.at[2 * k] - down.at[2 * k]) / (2 * by);
+        }
+        double half = (d[0][0] + d[1][1]) / 2, root = sqrt(half * half - (d[0][0] * d[1][1] - d[0][1] * d[1][0]));
+        /* by differences of 1e-4 f_s/k, over which the map bends a little */
+        is_near(at.value[SS_FLOQUET], fabs(half) + root, 3e-4 * (fabs(half) + root), "floquet");
+        is_near(at.value[SS_FLOQUET_2], fabs(fabs(half) - root), 1e-7, "floquet2");
+
+        /* on a belt that moves the other way */
+        s.surface_velocity = -s.base_velocity;
+        s.base_velocity = 0;
+        is_near(steady_of(&s, BIT(SS_CYCLE_TIME), SS_SEARCH_SHOOT).value[SS_CYCLE_TIME], at.value[SS_CYCLE_TIME], 1e-8,
+                "cycle_time on a belt");
+    }
+}
+
+/* Without damping and with friction that does not fall, a slider swings about its steady slide as if it were free. */
+static void
+a_slide_without_damping_swings_freely(void **state)
+{
+    static const char *const name[] = { "dahl", "state-variable" };
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        ss_scene s = read_shipped_named(name[i]);
+        s.base_frequency = s.base_amplitude = 0;
+        s.base_velocity = .05;
+        ss_steady at = steady_of(&s, BIT(SS_CYCLE_TIME) | BIT(SS_FLOQUET), SS_SEARCH_AUTO);
+        is_near(at.value[SS_CYCLE_TIME], 2 * M_PI * sqrt(s.mass / s.stiffness), 1e-11, "cycle_time");
+        is_near(at.value[SS_FLOQUET], 1, 1e-7, "floquet");
+    }
 }
 
 /* Every method comes to the same motion. */
@@ -1076,6 +1210,8 @@ main(void)
         cmocka_unit_test(a_true_stick_forgets_every_difference),
         cmocka_unit_test(finds_the_one_of_two_close_motions_that_is_approached),
         cmocka_unit_test(says_what_has_no_cycle),
+        cmocka_unit_test(bristles_have_the_cycles_of_runge_and_kutta),
+        cmocka_unit_test(a_slide_without_damping_swings_freely),
         cmocka_unit_test(methods_agree),
         cmocka_unit_test(hears_the_transition_frequency),
         cmocka_unit_test(every_value_is_there_or_the_status_says_why),

@@ -13,8 +13,8 @@ SS_BEGIN_DECLARATIONS
 
 /* What can be measured, over one period of the motion.  A cycle is a forcing cycle; or if
  * base_frequency is 0 and a base or a surface pulls, the time from one onset of stick to the next
- * (compliant: of a microstick after a slip), or of rate and state from one time at which the mass becomes
- * slower than the pull to the next.  A model without sticks has no stops, no stick
+ * (compliant: of a microstick after a slip), or of a model without sticks from one time at which the mass
+ * becomes slower than the pull to the next.  A model without sticks has no stops, no stick
  * fraction and no micro-slips.  Only the compliant and the state-variable model have a transition.
  */
 typedef enum ss_measure {

@@ -46,6 +46,10 @@ ss_section_distance(const cycles *c, section a, section b)
     return fmax(fmax(part(a.x - b.x, c->unit.x), part(a.v - b.v, c->unit.v)), part(a.y - b.y, c->unit.y));
 }
 
+/* A cycle from the pull begins where v falls below it by a part of it, after it has been above it by as much.  It
+ * is not the pull itself, at which a steady slide stays. */
+#define ASIDE 0.01
+
 /* Walks keep this part of the tolerance. */
 static double
 tolerance_of_walks(const cycles *c)
@@ -66,6 +70,8 @@ ss_cycles_begin(cycles *c)
     if (m->model->scales != NULL)
         m->model->scales(m, scale);
     c->unit = (section){ scale[0], scale[1], scale[2] };
+    c->from_pull = c->autonomous && !ss_model_has_events(m->model);
+    c->was_faster = c->from_pull && speed_of(m) / pull_of(c->scene) - 1 > ASIDE;
     if (c->autonomous)
         ss_cycles_go(c, 1, NULL);
 }
@@ -74,7 +80,7 @@ void
 ss_cycles_begin_at(cycles *c, const motion *from)
 {
     const motion copy = *from;          /* from may be the walk's own motion */
-    c->n = 0;
+    c->n = c->was_faster = 0;
     ss_walk_begin_at(&c->w, &copy);
 }
 
@@ -130,6 +136,46 @@ carry(tangent *t, const walk *w)
                 + leg[i][D_V] * before.d[D_V][j];
 }
 
+/* By what part of the pull's speed the mass is faster, s after the start of the leg. */
+static double
+faster(cycles *c, double s)
+{
+    state at = c->w.m.now;
+    double rates[MAX_DIM];
+    ss_walk_at(&c->w, s, at.q, rates);
+    return speed_of(&at) / pull_of(c->scene) - 1;
+}
+
+/* Returns 1 if a cycle from the pull begins in the leg, which then ends there. */
+static int
+crosses_pull(cycles *c)
+{
+    walk *w = &c->w;
+    double end = faster(c, w->h), lo = 0, hi = w->h, s;
+    if (!c->was_faster || end > -ASIDE) {
+        c->was_faster |= end > ASIDE;
+        return 0;
+    }
+    while ((s = lo + (hi - lo) / 2) > lo && s < hi)
+        *(faster(c, s) > -ASIDE ? &lo : &hi) = s;
+    w->h = hi;
+    w->ends = c->was_faster = 0;
+    return 1;
+}
+
+/* Let the motion begin anew at the end of the leg. */
+static void
+cut(walk *w)
+{
+    double q[MAX_DIM], rates[MAX_DIM];
+    ss_walk_at(w, w->h, q, rates);
+    memcpy(w->m.now.q, q, sizeof q);
+    w->m.now.u += w->h;
+    w->lasted += w->h;
+    ss_motion_rebase(&w->m);
+    ss_engine_begin(w->e);
+}
+
 /* Walk one leg.  Returns 1 if at its end a stick begins, or the mass becomes slower than its pull. */
 static int
 go_leg(cycles *c, double longest, meter *r, tangent *t)
@@ -141,8 +187,13 @@ go_leg(cycles *c, double longest, meter *r, tangent *t)
     c->status = ss_walk_leg(w, longest, c->err);
     if (c->status != SS_OK)
         return 0;
+    int crosses = c->from_pull && crosses_pull(c);
     if (r != NULL)
         ss_meter_leg(r, w);
+    if (crosses) {
+        cut(w);
+        return 1;
+    }
     if (t != NULL) {
         carry(t, w);
         ss_walk_at(w, w->h, q, rates);
@@ -159,7 +210,7 @@ go_leg(cycles *c, double longest, meter *r, tangent *t)
         variation->cross(&w->m.now, mode, &by, q, rates, w->e->dq0, t->d);
     }
     if (!is_event)
-        return w->m.now.model->from_pull && mode != 0 && w->m.now.mode == 0;
+        return 0;
     if (r != NULL)
         ss_meter_event(r, &event);
     return event.kind == SS_STICK;
@@ -182,9 +233,12 @@ go_to_onset(cycles *c, int n, meter *r, tangent *t)
 {
     const state *m = &c->w.m.now;
     double own = 2 * M_PI / fmin(own_frequency(c->scene), m->model->fastest(m, NULL)), slipped = 0;
-    double most = (double)c->opts->max_cycles * (m->model->from_pull ? own / 60 : own), since = (double)c->w.e->rhs;
+    double most = (double)c->opts->max_cycles * own, since = (double)c->w.e->rhs;
+    if (c->from_pull)                   /* the pull first loads the spring, or a steady slide is slowly left */
+        most = m->model->equilibrium != NULL ? most / 60
+            : most / 600 + 2 * static_friction(c->scene) / c->scene->stiffness / fabs(pull_of(c->scene));
     for (int onsets = 0; onsets < n;) {
-        int slips = m->mode != 0 || m->model->from_pull, is_still = !slips && m->model->still != NULL;
+        int slips = m->mode != 0 || c->from_pull, is_still = !slips && m->model->still != NULL;
         check_work(c, since, n);
         int sticks = c->status == SS_OK && go_leg(c, is_still ? INFINITY : own, r, t);
         if (c->status != SS_OK)
@@ -192,7 +246,7 @@ go_to_onset(cycles *c, int n, meter *r, tangent *t)
         onsets += sticks;
         slipped = slips && !sticks ? slipped + c->w.h : 0;
         if (slipped > most) {
-            c->status = m->model->from_pull
+            c->status = c->from_pull
                 ? ss_fail(c->err, SS_EDATA, "it slides on with the pull: no cycle within %.9g s", slipped)
                 : ss_fail(c->err, SS_EDATA, "it slides on: no stick within %.9g s, %lu own periods", slipped,
                           c->opts->max_cycles);
@@ -246,6 +300,15 @@ ss_cycles_return(cycles *c, int most, double tol)
 }
 
 /* --- derivatives --------------------------------------------------------------------------- */
+
+/* The numbers in which neighbours can differ at the start of a cycle. */
+static void
+find_free(const cycles *c, const state *m, int is_free[D_MOST])
+{
+    m->model->variation->free(m, is_free);
+    if (c->from_pull)
+        is_free[D_V] = 0;
+}
 
 int
 ss_cycles_move(motion *m, const double d[D_MOST])
@@ -313,7 +376,7 @@ differences(cycles *c, int n, derivative_use use, tangent *t)
         unit[D_Q] = c->unit.y;          /* q is a contact's deflection, much smaller than x perhaps */
         unit[D_V] = c->unit.y * sqrt(from->k / c->scene->mass);
     }
-    from->model->variation->free(from, is_free);
+    find_free(c, from, is_free);
     for (int j = 0; j < D_MOST; j++) {
         double up[D_MOST], by = size * unit[j], down[D_MOST], back = 0;
         if (!is_free[j])
@@ -340,11 +403,11 @@ ss_cycles_derive(cycles *c, int n, derivative_use use, tangent *t)
         ss_cycles_go(c, n, NULL);
         return;
     }
-    if (c->w.e->type->response == NULL || m->model->kinks) {
+    if (c->w.e->type->response == NULL || m->model->kinks || c->from_pull) {
         differences(c, n, use, t);
         return;
     }
-    m->model->variation->free(m, is_free);
+    find_free(c, m, is_free);
     for (int i = 0; i < D_MOST; i++)
         t->d[i][i] = is_free[i];
     if (c->autonomous)
@@ -453,7 +516,7 @@ follow(cycles *c, unsigned long n, double difference[D_MOST])
         int is_free[D_MOST];
         double next[D_MOST], size = 0;
         ss_cycles_derive(c, 1, NEWTON, &t);
-        m->model->variation->free(m, is_free);
+        find_free(c, m, is_free);
         for (int k = 0; k < D_MOST; k++) {
             next[k] = 0;
             for (int j = 0; j < D_MOST && is_free[k]; j++)

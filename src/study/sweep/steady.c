@@ -197,9 +197,6 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, const struct meth
                        "double precision");
     if (scene->base != NULL)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle");
-    if (!(what_has(scene->model) & (STICKS | SLIDES)))
-        return ss_fail(err, SS_EINVAL, "base_frequency is 0: there is no forcing cycle, and no stick with "
-                       "which one could begin");
     if (scene->base_velocity == scene->surface_velocity)
         return ss_fail(err, SS_EINVAL, "base_frequency is 0 and base_velocity is surface_velocity: nothing "
                        "keeps it moving");
