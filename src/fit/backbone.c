@@ -37,6 +37,8 @@ enum {
 #define HIT 3.0                 /* times what the blocks behind it leave: a blow is in the first
                                    block */
 #define SURE .02                 /* error of ln A below which a block alone is not biased */
+#define NOISY 10.0              /* dB above a floor: it matters below */
+#define HIGH 25.0               /* the same: it does not matter above */
 #define NEPER 0.11512925464970229       /* a decibel */
 #define MIXED 1.5               /* times what the last block leaves */
 #define FALL .35                /* of ln A in a block, at most */
@@ -568,14 +570,19 @@ find_levels(decay *d, const double *x, size_t n)
     if (n < most + FEW * LEVEL_ROWS || most >= tail)
         return SS_OK;
     block last = fit_level(x, tail, n, w);
-    if (last.rate[LEVEL] > .3 * (last.y[LEVEL] - x[most] * NEPER) / (double)(n - most)) {
-        d->stop = "noise";                      /* it ends in a floor, whose power is not the decay's */
-        for (size_t i = most; i < n && x[i] * NEPER > last.y[LEVEL] + 10 * NEPER; i++) {
-            d->x[i] += 10 * log10(1 - pow(10, (last.y[LEVEL] / NEPER - x[i]) / 10));
-            tail = i;
-        }
-    } else
-        tail = n;
+    size_t from = most, to = most;              /* of where the decay alone is seen above its end */
+    for (size_t i = most; i < tail; i++) {
+        from = x[i] * NEPER > last.y[LEVEL] + HIGH * NEPER ? i : from;
+        to = x[i] * NEPER > last.y[LEVEL] + NOISY * NEPER ? i + 1 : to;
+    }
+    double ratio = to - from < LEVEL_ROWS ? 1 : fmax(last.rate[LEVEL] / fit_level(x, from, to, w).rate[LEVEL], 0);
+    tail = n;
+    if (ratio < .5) {                           /* it bends into a floor, which has this part of the last power */
+        double floor = last.y[LEVEL] / NEPER + 10 * log10(1 - ratio);
+        d->stop = "noise";
+        for (size_t i = tail = most; i < n && x[i] > floor + NOISY; tail = ++i)
+            d->x[i] += 10 * log10(1 - pow(10, (floor - x[i]) / 10));
+    }
     size_t blocks = tail > most ? (tail - most) / LEVEL_ROWS : 0;
     blocks = blocks < LEVELS ? blocks : LEVELS;
     for (size_t i = 0; i < blocks; i++)
