@@ -20,8 +20,8 @@ static const char usage[] =
 "  -a, --accuracy=TOL    global error of x over max|x|: chooses --tol and,\n"
 "                        if none is given, --method\n"
 "      --max-steps=N     stop after N integration steps\n"
-"  -l, --list            list the shipped scenes and the methods; with SCENE, all\n"
-"                        its keys and values, a scene to edit\n"
+"  -l, --list            list the shipped scenes and the methods; with SCENE, its\n"
+"                        keys and values, a scene to edit\n"
 "  -o, --output=FILE     .tsv, .au, .csv, .json, .wav or .h5, complete or absent\n"
 "      --format=FORM     of standard output: tsv (default), au, csv, json, wav\n"
 "  -q, --quiet           no warnings, no progress\n"
@@ -111,7 +111,7 @@ list(void)
     exit(0);
 }
 
-/* Write the scene as it would be simulated, with every key of its model. */
+/* Write the scene as it would be simulated. */
 static void
 write_scene(const request *req, const ss_scene *scene)
 {

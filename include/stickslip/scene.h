@@ -95,8 +95,8 @@ ss_status ss_scene_load(ss_scene *scene, const char *path, const char *const set
 /* SS_OK if every parameter that the model has lies in its range, else SS_EINVAL. */
 ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 
-/* Write each key that the model has as a line, its value with the fewest digits from which
- * ss_scene_read gets the same double.  SS_EIO: writing failed. */
+/* Write each key that the model has as a line, but for terms that are 0 when left out, its value with the fewest
+ * digits from which ss_scene_read gets the same double.  SS_EIO: writing failed. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out, ss_error *err);
 
 /* Make z(t) [m], the natural cubic spline through one column of a file, of any format that ss_reader_new opens.

@@ -6,7 +6,7 @@ for voices in 4 16; do for norm in l1 l2; do for f in 17.24 20 31; do
     ss-signal sine --frequency $f --amplitude 3 --duration 8 \
         | ss-morlet --norm $norm --voices $voices --fmin 10 --fmax 80 --exact-bits -o map.h5
     ss-contour --ridge map.h5 -o ridge.tsv
-    awk -v f=$f -v voices=$voices -v l2=$([ $norm = l1 ] || echo 1) '
+    awk -v f=$f -v voices=$voices -v l2="$([ $norm = l1 ] || echo 1)" '
         BEGIN { h = l2 * log(2) / voices; of_f = h ^ 2 / 200 + 1e-9; of_a = h ^ 2 / 400 + h ^ 3 / 15 + 1e-9 }
         !/^#/ && $1 > 2 && $1 < 6 { n++
         if (($2 / f - 1) ^ 2 > of_f ^ 2 || ($3 / 3 - 1) ^ 2 > of_a ^ 2) print "off:", $0 } END { print n }' ridge.tsv
