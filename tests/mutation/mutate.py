@@ -31,7 +31,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-ROUNDS = (4, 5), (30, 20), (150, 60)     # s of a processor that a test may take, and that a mutant may
+ROUNDS = (4, 5), (30, 12), (150, 60)     # s of a processor that a test may take, and that a mutant may
 OPERATORS = {
     "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&",
     "+": "-", "-": "+", "*": "/", "/": "*", "+=": "-=", "-=": "+=", "++": "--", "--": "++",
@@ -196,9 +196,12 @@ class Judge:
         def names(what):
             rows = subprocess.run(["nm", "-A", "--defined-only", *what], cwd=tree, check=True, stdout=subprocess.PIPE, text=True).stdout
             return [row.rsplit(" ", 2) for row in rows.splitlines()]
-        has = {name for _, kind, name in names([f"build/tests/{test}"]) if kind in "TDBRiW"}
+        def is_ours(kind, name):    # names of the library are local in a program
+            return kind.upper() in "TDBRIW" and name.startswith("ss_")
+        has = {name for _, kind, name in names([f"build/tests/{test}"]) if is_ours(kind, name)}
         objects = [str(p.relative_to(tree)) for p in (tree / "build/src").rglob("*.o")]
-        return {row[0].split(":")[0].removeprefix("build/")[:-1] + "c" for row in names(objects) if row[1] in "TDBRiW" and row[2] in has}
+        return {where.split(":")[0].removeprefix("build/")[:-1] + "c" for where, kind, name in names(objects)
+                if is_ours(kind, name) and name in has}
 
     def link_for(self, test):
         """The library; test_memory replaces its allocations, and so has it within."""
@@ -323,7 +326,7 @@ def main():
             if sums["dead"] + sums["alive"] >= args.count or time.monotonic() > end:
                 break
             _, what, by, old, met, of = judged.get(i, (i, "alive", "", "", [], 0))
-            if what == "alive" and of < limit:
+            if what == "alive" and of < limit and (of == 0 or (mutant[0], old.strip(), mutant[2].strip()) not in known):
                 for judge in judges:
                     what, by, old = judge.judge(mutant, met, limit, patience)
                     if what != "alive":
