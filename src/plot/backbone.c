@@ -14,7 +14,7 @@ static const double heights[PANELS] = { 3.4, 2.6, 2.6 }, gaps[PANELS] = { 1.1, .
 #define MARGIN .06              /* above and below what is drawn, of it */
 
 /* Half of what the samples span in each period, or in a column of pixels if that is more, in decibels re the first
- * row; of levels the samples. */
+ * row; of levels their middle. */
 static void
 write_decay(FILE *out, const ss_backbone *b, const double *x, size_t n, double rate, double start)
 {
@@ -24,7 +24,7 @@ write_decay(FILE *out, const ss_backbone *b, const double *x, size_t n, double r
     fputs("$decay << EOD\n", out);
     for (size_t i = 0; i + width <= n; i += width) {
         script_extent e = ss_script_extent(x + i, width);
-        double level = is_level ? e.hi - 20 * log10(b->row[0].amplitude)
+        double level = is_level ? (e.hi + e.lo) / 2 - 20 * log10(b->row[0].amplitude)
             : 20 * log10((e.hi - e.lo) / 2 / b->row[0].amplitude);
         if (isfinite(level))
             ss_print(out, "%.9g %.5g\n", start + ((double)i + ((double)width - 1) / 2) / rate, level);
@@ -76,9 +76,10 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
         st = ss_fail_column(err, column, signal->head->n_columns);
     if (st == SS_OK && b->n == 0)
         st = ss_fail(err, SS_EINVAL, "nothing to draw: %s", b->why);
+    const int is_level = b->n > 0 && isnan(b->row[0].frequency.error);
     if (st == SS_OK)
-        st = ss_script_begin_stack(&stack, out, &own, signal->head, heights[0] + heights[1] + heights[2] + gaps[0]
-                                   + gaps[1] + gaps[2], err);
+        st = ss_script_begin_stack(&stack, out, &own, signal->head, heights[0] + heights[2] + gaps[0] + gaps[2]
+                                   + (is_level ? 0 : heights[1] + gaps[1]), err);
     if (st != SS_OK)
         return st;
     const ss_column *of = &signal->head->column[column];
@@ -86,7 +87,7 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
     write_rows(out, b, signal->head->start);
     fputs("colour = '" BLUE "'; law = '" VERMILION "'\n", out);
     ss_script_write_frame(out, 0.175, 0.965);
-    for (int i = 0; i < PANELS; i++) {
+    for (int i = 0; i < PANELS; i += is_level ? 2 : 1) {        /* of a level the frequency is not measured */
         script_extent e = i > 0 ? extent_of(b, i == 2) : SCRIPT_NO_EXTENT;
         script_scale scale = i > 0 ? ss_script_scale(e) : ss_script_power(0);
         ss_script_write_panel(&stack, heights[i], gaps[i], &names[i], scale, ROOM);
@@ -99,7 +100,7 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
             continue;
         }
         if (i + 1 == PANELS)
-            ss_script_write_x_label(out, &(ss_column){ "amplitude", of->unit }, ss_script_power(0));
+            ss_script_write_x_label(out, &(ss_column){ "amplitude", is_level ? "" : of->unit }, ss_script_power(0));
         else
             fputs("unset xlabel\n", out);
         ss_print(out, "set logscale x; set xtics format '%s'\nset xrange [%.6g:%.6g]\n",
