@@ -116,8 +116,9 @@ typedef struct ss_steady {
  * taylor for shooting, multipliers and exponents.
  *
  * The Lyapunov exponent of a periodic motion is that of its largest multiplier; -infinity if this
- * is 0 or hidden by rounding, for example because a stick ends every difference.  The exponent of another motion is a mean over max_cycles (or settle) further cycles (Benettin et al.
- * 1980); its error is the scatter among 20 parts of them.
+ * is 0 or hidden by rounding, for example because a stick ends every difference.  The exponent of
+ * another motion is a mean over max_cycles (or settle) further cycles (Benettin et al. 1980); its
+ * error is the scatter among 20 parts of them.
  *
  * SS_OK: every measure wanted is known.  SS_EDATA: one is not known or not reliable, and err says
  * why; the others are known.  For example, an aperiodic motion is measured over max_period cycles,

@@ -104,8 +104,11 @@ int
 ss_motion_fades(const motion *m)
 {
     const state *now = &m->now;
-    return ss_model_has_events(now->model) && now->mode != 0
-        && fabs(now->q[1]) <= m->doubt * now->model->fastest(now, NULL);
+    double rates[MAX_DIM], fastest = now->model->fastest(now, NULL);
+    if (!ss_model_has_events(now->model) || now->mode == 0)
+        return 0;
+    now->model->rates(now, base_force(now, now->u), now->q, rates);
+    return fmax(fabs(now->q[1]), fabs(rates[1]) / fastest) <= m->doubt * fastest;
 }
 
 turn

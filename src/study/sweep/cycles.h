@@ -79,7 +79,7 @@ typedef struct cycles {
     ss_error *err;
     ss_status status;                   /* that of the first failure, after which the walk stays where it is */
     int autonomous;                     /* 1: there is no forcing */
-    int from_pull;                      /* 1: nor a stick; a cycle begins where the mass becomes slower than its pull */
+    int from_pull;                      /* 1: nor a stick; a cycle begins where it becomes slower than its pull */
     int was_faster;                     /* 1: it has been faster since the last of these */
     walk w;
     double n;                           /* cycles since the walk's t = 0 */

@@ -459,7 +459,8 @@ ss_periodic_can_shoot(const ss_scene *scene, const struct method *how)
 {
     const ss_model *model = scene->model;
     return model->variation != NULL
-        && (scene->base_frequency > 0 || model->still != NULL || !ss_model_has_events(model) || ss_method_follows(how));
+        && (scene->base_frequency > 0 || model->still != NULL || !ss_model_has_events(model)
+            || ss_method_follows(how));
 }
 
 ss_status
