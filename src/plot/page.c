@@ -64,15 +64,23 @@ write_terminal(FILE *out, const struct format *f, const char *output, double wid
     }
 }
 
+/* The scene or the model of a signal, or "". */
+static const char *
+origin_of(const ss_header *head)
+{
+    const char *scene = ss_header_find_note(head, "scene"), *model = ss_header_find_note(head, "model");
+    return scene != NULL ? scene : model != NULL ? model : "";
+}
+
+/* Several signals alike have the title that they share. */
 static const char *
 title_of(const ss_plot_opts *opts, const ss_header *head)
 {
-    const char *title = opts->title;
-    if (title == NULL && head != NULL)
-        title = ss_header_find_note(head, "scene");
-    if (title == NULL && head != NULL)
-        title = ss_header_find_note(head, "model");
-    return title != NULL ? title : "";
+    const char *title = opts->title != NULL ? opts->title : head != NULL ? origin_of(head) : "";
+    for (size_t k = 0; opts->title == NULL && opts->alike && k < opts->n_over; k++)
+        if (strcmp(title, origin_of(ss_reader_header(opts->over[k]))) != 0)
+            return "";
+    return title;
 }
 
 ss_status
@@ -136,14 +144,14 @@ ss_script_write_colours(FILE *out, const ss_plot_opts *opts)
         ss_print(out, "over%s = '%s'\n", ss_script_number[k], colour[k]);
 }
 
-/* The entries of the legend in a row: letters are some 0.12 cm wide on paper, and a sample is as wide as 5. */
+/* The entries of the legend in a row: gnuplot takes letters to be 0.172 cm wide, in a .png, and a sample as 4. */
 static size_t
 entries(const ss_plot_opts *opts)
 {
-    size_t longest = 0, all = (size_t)(0.8 * WIDTH / 0.12);
+    size_t longest = 0, all = (size_t)(0.79 * WIDTH / 0.172);
     for (size_t k = 0; opts->name != NULL && k <= opts->n_over; k++)
         longest = strlen(opts->name[k]) > longest ? strlen(opts->name[k]) : longest;
-    return opts->n_over < 2 ? 2 : longest + 5 < all ? all / (longest + 5) : 1;
+    return longest + 4 < all ? all / (longest + 4) : 1;
 }
 
 double
@@ -156,9 +164,8 @@ void
 ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *const column[])
 {
     ss_script_write_key(out);
-    if (opts->n_over > 1)
-        ss_print(out, "set title offset 0,%.3g; set key maxcols %zu\n", 0.7 + 0.9 * (ss_script_legend(opts)
-                 / SCRIPT_LEGEND - 1), entries(opts));
+    ss_print(out, "set title offset 0,%.3g; set key maxcols %zu\n", 0.7 + 0.9 * (ss_script_legend(opts)
+             / SCRIPT_LEGEND - 1), entries(opts));
     for (size_t k = 0; k <= opts->n_over; k++) {
         ss_print(out, "%s%s = ", k == 0 ? "name" : "; over_name", k == 0 ? "" : ss_script_number[k - 1]);
         ss_script_quote(out, opts->name != NULL ? opts->name[k] : column[k]->name, 0);

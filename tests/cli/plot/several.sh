@@ -29,6 +29,15 @@ for options in '' '--difference' '--spectrum' '--xy x,v'; do
     ss-plot $options run.tsv run.tsv -o picture.png && head -c 4 picture.png | tail -c 3 && echo
     rm picture.png
 done
+echo '-- a title that all share, above a legend whose rows are those that gnuplot makes: 11 letters are 2.6 cm of 6.7'
+for damping in 5 25; do ss-sim compliant-light --set duration=1 --set contact_damping=$damping -o damping$damping.tsv; done
+for files in 'damping5.tsv damping25.tsv' 'damping5.tsv damping5.tsv' 'run.tsv run.tsv'; do
+    # shellcheck disable=SC2086  # two words
+    ss-plot -c x $files | grep -e '^set title ["'\'']' -e maxcols
+done
+ss-plot -c x damping25.tsv damping5.tsv damping5.tsv -o rows.svg
+awk '/translate/ { split($0, place, /[(,)]/) } /<text>damping/ && !(place[3] in seen) { seen[place[3]]; rows++ }
+    END { print rows " rows" }' rows.svg
 echo '-- refused'
 refused() { ss-plot "$@" > out || echo $?; }
 refused --over two.tsv one.tsv two.tsv
