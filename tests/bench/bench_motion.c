@@ -1,6 +1,6 @@
 /* bench_motion.c -- how often ss_motion_ranking_new names the law of a simulated recording of motion and force.
  *
- * *     bench_motion [DRAWS [SEED [LAW [PART]]]]
+ * *     bench_motion [DRAWS [SEED [LAW [PART [DB]]]]]
  *
  * * Each law is integrated in small steps of its differential equation, which no code under test does, along a
  * motion that is drawn: one sine, three sines, or a sine that grows and falls.  Noise of the first order (.9) is
@@ -11,7 +11,9 @@
  * true one by less than the noise does, else as wrong.
  *
  * * PART, as .05: the rig is no law.  By a part of up to so much the friction wanders (with a memory of a cycle),
- * changes with the place, and differs between directions; the offset drifts; the force is late by up to half a row. */
+ * changes with the place, and differs between directions; the offset drifts; the force is late by up to half a row.
+ *
+ * * DB, 40 or 20: that noise alone. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -293,6 +295,7 @@ main(int argc, char *argv[])
     const int draws = argc > 1 ? atoi(argv[1]) : 2;
     const char *only = argc > 3 && strcmp(argv[3], "all") != 0 ? argv[3] : NULL;
     const double part = argc > 4 ? atof(argv[4]) : 0;
+    const int only_db = argc > 5 ? atoi(argv[5]) : 0;
     uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     ss_header *head = NULL;
     ss_signal *s = NULL;
@@ -305,7 +308,7 @@ main(int argc, char *argv[])
         return 1;
     puts("dB law right simpler cannot none wrong noticed close within-2-errors of");
     for (int db = 40; db >= 20; db -= 20)
-        for (int law = 0; law < KINDS; law++) {
+        for (int law = 0; law < KINDS && (only_db == 0 || db == only_db); law++) {
             counts c = { 0 };
             for (int i = 0; i < draws && (only == NULL || strcmp(only, names[law]) == 0); i++) {
                 truth r = draw(law, &seed);
