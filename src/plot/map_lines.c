@@ -123,9 +123,10 @@ place_label(lines *s)
 
 /* --- levels --------------------------------------------------------------------------------- */
 
-/* If no value is below 0 and the middle 96 % of those above 0 span more than a factor of 20,
- * levels are at 1, 2 and 5 times powers of ten; else they have equal steps of 1, 2 or 5 times a
- * power of ten. */
+/* If no value is below 0, the middle 96 % of those above 0 span more than a factor of 20, and their median is
+ * nearer to the geometric than to the arithmetic middle of these, levels are at 1, 2 and 5 times powers of ten;
+ * else they have equal steps of 1, 2 or 5 times a power of ten.  None is at the largest value, which a region may
+ * have. */
 static size_t
 choose_levels(double level[LEVELS_MAX], double *known, size_t n)
 {
@@ -137,17 +138,18 @@ choose_levels(double level[LEVELS_MAX], double *known, size_t n)
         zeros++;
     n -= zeros;
     double least = known[0], lo = known[zeros + n / 50], hi = known[zeros + n - 1 - n / 50];
-    if (least >= 0 && lo > 0 && hi / lo > 20) {
+    double median = known[zeros + n / 2], most = known[zeros + n - 1];
+    if (least >= 0 && lo > 0 && hi / lo > 20 && median * median < sqrt(lo * hi) * (lo + hi) / 2) {
         for (int e = (int)floor(log10(lo)); e <= (int)floor(log10(hi)); e++)
             for (int i = 0; i < 3 && count < LEVELS_MAX; i++)
-                if (digit[i] * pow(10, e) >= lo && digit[i] * pow(10, e) <= hi)
+                if (digit[i] * pow(10, e) >= lo && digit[i] * pow(10, e) <= hi && digit[i] * pow(10, e) < most)
                     level[count++] = e < 0 ? digit[i] / pow(10, -e) : digit[i] * pow(10, e);
         return count;
     }
     if (!(hi > lo))
         return 0;
     double step = ss_script_step(hi - lo, 8, &decimals);
-    for (double k = ceil(lo / step); k * step <= hi && count < LEVELS_MAX; k++)
+    for (double k = ceil(lo / step); k * step <= hi && k * step < most && count < LEVELS_MAX; k++)
         level[count++] = k * step;
     return count;
 }
