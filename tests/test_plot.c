@@ -717,6 +717,33 @@ contour_options_out_of_range_are_refused(void **state)
     ss_coefficients_free(c);
 }
 
+/* Each power of ten from the least to the largest amplitude has a tic, also between the first two rows. */
+static void
+each_decade_of_a_backbone_has_its_tic(void **state)
+{
+    ss_backbone_row row[] = { { .amplitude = 1.2e-2 }, { .amplitude = 0.9e-2 }, { .amplitude = 1.1e-4 },
+                              { .amplitude = 0.9e-4 } };
+    const ss_backbone decay = { .n = 4, .row = row };
+    ss_signal *signal = new_signal(100, 100, 0, "x", "m");
+    char *text = NULL;
+    size_t length;
+    (void)state;
+    for (size_t i = 0; i < 4; i++)
+        row[i].frequency = row[i].damping_ratio = (ss_value){ 1 + 0.1 * (double)i, 0.01 };
+    FILE *out = open_memstream(&text, &length);
+    assert_int_equal(ss_plot_backbone(out, &decay, signal, 0, NULL, NULL), SS_OK);
+    fclose(out);
+    const char *last = NULL;
+    for (const char *at = text; (at = strstr(at, "set xtics (")) != NULL; at++)
+        last = at;
+    assert_non_null(last);
+    char *line = strndup(last, strcspn(last, "\n"));
+    assert_true(strstr(line, " 1e-4") != NULL && strstr(line, " 1e-3") != NULL && strstr(line, " 1e-2") != NULL);
+    free(line);
+    free(text);
+    ss_signal_free(signal);
+}
+
 int
 main(void)
 {
@@ -745,6 +772,7 @@ main(void)
         cmocka_unit_test(zero_everywhere_gives_an_empty_picture),
         cmocka_unit_test(coefficients_may_come_scale_by_scale),
         cmocka_unit_test(contour_options_out_of_range_are_refused),
+        cmocka_unit_test(each_decade_of_a_backbone_has_its_tic),
     };
     return cmocka_run_group_tests_name("plot", tests, NULL, NULL);
 }
