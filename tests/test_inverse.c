@@ -131,6 +131,33 @@ explains_the_coefficients_as_well_as_asked(void **state)
     }
 }
 
+/* A map of one scale says little of the signal, but its inverse must have the same coefficients. */
+static void
+one_scale_is_explained(void **state)
+{
+    const ss_morlet_opts opts = { GRID, .center = 6, .voices = 1, .step = 0.25, .octaves = 1, .m0 = -6, .m1 = -6,
+                                  .threads = 1, .accuracy = 1e-12 };
+    ss_signal *signal = some_signal(1), *back;
+    ss_coefficients *coef, *own;
+    ss_error err = { 0 };
+    double off = 0, all = 0;
+    (void)state;
+    assert_int_equal(ss_morlet_transform(&coef, signal, 0, &opts, NULL), SS_OK);
+    assert_int_equal(coef->n_scales, 1);
+    if (ss_morlet_inverse(&back, coef, 1e-3, NULL, (ss_progress){ NULL, NULL }, &err) != SS_OK)
+        fail_msg("%s", err.text);
+    assert_int_equal(ss_morlet_transform(&own, back, 0, &opts, NULL), SS_OK);
+    for (size_t k = 0; k < 2 * coef->scale[0].n; k++) {
+        off += (own->w[k] - coef->w[k]) * (own->w[k] - coef->w[k]);
+        all += coef->w[k] * coef->w[k];
+    }
+    assert_true(sqrt(off / all) <= 1.01e-3);
+    ss_coefficients_free(coef);
+    ss_coefficients_free(own);
+    ss_signal_free(signal);
+    ss_signal_free(back);
+}
+
 /* --- the adjoint ------------------------------------------------------------------------------ */
 
 /* Samples by the sum over coefficients of Re(w h), in units of a^1/2. */
@@ -344,6 +371,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(transform_is_inverted_as_well_as_is_said),
         cmocka_unit_test(explains_the_coefficients_as_well_as_asked),
+        cmocka_unit_test(one_scale_is_explained),
         cmocka_unit_test(adjoint_is_the_sum),
         cmocka_unit_test(refuses_what_has_no_inverse),
         cmocka_unit_test(nothing_gives_nothing),
