@@ -100,7 +100,8 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
             continue;
         }
         if (i + 1 == PANELS)
-            ss_script_write_x_label(out, &(ss_column){ "amplitude", is_level ? "" : of->unit }, ss_script_power(0));
+            ss_script_write_x_label(out, &(ss_column){ "amplitude", is_level ? "" : of->unit },
+                                    ss_script_power(0));
         else
             fputs("unset xlabel\n", out);
         ss_print(out, "set logscale x; set xtics format '%s'\nset xrange [%.6g:%.6g]\n",
