@@ -132,8 +132,7 @@ struct ss_model {
     int has_contact;                /* 1: it has an elastic contact, with contact_stiffness and
                                        contact_damping */
     int kinks;                      /* 1: modes end where the law has a kink, which is no event */
-    int from_pull;                  /* 1: its position is that relative to the pulled end of the spring, and
-                                       mode 0 is motion slower than this end */
+    int from_pull;                  /* 1: its position is that relative to the pulled end of the spring */
     unsigned force_varies;          /* IN_STICK, IN_SLIP */
 
     /* Change a scene to one with the same motion that keeps the shape of this motion when f_k and Z_e

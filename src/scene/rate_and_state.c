@@ -158,21 +158,6 @@ equilibrium(state *m)
 
 /* --- the motion --------------------------------------------------------------------------------- */
 
-/* A cycle begins where V falls below U by a part of it, after it has been above U by as much.  It is not U itself,
- * at which a steady slide stays.  w - (b/a) s changes with V alone as long as G is small, and always with both. */
-#define ASIDE 0.01
-enum { SLOWER, FASTER };
-
-static void
-enter(state *m, int mode)
-{
-    double way = mode == FASTER ? 1 : -1, ratio = m->scene->own[EVOLUTION] / m->scene->own[DIRECT];
-    m->mode = mode;
-    m->n_bounds = 2;
-    m->bound[0] = (bound){ .level = -m->x_ref, .of = { -1 } };
-    m->bound[1] = (bound){ .level = ASIDE, .of = { 0, way, -way * ratio } };
-}
-
 static int
 start(state *m)
 {
@@ -184,7 +169,8 @@ start(state *m)
         double rise = log(s->v0 / U), least = m->f0 / (s->own[NORMAL] * s->own[DIRECT]) + fmin(rise, 0);
         m->q[1] = least > LARGE ? rise : friction_at(s, s->v0) - friction_at(s, U);
     }
-    enter(m, s->v0 < (1 - ASIDE) * U && s->v0 > 0 ? SLOWER : FASTER);
+    m->mode = m->n_bounds = 1;
+    m->bound[0] = (bound){ .level = -m->x_ref, .of = { -1 } };
     return 0;
 }
 
@@ -192,9 +178,7 @@ static int
 next(state *m, ss_event *e)
 {
     (void)e;
-    if (m->ended == 0)
-        m->over = "the spring is slack, and rate and state do not say how a contact turns back";
-    enter(m, m->mode == FASTER ? SLOWER : FASTER);
+    m->over = "the spring is slack, and rate and state do not say how a contact turns back";
     return 0;
 }
 

@@ -71,7 +71,7 @@ ss_cycles_begin(cycles *c)
         m->model->scales(m, scale);
     c->unit = (section){ scale[0], scale[1], scale[2] };
     c->from_pull = c->autonomous && !ss_model_has_events(m->model);
-    c->was_faster = c->from_pull && speed_of(m) / pull_of(c->scene) - 1 > ASIDE;
+    c->was_faster = c->from_pull && speed_of(m) / pull_of(c->scene) - 1 > -ASIDE;
     if (c->autonomous)
         ss_cycles_go(c, 1, NULL);
 }
@@ -142,7 +142,10 @@ faster(cycles *c, double s)
 {
     state at = c->w.m.now;
     double rates[MAX_DIM];
-    ss_walk_at(&c->w, s, at.q, rates);
+    if (s == c->w.e->h)
+        memcpy(at.q, c->w.e->q1, sizeof at.q);
+    else
+        ss_walk_at(&c->w, s, at.q, rates);
     return speed_of(&at) / pull_of(c->scene) - 1;
 }
 
