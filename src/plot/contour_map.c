@@ -140,7 +140,8 @@ choose_rows(contour_map *map, filling *f, ss_error *err)
         ? fmin(f->contour->fmax, scale[last].f) : scale[last].f;
     if (!(lo < hi))
         return ss_fail(err, SS_EINVAL, "nothing to draw from %g Hz to %g Hz; the coefficients go from %g Hz to "
-                       "%g Hz", f->contour->fmin, f->contour->fmax, scale[0].f, scale[last].f);
+                       "%g Hz", f->contour->fmin, f->contour->fmax > 0 ? f->contour->fmax : hi, scale[0].f,
+                       scale[last].f);
     while (scale[f->first + 1].f <= lo)
         f->first++;
     while (scale[last - 1].f >= hi)
