@@ -86,9 +86,10 @@ find_features(const request *req, const char *path)
     if (st != SS_OK)
         tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
     refer_to_load(head, f.column);
-    if (req->displacement != NULL && isfinite(f.features->number[SS_FRICTION].value))
+    const size_t motion = (size_t)f.opts.displacement;
+    if (req->displacement != NULL && motion != f.column && isfinite(f.features->number[SS_FRICTION].value))
         tool_warn("'ss-rank --motion %s --column %s' gives the gap, stiffness and friction of either side, and the "
-                  "law", head->column[f.opts.displacement].name, head->column[f.column].name);
+                  "law", head->column[motion].name, head->column[f.column].name);
     tool_note("noise of rms %.3g, local maxima: %zu, spikes: %zu, %s", f.features->noise,
               f.features->n_maxima, f.features->spikes->n, ss_spikes_verdict(f.features->spikes));
     if (f.opts.stiffness > f.features->number[SS_TOTAL_STIFFNESS].value)
