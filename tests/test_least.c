@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 #include "base/least.h"
+#include "find/colour.h"
+#include "uniform.h"
 #include "unit.h"
 
 /* Misra1a of the Statistical Reference Datasets (NIST, 1978): y = b1 (1 - exp(-b2 x)). */
@@ -299,6 +301,28 @@ solves_what_is_linear(void **state)
     near_to(squares, 0, 1e-25);
 }
 
+/* The mean of n values of y_i = phi y_i-1 + white noise has (1 + phi) / (1 - phi) times the variance of white ones,
+ * whatever line they lie on; of alternating ones no less than 1 is said. */
+static void
+coloured_residuals_count_for_less(void **state)
+{
+    enum { N = 20000 };
+    static const double phi[] = { -0.5, 0, 0.5, 0.8 }, truth[] = { 1, 1, 3, 9 };
+    static double x[N], y[N];
+    (void)state;
+    for (size_t k = 0; k < sizeof phi / sizeof *phi; k++)
+        for (int line = 0; line < 3; line++) {
+            uint64_t seed = 340 + k;
+            double last = 0;
+            for (size_t i = 0; i < N; i++) {
+                last = phi[k] * last + uniform(&seed) - 0.5;
+                x[i] = line == 2 ? 1e-3 * (double)i * (double)i / N : (double)i;
+                y[i] = last + (line > 0 ? 7 + 3 * x[i] : 0);
+            }
+            near_to(ss_colour(y, line == 2 ? x : NULL, N, line > 0 ? 3 : 0), truth[k], 0.15 * truth[k]);
+        }
+}
+
 int
 main(void)
 {
@@ -313,6 +337,7 @@ main(void)
         cmocka_unit_test(costly_models_end_within_a_part_of_their_errors),
         cmocka_unit_test(hands_back_what_the_model_says),
         cmocka_unit_test(solves_what_is_linear),
+        cmocka_unit_test(coloured_residuals_count_for_less),
     };
     gsl_set_error_handler_off();
     return cmocka_run_group_tests(tests, NULL, NULL);
