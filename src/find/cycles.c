@@ -33,13 +33,18 @@
  *
  * Where jumps lie between samples, the peak of the autocorrelation may be at the length of several
  * cycles.  Then a part of that length is the period, if the signal repeats after the part as well as
- * it does after the whole when it is shifted by a sample. */
+ * it does after the whole when it is shifted by a sample.
+ *
+ * A hum may make several cycles more alike than one.  What differs after a part of them is then its line alone.
+ * It may also keep all lags at multiples of its own period: the rate of what is slow tells. */
 #include "find/cycles.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+#include "base/fft.h"
 #include "base/gauss.h"
 #include "base/versions.h"
 #include "find/judgement.h"
@@ -57,6 +62,11 @@
 #define ROBUST 8                /* the fewest cycles whose scatter is found from the median deviation */
 #define MANY 16                 /* cycles: fewer show no modulation; a decay that is slower does not count */
 #define PULLED 16               /* a hum pulls the lag by less than one part in so many */
+#define ONE 0.9                 /* of what differs: more is one line */
+#define LOW 2.5                 /* times the frequency: the lines of a motion itself may be strong up to there */
+#define MOST 64.0               /* periods that are looked at for that */
+#define SLOW 16.0               /* of a period: part of it that is averaged over */
+enum { MULTIPLES = 6 };
 enum { PARTS = 16 };            /* cycles that may be taken for one, at most */
 enum { LAGS = 3 };              /* lags over 2, 4 and 8 cycles, so long a signal must be like itself */
 
@@ -406,6 +416,90 @@ find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
     return averaged != NULL && c != NULL ? SS_OK : SS_ENOMEM;
 }
 
+/* --- beside a hum ---------------------------------------------------------------------------- */
+
+/* Is nearly all that differs after so many samples one line, which is no low multiple of f [per sample], nor any
+ * other as far as the record tells?  Then it is a hum's, and the rest repeats.  *hum: its frequency, or 0. */
+static ss_status
+find_hum(const view *v, size_t lag, double f, double *hum)
+{
+    const size_t m = (v->n - lag) / 2 * 2;
+    real_fft r;
+    double all = 0, line = 0, at = 0;
+    size_t top = 1;
+    *hum = 0;
+    if (ss_real_fft_new(&r, m, 0) != SS_OK)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < m; i++)
+        r.x[i] = (v->x[i] - v->x[i + lag]) * (1 - cos(2 * M_PI * (double)i / (double)m));
+    ss_real_fft_run(&r);
+    for (size_t k = 0; k <= m / 2; k++) {
+        r.x[k] = r.x[2 * k] * r.x[2 * k] + r.x[2 * k + 1] * r.x[2 * k + 1];
+        all += r.x[k];
+        top = k > 1 && k + 2 <= m / 2 && r.x[k] > r.x[top] ? k : top;
+    }
+    for (size_t k = top - 1; k <= top + 1; k++)
+        line += r.x[k], at += (double)k * r.x[k];
+    double cycles = f * (double)m, multiple = at / line / cycles;
+    if (line > ONE * all && multiple > LOW && fabs(multiple - round(multiple)) * cycles > 0.5)
+        *hum = at / line / (double)m;
+    ss_real_fft_free(&r);
+    return SS_OK;
+}
+
+/* The largest number of parts of the period after which the signal repeats itself but for a hum, whose frequency
+ * *hum becomes; else 1. */
+static ss_status
+parts_beside_hum(const view *v, double period, double *hum, size_t *parts)
+{
+    ss_status st = SS_OK;
+    for (*parts = MULTIPLES + 1; st == SS_OK && *hum == 0 && *parts > 1;) {
+        size_t lag = (size_t)(period / (double)--*parts + 0.5);
+        if (lag > 4 && relative(v, 0, lag, v->n - lag) < 1 - CYCLES_ALIKE)
+            st = find_hum(v, lag, 1 / period, hum);
+    }
+    return st;
+}
+
+/* Means over m samples of n, one after the other: n - m + 1 of them. */
+static void
+average(double *x, size_t n, size_t m)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        sum += x[i];
+        if (i + 1 >= m) {
+            const double oldest = x[i + 1 - m];
+            x[i + 1 - m] = sum / (double)m;
+            sum -= oldest;
+        }
+    }
+}
+
+/* A strong hum may keep all lags at multiples of its own period.  What is slow in the signal tells of that: where
+ * it has another rate, that is the rate. */
+static ss_status
+compare_slow(const double *x, size_t n, ss_cycles *found)
+{
+    const size_t m = 1 + (size_t)(found->period.value / SLOW);
+    double *slow = malloc((n + 1) * sizeof *slow);
+    ss_cycles other;
+    size_t parts;
+    if (slow == NULL)
+        return SS_ENOMEM;
+    memcpy(slow, x, n * sizeof *x);
+    average(slow, n, m);
+    average(slow, n - m + 1, m);
+    ss_status st = find_at(slow, n - 2 * m + 2, found->period.value, &other, &parts);
+    free(slow);
+    if (st == SS_OK && fabs(other.frequency.value - found->frequency.value)
+        > SIGMAS * hypot(other.frequency.error, found->frequency.error)) {
+        found->frequency = other.frequency;
+        found->period = other.period;
+    }
+    return st;
+}
+
 ss_status
 ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out)
 {
@@ -423,6 +517,16 @@ ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out)
         start.value /= (double)parts;
         st = find_at(x, n, start.value, out, &parts);
     } while (st == SS_OK && parts > 1);
+    if (st == SS_OK && about == 0 && isfinite(out->period.value)) {
+        const view first = { x, (size_t)fmin((double)n, MOST * out->period.value) };
+        double hum = 0;
+        st = parts_beside_hum(&first, out->period.value, &hum, &parts);
+        if (st == SS_OK && parts > 1)
+            st = find_at(x, n, out->period.value / (double)parts, out, &parts);
+        out->hum = isfinite(out->period.value) ? hum : 0;
+    }
+    if (st == SS_OK && about == 0 && isfinite(out->period.value))
+        st = compare_slow(x, n, out);
     double later = fmax(1, fmin(1 << LAGS, floor(0.25 * (double)n / out->period.value))) * out->period.value;
     if (later + 0.5 < (double)n)        /* not NaN */
         out->lasting = correlation(&(view){ x, n }, 0, (size_t)(later + 0.5), n - (size_t)(later + 0.5));

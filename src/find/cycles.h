@@ -15,6 +15,8 @@ typedef struct ss_cycles {
                                    half of a cycle mirrors the first */
     double wander;              /* relative error of times by a clock that wanders: the scatter of the cycles' lengths
                                    over the root of their number, if noise does not explain it; else 0 */
+    double hum;                 /* frequency of one line that is nearly all that differs from cycle to cycle, per
+                                   sample; 0: no line is */
     int modulated;              /* 1: the cycles swell and fade in turn */
     const char *why;            /* why there is no period; NULL: there is one */
 } ss_cycles;

@@ -26,10 +26,13 @@ errors_of_fit(const normal *h, double variance, ss_value value[2])
     value[1].error = sqrt(variance * h->ww / det);
 }
 
+/* Nor is a fit finer than its tolerance. */
 void
 ss_errors_by_curvature(const fitter *k, const linear *fit, ss_value value[2])
 {
     errors_of_fit(&fit->normal, variance_of(k, fit), value);
+    for (int j = 0; j < 2; j++)
+        value[j].error = hypot(value[j].error, FIT_FINE * k->fit.w);
 }
 
 /* The jackknife in its linear form: without window i the fit moves by (H - H_i)^-1 g_i.  Of few windows
@@ -98,7 +101,7 @@ fit_otherwise(fitter *k, other_way how, ss_window *cut, const linear *total, dou
 
 /* A residual above the white noise may lie in the band of the oscillation: then all of its energy in a window
  * disturbs the fit, not only the share that white noise has there.  A cut may move the fit by half of what
- * it would take to see all of a misfit at that end.  Nor is the fit finer than its tolerance. */
+ * it would take to see all of a misfit at that end. */
 ss_status
 ss_errors_find(fitter *k, ss_value value[2])
 {
@@ -111,12 +114,12 @@ ss_errors_find(fitter *k, ss_value value[2])
         fit_otherwise(k, CUT_END, cut, &total, cut_moved);
         fit_otherwise(k, BENT, cut, &total, bent_moved);
         double excess = fmax(0, variance_of(k, &total) - WHITE * k->of->white * k->of->white);
-        double in_band = excess * 0.5 * (double)total.samples / (double)total.windows, fine = FIT_FINE * k->fit.w;
+        double in_band = excess * 0.5 * (double)total.samples / (double)total.windows;
         ss_value coloured[2];
         errors_of_fit(&total.normal, in_band, coloured);
         for (int j = 0; j < 2; j++)
             value[j].error = sqrt(value[j].error * value[j].error + 0.25 * cut_moved[j] + bent_moved[j]
-                                  + coloured[j].error * coloured[j].error + fine * fine);
+                                  + coloured[j].error * coloured[j].error);
     }
     free(cut);
     return st;

@@ -13,6 +13,7 @@
 #include "find/maxima.h"
 #include "find/numbers.h"
 #include "find/events.h"
+#include "find/hum.h"
 #include "find/search.h"
 #include "map/map.h"
 #include "signal/filter.h"
@@ -84,7 +85,13 @@ find_repetition(search *s)
         s->out->number[SS_REPETITION_FREQUENCY] = known->repetition;
         return SS_OK;
     }
+    ss_hum hum = SS_HUM_NONE;
     ss_status st = ss_cycles_find(s->x, s->n, s->part->period * s->rate, &s->cycles);
+    if (st == SS_OK && s->cycles.hum > 0)       /* it pulls the lags */
+        st = ss_hum_subtract(s->x, s->n, s->cycles.hum, s->cycles.period.value, &hum);
+    s->is_cleaned |= hum == SS_HUM_SUBTRACTED;
+    if (st == SS_OK && hum == SS_HUM_SUBTRACTED)
+        st = ss_cycles_find(s->x, s->n, 0, &s->cycles);
     say(s->out, SS_REPETITION_FREQUENCY, s->cycles.why);
     if (st != SS_OK || s->cycles.why != NULL)
         return st;

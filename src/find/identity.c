@@ -42,9 +42,10 @@
 #define WIDE 1.18
 #define FINE (1 / 32.)          /* resolution re the oscillation; coarser in records of under four segments */
 enum { RATE = 24 };             /* most samples of a period that are used */
-enum { EVENTS = 17 };           /* places of an event that are tried, within a period of the middle */
+enum { EVENTS = 33 };           /* places of an event that are tried, within a period of the middle */
 enum { STICKS = 24 };           /* most sticks that are looked behind */
 #define ONE 0.5                 /* of what rings: with more in one sinusoid that runs through all sticks it is a hum */
+#define UNDAMPED 0.01           /* error of the damping re the frequency */
 enum { TRIALS = 200 };          /* most of its frequencies to either side */
 
 /* --- the rig's spring ------------------------------------------------------------------------ */
@@ -335,7 +336,9 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     if (st == SS_OK && !(more >= SHOWN))
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
     s->rings_as = more >= SHOWN ? OF_CONTACT : at_edge ? OF_FILTER : more < CONTACT ? OF_SENSOR : OF_SOMETHING;
-    if (!(damping > error) && !(s->rings_as == OF_CONTACT && run_through(s, r) < ONE)) {
+    /* a contact may be undamped, if that is well known */
+    const int may_ring_on = s->rings_as == OF_CONTACT && !s->must_show && error < UNDAMPED * r->all[0].value;
+    if (!(damping > error) && !(may_ring_on && run_through(s, r) < ONE)) {
         *why = "what recurs is not shown to decay";
         s->rings_as = s->rings_as == OF_SENSOR ? OF_SENSOR : OF_SOMETHING;
     } else if (s->rings_as == OF_FILTER)

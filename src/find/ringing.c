@@ -11,7 +11,7 @@
 #include "signal/gaps.h"
 
 #define BAND 0.25               /* [octaves] the largest distance of maxima of one kind */
-static const double faster[] = { 1.25, 1.6, 2, 2.5, 3.2, 4 };    /* a fit starts within a factor of sqrt(2) */
+#define OCTAVES 2.0             /* a contact may ring faster than the rig by so much, or more */
 #define RANGE 20.0              /* [dB] range of the swells in the row of the oscillation */
 
 /* The label of a maximum in terms of the sinusoid that makes it. */
@@ -161,8 +161,8 @@ fit_faster(search *s, const size_t *anchor, double f)
     const char **why = &s->out->number[SS_TRANSITION_FREQUENCY].why, *first = *why;
     ss_status st = SS_OK;
     s->must_show = 1;
-    for (size_t k = 0; st == SS_OK && s->rings_as != OF_CONTACT && k < sizeof faster / sizeof *faster; k++)
-        st = ss_oscillation_fit(s, anchor, faster[k] * f, 0);
+    for (double by = 1. / 3; st == SS_OK && s->rings_as != OF_CONTACT && by < OCTAVES + 0.1; by += 1. / 3)
+        st = ss_oscillation_fit(s, anchor, exp2(by) * f, 0);
     if (s->rings_as == OF_CONTACT) {
         know(s->out, SS_TRANSITION_FREQUENCY_RAW, unknown);
         s->label = 0;

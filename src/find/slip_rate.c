@@ -104,14 +104,14 @@ keep_ringing(search *s)
 }
 
 /* May some of the events be no slips, but ends of sticks, or micro-slips, or may slips be missing?  Events at
- * equal distances are all of one kind.  Where nothing rings anew with each, weak slips hide in noise or a hum. */
+ * equal distances are all of one kind, but in a half-cycle that mirrors the other: there a slip begins and ends.
+ * Where nothing rings anew with each, weak slips hide in noise or a hum. */
 static int
 is_doubtful(const search *s, times event, size_t each)
 {
+    const double rate = s->out->number[SS_REPETITION_FREQUENCY].value;
     size_t least = least_in_cycle(s);
-    return each % least != 0
-        || (each > least
-            && !recur(s, event, 1, 1 / ((double)each * s->out->number[SS_REPETITION_FREQUENCY].value), EVEN))
+    return (each != least && (least > 1 || !recur(s, event, 1, 1 / ((double)each * rate), EVEN)))
         || (isnan(s->out->number[SS_TRANSITION_FREQUENCY].value) && !s->out->reverses
             && !(s->cycles.likeness >= BARE));
 }

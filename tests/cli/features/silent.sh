@@ -105,6 +105,8 @@ awk -v n="$(cat begun)" '$2 == "slips:" { print "slips:", ($3 >= n - 1 && $3 <= 
 # a force under a name that says nothing, which stays at two levels: it leaves each of them once a cycle
 ss-sim coulomb | ss-noise --snr 60 --seed 3 |
     awk '/^#/ { next } !n++ { print "t,Kraft" } { print $1 "," $5 }' | ss-features | covers slip_rate 5
+# no error is 0, however little noise there is
+ss-sim -m exact compliant-light | ss-features | awk '!/^#/ && !($8 > 0 && $10 > 0)'
 # 12 motions between rests of uneven length, and glitches in three rests
 awk 'BEGIN { print "t,v [m/s]"; for (k = 0; k < 12; k++) from[k] = 1 + k + .2 * sin(3 * k); k = 0
     for (i = 0; i < 14000; i++) { t = i / 1000; if (k < 11 && t > from[k] + .4) k++
