@@ -5,7 +5,10 @@
 #include <math.h>
 #include <stickslip.h>
 #include "find/drops.h"
+#include "find/hum.h"
+#include "find/rests.h"
 #include "spike_score.h"
+#include "uniform.h"
 #include "unit.h"
 #include "signal/gaps.h"
 #include "signal/noise.h"
@@ -466,6 +469,54 @@ a_slow_drift_is_no_drop(void **state)
     free(drop);
 }
 
+/* Two rests between oscillations, all in counts of 1/500: ends are right within the samples that a count hides. */
+static void
+rests_of_a_coarse_converter_are_found(void **state)
+{
+    static const size_t end[] = { 500, 900, 1300, 1700 };
+    static double x[2000];
+    uint64_t seed = 5;
+    ss_rests rests;
+    (void)state;
+    for (size_t i = 0; i < 2000; i++) {
+        int at_rest = (i >= end[0] && i < end[1]) || (i >= end[2] && i < end[3]);
+        double from = i < end[0] ? 0 : i < end[2] ? (double)end[1] : (double)end[3];
+        x[i] = rint(500 * (at_rest ? 0.004 * uniform(&seed) - 0.002 : sin(M_PI * ((double)i - from) / 50))) / 500;
+    }
+    assert_int_equal(ss_rests_find(x, 2000, &rests), SS_OK);
+    assert_int_equal(rests.n, 2);
+    for (size_t k = 0; k < 4; k++) {
+        size_t is = k % 2 == 0 ? rests.rest[k / 2].first : rests.rest[k / 2].end;
+        assert_true(labs((long)is - (long)end[k]) <= 3);
+    }
+    free(rests.rest);
+}
+
+/* A hum whose frequency changes every 20,000 samples, under a signal that repeats: a hundredth of it is left. */
+static void
+a_hum_is_subtracted_part_by_part(void **state)
+{
+    enum { ALL = 60000, CYCLE = 50 };
+    double *x = malloc(ALL * sizeof *x), left = 0;
+    ss_hum found;
+    (void)state;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < ALL; i++) {
+            double cycle = exp(-0.05 * (i % CYCLE)) * sin(0.2 * M_PI * (i % CYCLE));
+            if (pass == 0)
+                x[i] = cycle + 0.1 * cos(2 * M_PI * (0.0933 + 0.0062 * (i / 20000)) * i);
+            else
+                left += (x[i] - cycle) * (x[i] - cycle) / ALL;
+        }
+        if (pass == 0)
+            assert_int_equal(ss_hum_subtract(x, ALL, 0.1, CYCLE, &found), SS_OK);
+    }
+    assert_int_equal(found, SS_HUM_SUBTRACTED);
+    if (!(sqrt(left) < 0.01 * 0.1 * M_SQRT1_2))
+        fail_msg("%g is left of the hum", sqrt(left) / 0.1 / M_SQRT1_2);
+    free(x);
+}
+
 int
 main(void)
 {
@@ -485,6 +536,8 @@ main(void)
         cmocka_unit_test(counts_drops_by_their_height),
         cmocka_unit_test(falls_over_gaps_are_left_out),
         cmocka_unit_test(a_slow_drift_is_no_drop),
+        cmocka_unit_test(rests_of_a_coarse_converter_are_found),
+        cmocka_unit_test(a_hum_is_subtracted_part_by_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
