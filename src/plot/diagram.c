@@ -81,7 +81,7 @@ write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_c
     if (st != SS_OK)
         return st;
     ss_script_write_frame(out, 0.175, 0.965);
-    fputs("colour = '" BLUE "'; size = 0.1\nset xtics format ''\n"
+    fputs("colour = '" BLUE "'; size = 0.15*mark\nset xtics format ''; set border back\n"
           "set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n", out);
     ss_map_write_axis(out, 'x', x);
     for (size_t i = 1; i < n_columns; i++) {

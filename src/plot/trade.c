@@ -150,7 +150,7 @@ ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_
         for (size_t k = 0; k < KINDS; k++)
             if (models->row[i].status == SS_OK)
                 write_point(&s, models->row[i].seconds, error_of(&models->row[i], k), i, k);
-    write_axes(&s, "largest error / max", models->row[0].name, KINDS);
+    write_axes(&s, "largest or rms error / max", models->row[0].name, KINDS);
     ss_print(out, "set xrange [%.3g:%.3g]\n%s", s.time.lo / 1.6, s.time.hi * 1.6,
              s.time.hi / s.time.lo > 30 ? "" : "set xtics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20)\n");
     fputs("set arrow 1 from 1,graph 0 to 1,graph 1 nohead lc rgb '#888888' dt 2\nplot ", out);

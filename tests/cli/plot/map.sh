@@ -39,6 +39,7 @@ done
 # over one key: points of the strobe, and under them a line that is broken where there is no value
 ss-sweep --simulate --strobe 4 --max-cycles 100 -m x_phase,period,floquet --vary base_frequency=0.52:0.7:4 chaos -o d.tsv
 draw --map base_frequency,x_phase,floquet d.tsv -o d.gp
+grep -o -e 'size = [0-9.]*\*mark' -e 'set border back' d.gp     # points as large as letters are, also on the frame
 sed -n '/^\$panel2/,/^EOD/p; /^plot/p' d.gp | sed 's/\(\.[0-9][0-9]\)[0-9]*/\1/g' | uniq
 sed -n '/^\$panel1/,/^EOD/p' d.gp | awk 'NF == 2 { n[$1]++ } END { for (r in n) print r, n[r] }' | sort -n
 # counts have no values between two
