@@ -211,6 +211,32 @@ file_name(const char *path)
     return slash != NULL && slash[1] != '\0' ? slash + 1 : tool_input_name(path);
 }
 
+/* Warn if a column is drawn over one of another unit. */
+static void
+compare_units(const ss_column *under, const ss_header *over, int column, const char *path)
+{
+    const ss_column *c = &over->column[column];
+    if (under->unit[0] != '\0' && c->unit[0] != '\0' && strcmp(under->unit, c->unit) != 0)
+        tool_warn("%s: %s is in %s and lies over %s in %s", tool_input_name(path), c->name, c->unit, under->name,
+                  under->unit);
+}
+
+/* Those of another signal that lie over the columns of a signal: of the same names, or else its first. */
+static void
+compare_all_units(const drawing *d, const ss_header *over, int alike, const char *path)
+{
+    const ss_column *under = ss_reader_header(d->reader)->column;
+    int found = 0;
+    for (size_t i = 0; i < d->n && alike; i++) {
+        int same = ss_header_column(over, under[d->column[i]].name);
+        found |= same >= 0;
+        if (same >= 0)
+            compare_units(&under[d->column[i]], over, same, path);
+    }
+    if (!found && !d->xy && d->n > 0 && over->n_columns > 0)
+        compare_units(&under[d->column[0]], over, 0, path);
+}
+
 /* Draw the named columns of a signal, or all, or one over another, in the form of d, and n others over it. */
 static void
 draw_signal(const char *path, const tool_texts *name, drawing d, char *const over[], size_t n, const char *features,
@@ -229,6 +255,7 @@ draw_signal(const char *path, const tool_texts *name, drawing d, char *const ove
     for (size_t k = 0; k < n; k++) {
         others[k] = tool_read_rows(over[k], as);
         names[k + 1] = file_name(over[k]);
+        compare_all_units(&d, ss_reader_header(others[k]), opts->alike, over[k]);
     }
     opts->over = others;
     opts->n_over = n;

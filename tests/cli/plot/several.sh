@@ -38,6 +38,11 @@ done
 ss-plot -c x damping25.tsv damping5.tsv damping5.tsv -o rows.svg
 awk '/translate/ { split($0, place, /[(,)]/) } /<text>damping/ && !(place[3] in seen) { seen[place[3]]; rows++ }
     END { print rows " rows" }' rows.svg
+echo '-- other units'
+printf '# stickslip signal 1\n# rate: 10\n# start: 5\n# columns: t/s y/m q/N\n5\t1\t7\n5.1\t2\t8\n' > metres.tsv
+ss-plot one.tsv metres.tsv -o units.gp 2>&1
+ss-plot -c y one.tsv three.tsv -o units.gp 2>&1
+ss-plot -c y metres.tsv --over three.tsv -o units.gp 2>&1
 echo '-- refused'
 refused() { ss-plot "$@" > out || echo $?; }
 refused --over two.tsv one.tsv two.tsv
