@@ -9,7 +9,7 @@ wave 8000 a 'rand() - .5' > noise
 wave 3000 a 0 > silence
 wave 3000 force t > ramp
 wave 9 a 'sin(100 * p)' > short
-wave 3000 a '(t > 1) * exp(-9 * (t - 1)) * sin(40 * p)' > one
+wave 3000 a '(t > 1) * exp(-9 * (t - 1)) * cos(40 * (p - 6.283185307179586))' > one
 wave 8000 force_N '3 * t - int(3 * t)' > saw
 ss-sim coulomb > slips
 ss-sim compliant-light | ss-noise --snr 20 --seed 1 > contact
@@ -22,3 +22,5 @@ for of in wandering chirp sum noise silence ramp short one saw slips contact; do
     done
 done
 grep -h '^# about_repetition' wandering.txt chirp.txt sum.txt short.txt
+# the first spike has its line, too: a jump half way between two samples
+sed -n 's/^# spike: \([0-9.]*\) jump .*/\1/p' one.txt
