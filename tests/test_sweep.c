@@ -771,6 +771,18 @@ bristles_to_section(bristles *b)
     }
 }
 
+static ss_scene
+scene_of_bristles(const bristles *b)
+{
+    ss_scene s = read_shipped_named("lugre");
+    const struct { const char *key; double value; } set[] = {
+        { "bristle_stiffness", b->s_0 }, { "bristle_damping", b->s_1 }, { "viscous_friction", b->s_2 },
+        { "stribeck_velocity", b->v_s }, { "base_velocity", b->U } };
+    for (size_t k = 0; k < sizeof set / sizeof *set; k++)
+        assert_int_equal(ss_scene_set(&s, set[k].key, set[k].value, NULL), SS_OK);
+    return s;
+}
+
 static void
 bristles_have_the_cycles_of_runge_and_kutta(void **state)
 {
@@ -780,12 +792,7 @@ bristles_have_the_cycles_of_runge_and_kutta(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         bristles b = { 1, 2, 1, 1.5, 50, 1, .1, row[i].v_s, row[i].U, { 0 }, 0, 1, 0 };
-        ss_scene s = read_shipped_named("lugre");
-        const struct { const char *key; double value; } set[] = {
-            { "bristle_stiffness", b.s_0 }, { "bristle_damping", b.s_1 }, { "viscous_friction", b.s_2 },
-            { "stribeck_velocity", b.v_s }, { "base_velocity", b.U } };
-        for (size_t k = 0; k < sizeof set / sizeof *set; k++)
-            assert_int_equal(ss_scene_set(&s, set[k].key, set[k].value, NULL), SS_OK);
+        ss_scene s = scene_of_bristles(&b);
         for (int n = 0; n < 300; n++)
             bristles_to_section(&b);
 
@@ -826,6 +833,44 @@ bristles_have_the_cycles_of_runge_and_kutta(void **state)
         const ss_steady belt = steady_of(&s, BIT(SS_CYCLE_TIME), SS_SEARCH_SHOOT);
         is_near(belt.value[SS_CYCLE_TIME], at.value[SS_CYCLE_TIME], 1e-8, "cycle_time on a belt");
     }
+}
+
+/* Where they are chaotic, neighbours separate at the rate at which two sliders of Runge and Kutta do, whose
+ * difference is drawn together after each cycle. */
+static void
+bristles_have_the_exponent_of_two_sliders(void **state)
+{
+    enum { CYCLES = 500 };
+    const double apart = 1e-7;
+    bristles b = { 1, 2, 1, 1.5, 50, 1, .1, .2, .05, { 0 }, 0, 1, 0 };
+    ss_scene s = scene_of_bristles(&b);
+    ss_steady_opts opts;
+    ss_steady_opts_init(&opts, sizeof opts);
+    ss_steady at;
+    ss_error err;
+    double x = apart, z = 0, log_of_all = 0;
+    (void)state;
+    for (int n = 0; n < 20; n++)
+        bristles_to_section(&b);
+    const double begun = b.t;
+    for (int n = 0; n < CYCLES; n++) {
+        bristles beside = b;
+        beside.at[0] += x;
+        beside.at[2] += z;
+        bristles_to_section(&beside);
+        bristles_to_section(&b);
+        double dx = beside.at[0] - b.at[0], dz = beside.at[2] - b.at[2], far = hypot(dx, b.s_0 * dz / b.k);
+        log_of_all += log(far / apart);
+        x = dx * apart / far;
+        z = dz * apart / far;
+    }
+    opts.measures = BIT(SS_LYAPUNOV) | BIT(SS_LYAPUNOV_ERROR);
+    opts.max_cycles = 2 * CYCLES;
+    assert_int_equal(ss_steady_find(&at, &s, &opts, &err), SS_EDATA);
+    const double truth = log_of_all / (b.t - begun), error = at.value[SS_LYAPUNOV_ERROR];
+    print_message("%g +- %g, of two %g\n", at.value[SS_LYAPUNOV], error, truth);
+    assert_true(truth > 10 * error);
+    is_near(at.value[SS_LYAPUNOV], truth, 4 * sqrt(1 + 2) * error, "exponent");     /* of 1000 cycles, and of 500 */
 }
 
 /* Without damping and with friction that does not fall, a slider swings about its steady slide as a free one. */
@@ -1211,6 +1256,7 @@ main(void)
         cmocka_unit_test(finds_the_one_of_two_close_motions_that_is_approached),
         cmocka_unit_test(says_what_has_no_cycle),
         cmocka_unit_test(bristles_have_the_cycles_of_runge_and_kutta),
+        cmocka_unit_test(bristles_have_the_exponent_of_two_sliders),
         cmocka_unit_test(a_slide_without_damping_swings_freely),
         cmocka_unit_test(methods_agree),
         cmocka_unit_test(hears_the_transition_frequency),

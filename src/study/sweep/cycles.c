@@ -394,6 +394,8 @@ differences(cycles *c, int n, derivative_use use, tangent *t)
             t->d[i][j] = (up[i] - down[i]) / (by - back);
     }
     ss_cycles_begin_at(c, &end);
+    if (c->autonomous)
+        c->w.m.origin = end.origin;     /* so that the time of several cycles is known */
 }
 
 void

@@ -257,7 +257,8 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *give
         limit = compare_with_limit(&f);
     ss_periodic_free(&f);
     for (int i = 0; i < SS_MEASURES; i++)
-        if (st != SS_OK || !(opts->measures & 1u << i) || (!isfinite(out->value[i]) && i != SS_LYAPUNOV))
+        if (st != SS_OK || !(opts->measures & 1u << i)
+            || !(isfinite(out->value[i]) || (i == SS_LYAPUNOV && out->value[i] < 0)))
             out->value[i] = i == SS_PERIOD && st == SS_OK ? out->value[i] : NAN;
     out->value[SS_GROWTH] = growth;
     if (limit != SS_OK)
