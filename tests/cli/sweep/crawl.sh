@@ -5,6 +5,7 @@ set -- coulomb -s base_frequency=2.201005025125628 --vary friction=.341:.344:4
 rows "$@" > quick
 rows --simulate --max-cycles 1000000 --tol 1e-12 "$@" > whole
 cut -f 1-3 quick
-paste quick whole | awk '{ if ($3 != $9 || ($4 - $10) ^ 2 > 1e-16 || ($5 - $11) ^ 2 > 1e-24) print "differs:", $0 }'
+# within 2 tol of the unit, Z_e = .6 mm
+paste quick whole | awk '{ if ($3 != $9 || ($4 - $10) ^ 2 > 1e-16 || ($5 - $11) ^ 2 > 1.44e-24) print "differs:", $0 }'
 rows --simulate "$@" | grep -c aperiodic
 rows --vary base_frequency=.6:.61:3 --max-cycles 1000 chaos | cut -f 3
