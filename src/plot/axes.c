@@ -76,7 +76,7 @@ add_text(label *l, const char *text, int is_unit)
             add(l, "%c", *text == '\n' ? ' ' : *text);
 }
 
-/* The approximate width of the wider line, in ems of a sans serif; non-ASCII characters are superscripts. */
+/* The approximate width of the wider line, in ems of a sans serif; a non-ASCII character is a minus or a superscript. */
 static double
 width_of(const char *text)
 {
@@ -86,7 +86,7 @@ width_of(const char *text)
         if (*text == '\n')
             width = 0;
         else if (byte == 0xc0)
-            width += 0.4;
+            width += strncmp(text, "−", strlen("−")) == 0 ? 0.8 : 0.4;
         else if (byte != 0x80)
             width += strchr("fijlrtI /|.,:;!'()[]-", *text) != NULL ? 0.35
                 : strchr("mwMW@%", *text) != NULL ? 0.95 : 0.6;

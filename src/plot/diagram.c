@@ -15,7 +15,7 @@
 #define NEXT 2.2
 #define KEY 1.0                 /* and below */
 #define GAP 0.2                 /* between two */
-#define ROOM 8.0                /* for the label of a panel [ems] */
+#define ROOM 8.0                /* for the label of a panel of NEXT [ems] */
 enum { COLUMNS_MAX = 8, CELLS = 1500 };     /* CELLS: in which points of one value of the key are told apart */
 
 /* Points that would cover each other are written once. */
@@ -58,7 +58,8 @@ write_panel(script_stack *stack, const map_column *column, script_scale of_x, si
     ss_print(out, "$panel%zu << EOD\n", i);
     write_points(out, x, of_x, y, of_y, n, e);
     fputs("EOD\n", out);
-    ss_script_write_panel(stack, i == 1 ? FIRST : NEXT, GAP, ss_map_label(&label, column[i].label), of_y, ROOM);
+    double height = i == 1 ? FIRST : NEXT, room = ROOM / NEXT * height;
+    ss_script_write_panel(stack, height, GAP, ss_map_label(&label, column[i].label), of_y, room);
     ss_script_write_tics(out, "ytics", ss_script_scaled_extent(e, of_y), i == 1 ? 6 : 4);
     if (line && whole)
         ss_print(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, "

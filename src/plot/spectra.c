@@ -150,7 +150,7 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
     ss_print(out, "set logscale %s; set xrange [from:to]; set format x ''\n", opts->decibels ? "x" : "xy");
     for (size_t i = 0; i < n; i++) {
         script_extent e = extent_of(spectrum[i]);
-        double gap = i + 1 < n ? 0.08 * PANEL : 0;
+        double gap = i + 1 < n ? 0.12 * PANEL : 0;
         for (size_t k = 0; k < opts->n_over; k++)
             if ((over = over_panel(&layers[k], over_them[k], i)) != NULL)
                 ss_script_widen(&e, extent_of(over));

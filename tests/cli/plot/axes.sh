@@ -39,6 +39,10 @@ awk 'BEGIN { print "time (s),F (N)"; for (i = 0; i < 99; i++) print i/1000 "," (
 ss-plot --gaps split holes.csv | grep -o 'label 1 "[^"]*"'
 ss-signal sine --duration 0.0005 | ss-plot | grep '^plot'
 
+# An offset that leaves a label no room makes its letters smaller.
+printf 'time (s),big\n0,100000001\n1,100000003\n' > big.csv
+ss-plot big.csv | grep -o 'label 1 "[^"]*".*'
+
 # The axes of a map and of a diagram have short tics where a parameter varies little: what is drawn, plus the
 # offset, is what was varied.
 ss-sweep coulomb --vary friction=1.28:1.2801:3 --vary base_frequency=3:3.00001:3 --measure stops -o map.tsv
