@@ -32,14 +32,23 @@ ss_script_find_span(script_span *span, double start, double rate, size_t n, cons
 #define INTERVALS 6.0           /* at most, */
 #define LETTERS 34.0            /* and so many that their labels have this many letters, blanks between them */
 
-/* The step of tics, with labels that differ; *letters becomes the length of the longest. */
+#define LONGEST 8               /* letters of a label; if it had more, it has the time from a round one on */
+
+/* The step of tics, with labels that differ; *letters becomes the length of the longest, *offset, a multiple of the
+ * step, what is subtracted from them. */
 static double
-find_step(const script_span *span, int *letters, int *decimals)
+find_step(const script_span *span, int *letters, int *decimals, double *offset)
 {
     double range = span->to - span->from, step = ss_script_step(range, INTERVALS, decimals);
-    *letters = 0;
-    for (int k = -1; k <= 0; k++)
-        *letters = (int)fmax(*letters, snprintf(NULL, 0, "%.12g", step * (floor(span->to / step) + k)));
+    double whole = fmax(1, pow(10, ceil(log10(range)))), last;
+    *offset = 0;
+    for (int is_long = 1; is_long; *offset += is_long ? floor(span->from / whole) * whole : 0) {
+        *letters = 0;
+        last = floor((span->to - *offset) / step);
+        for (int k = -1; k <= 0; k++)
+            *letters = (int)fmax(*letters, snprintf(NULL, 0, "%.12g", step * (last + k)));
+        is_long = *letters > LONGEST && *offset == 0 && fabs(span->from) > whole;
+    }
     return ss_script_step(range, fmin(INTERVALS, fmax(1, LETTERS / (*letters + 1))), decimals);
 }
 
@@ -47,7 +56,7 @@ int
 ss_script_write_span(FILE *out, const script_span *span)
 {
     int letters, step_decimals, decimals = ss_script_decimals(span->to - span->from);
-    double step = find_step(span, &letters, &step_decimals);
+    double offset, step = find_step(span, &letters, &step_decimals, &offset);
     fputs("from = ", out);
     ss_script_write(out, span->from, decimals, "         # s\n");
     fputs("to = ", out);
@@ -61,10 +70,16 @@ void
 ss_script_write_time_labels(FILE *out, const script_span *span)
 {
     int letters, decimals;
-    double far = fmax(fabs(span->from), fabs(span->to)), step = find_step(span, &letters, &decimals);
-    double unit = far < 1e-6 ? 1e-9 : far < 1e-3 ? 1e-6 : 1;
+    double offset, step = find_step(span, &letters, &decimals, &offset);
+    double far = fmax(fabs(span->from), fabs(span->to)), unit = far < 1e-6 ? 1e-9 : far < 1e-3 ? 1e-6 : 1;
+    int named = unit < 1 || offset != 0;
     fputs("set xtics format '%.12g'\n", out);
-    for (double k = ceil(span->from / step), first = k; unit < 1 && k * step <= span->to; k++)
-        ss_print(out, "set xtics %s('%.12g' %.12g)\n", k == first ? "" : "add ", k * step / unit, k * step);
-    ss_print(out, "set xlabel 'time / %s' noenhanced offset 0,0.5\n", unit < 1e-6 ? "ns" : unit < 1 ? "µs" : "s");
+    for (double k = ceil(span->from / step), first = k; named && k * step <= span->to; k++)
+        ss_print(out, "set xtics %s('%.12g' %.15g)\n", k == first ? "" : "add ",
+                 nearbyint(k - offset / step) * step / unit, k * step);
+    if (offset != 0)
+        ss_print(out, "set xlabel '(time − %.15g s) / s' noenhanced offset 0,0.5\n", offset);
+    else
+        ss_print(out, "set xlabel 'time / %s' noenhanced offset 0,0.5\n",
+                 unit < 1e-6 ? "ns" : unit < 1 ? "µs" : "s");
 }

@@ -43,6 +43,13 @@ ss-signal sine --duration 0.0005 | ss-plot | grep '^plot'
 printf 'time (s),big\n0,100000001\n1,100000003\n' > big.csv
 ss-plot big.csv | grep -o 'label 1 "[^"]*".*'
 
+# Times far from 0 count from a round one.
+for step in 0.1 0.001; do
+    awk -v step=$step 'BEGIN { print "time (s),x"
+        for (i = 0; i < 40; i++) printf "%.6f,%d\n", 1795764879.124 + i * step, i % 7 }' > epoch.csv
+    ss-plot epoch.csv | grep -e '^set xtics add' -e '^set xlabel'
+done
+
 # The axes of a map and of a diagram have short tics where a parameter varies little: what is drawn, plus the
 # offset, is what was varied.
 ss-sweep coulomb --vary friction=1.28:1.2801:3 --vary base_frequency=3:3.00001:3 --measure stops -o map.tsv
