@@ -34,8 +34,8 @@ ss_script_find_span(script_span *span, double start, double rate, size_t n, cons
 
 #define LONGEST 8               /* letters of a label; if it had more, it has the time from a round one on */
 
-/* The step of tics, with labels that differ; *letters becomes the length of the longest, *offset, a multiple of the
- * step, what is subtracted from them. */
+/* The step of tics, with labels that differ; *letters becomes the length of the longest, *offset, a multiple of
+ * the step, what is subtracted from them. */
 static double
 find_step(const script_span *span, int *letters, int *decimals, double *offset)
 {
