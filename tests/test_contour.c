@@ -303,9 +303,10 @@ palettes_darken_or_lighten_evenly(void **state)
 
 /* --- ridges, zoom, marks ------------------------------------------------------------------------ */
 
-/* The largest |W| of exp(i w t) is where a^1/2 exp(-(a w - c)^2 / 2) is; with the norm 1/a at a w = c.  The exponent
- * is a parabola in a.  The cubic part of ln a^1/2, u^3/6 in u = ln a, moves the top of one through three points h
- * apart by h^2/6/c^2 at most.  Scripts have three decimals.  (Below 10 Hz there are ridges of the record's ends.) */
+/* The largest |W| of exp(i w t) is where a^1/2 exp(-(a w - c)^2 / 2) is; with the norm 1/a at a w = c.  The
+ * exponent is a parabola in a.  The cubic part of ln a^1/2, u^3/6 in u = ln a, moves the top of one through three
+ * points h apart by h^2/6/c^2 at most.  Scripts have three decimals.  (Below 10 Hz there are ridges of the
+ * record's ends.) */
 static void
 the_ridge_lies_on_a_steady_oscillation(void **state)
 {

@@ -121,8 +121,8 @@ extern const char *const ss_palettes[];
  * A mark outside the span or the labels that are drawn is left out. */
 ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
                           const ss_contour_opts *contour, const ss_plot_opts *opts, ss_error *err);
-/* Write the ridge points that such a picture marks, as rows of time and of the frequency and the amplitude of the
- * steady oscillation that has such a ridge.  ss_table_read reads them (SS_KIND_RIDGE).  SS_EINVAL: the format holds
+/* Write the ridge points that such a picture marks, as rows of time and of the frequency and the amplitude of
+ * the steady oscillation that has such a ridge.  ss_table_read reads them (SS_KIND_RIDGE).  SS_EINVAL: the format holds
  * numbers only. */
 ss_status ss_ridge_write(FILE *out, const ss_coefficients *coefficients, const ss_contour_opts *contour,
                          const ss_plot_opts *opts, ss_format format, ss_error *err);

@@ -76,7 +76,7 @@ add_text(label *l, const char *text, int is_unit)
             add(l, "%c", *text == '\n' ? ' ' : *text);
 }
 
-/* The approximate width of the wider line, in ems of a sans serif; what is not ASCII is a minus or a superscript. */
+/* The approximate width of the wider line, in ems; what is not ASCII is a minus or a superscript. */
 static double
 width_of(const char *text)
 {
