@@ -152,8 +152,9 @@ push(const state *m, double x)
 }
 
 /* A contact that goes no further than this beyond its limit only touches it.  The distance is ten times
- * the error of x in a step, which is that of an integrator in the course of a stick.  In units of the limit it is
- * at most 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4 for one of 0.1 ms in the light scene). */
+ * the error of x in a step, which is that of an integrator in the course of a stick.  In units of the
+ * limit it is at most 1e-6, a hundredth of the excursion of the shortest micro-slips (2e-4 for one of
+ * 0.1 ms in the light scene). */
 #define GRAZE_TOL 10
 #define GRAZE_MOST 1e-6
 

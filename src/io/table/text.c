@@ -320,7 +320,8 @@ find_kinds(struct text *x, const char *row)
     for (size_t i = 0; shape != NULL && column != NULL && i < n; i++) {
         unsigned parts = ss_stamp_read(x->cell[i]).parts;
         int empty = shape[i] == 'e' && !ss_text_may_lack(x);
-        column[i].kind = shape[i] == 't' || empty || (x->settings && i < 2) ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS : COLUMN_NUMBERS;
+        int is_words = shape[i] == 't' || empty || (x->settings && i < 2);
+        column[i].kind = is_words ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS : COLUMN_NUMBERS;
         column[i].begins_empty = empty && !x->labview;
         column[i].stamps = ss_stamp_column(parts);
     }
