@@ -11,7 +11,7 @@
 #define LEFT 2.0
 #define BAR 0.36
 #define AXIS 1.1                /* and below each */
-#define ROOM 9.0                /* for the label of a panel [ems] */
+#define ROOM 9.0                /* for the label of a panel of LEFT [ems] */
 enum { POINTS = 8000 };         /* of a line */
 
 /* A column, what is drawn of it, and its scale. */
@@ -30,7 +30,7 @@ axis_of(const ss_column *column, script_extent extent)
 static void
 write_panel(script_stack *stack, double height, const axis *x, const axis *y, int intervals)
 {
-    ss_script_write_panel(stack, height, AXIS, &y->column, y->scale, ROOM);
+    ss_script_write_panel(stack, height, AXIS, &y->column, y->scale, ROOM / LEFT * height);
     ss_script_write_x_label(stack->out, &x->column, x->scale);
     ss_script_write_tics(stack->out, "xtics", ss_script_scaled_extent(x->extent, x->scale), 6);
     ss_script_write_tics(stack->out, "ytics", ss_script_scaled_extent(y->extent, y->scale), intervals);
