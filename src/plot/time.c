@@ -34,20 +34,26 @@ ss_script_find_span(script_span *span, double start, double rate, size_t n, cons
 
 #define LONGEST 8               /* letters of a label; if it had more, it has the time from a round one on */
 
+/* The letters of the longest of the last two labels up to a time. */
+static int
+letters_up_to(double t, double step)
+{
+    const double last = floor(t / step);
+    return (int)fmax(snprintf(NULL, 0, "%.12g", step * (last - 1)), snprintf(NULL, 0, "%.12g", step * last));
+}
+
 /* The step of tics, with labels that differ; *letters becomes the length of the longest, *offset, a multiple of
  * the step, what is subtracted from them. */
 static double
 find_step(const script_span *span, int *letters, int *decimals, double *offset)
 {
     double range = span->to - span->from, step = ss_script_step(range, INTERVALS, decimals);
-    double whole = fmax(1, pow(10, ceil(log10(range)))), last;
+    double whole = fmax(1, pow(10, ceil(log10(range))));
     *offset = 0;
-    for (int is_long = 1; is_long; *offset += is_long ? floor(span->from / whole) * whole : 0) {
-        *letters = 0;
-        last = floor((span->to - *offset) / step);
-        for (int k = -1; k <= 0; k++)
-            *letters = (int)fmax(*letters, snprintf(NULL, 0, "%.12g", step * (last + k)));
-        is_long = *letters > LONGEST && *offset == 0 && fabs(span->from) > whole;
+    *letters = letters_up_to(span->to, step);
+    if (*letters > LONGEST && fabs(span->from) > whole) {
+        *offset = floor(span->from / whole) * whole;
+        *letters = letters_up_to(span->to - *offset, step);
     }
     return ss_script_step(range, fmin(INTERVALS, fmax(1, LETTERS / (*letters + 1))), decimals);
 }

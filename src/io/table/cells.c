@@ -84,7 +84,7 @@ is_no_number(const char *cell)
     return 0;
 }
 
-/* 9.9E37 is infinite, and 9.91E37 no number (SCPI 1999, 7.2.1.4 and 5). */
+/* SCPI writes 9.9E37 for infinity, and 9.91E37 for no number. */
 int
 ss_is_value(double x)
 {
