@@ -1,6 +1,6 @@
 /* model.h -- a friction model is a table of properties and of functions that move its state.
  *
- * A new model is a file like state_variable.c and a line in models.c.  It names the keys of its own
+ * A new model is a file like state_variable.c and a row in models.h.  It names the keys of its own
  * parameters, whose values stand in ss_scene.own at the places that its enumeration gives them.
  * All other code reads the table.  NULL in the table means that the model lacks the property.
  *

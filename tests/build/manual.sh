@@ -31,8 +31,14 @@ printf '#include <stickslip.h>\n#define NUMBER(NAME, name, unit, about, needs, b
     $CC -I"$SRC/include" -x c -E -P - | grep -o '@ "[a-z_]*"' | tr -d '@ "' > "$OLDPWD/numbers"
 [ -s "$OLDPWD/numbers" ] || echo "no numbers"
 while read -r name; do
-    cat ./stickslip-features.7 | grep -qE "^\\.(Cm|It)( .*)? $name( |\$)" || echo "not in stickslip-features(7): $name"
+    grep -qE "^\\.(Cm|It)( .*)? $name( |\$)" ./stickslip-features.7 || echo "not in stickslip-features(7): $name"
 done < "$OLDPWD/numbers"
+# stickslip-scene(5) names each key of a law.
+sed -n 's/.*OWN_\(NUMBER\|WORD\)("\([a-z0-9_]*\)".*/\2/p' "$SRC"/src/scene/*.c > "$OLDPWD/keys"
+[ -s "$OLDPWD/keys" ] || echo "no keys"
+while read -r key; do
+    grep -qE "^\\.(Cm|It)( .*)? $key( |\$)" ./stickslip-scene.5 || echo "not in stickslip-scene(5): $key"
+done < "$OLDPWD/keys"
 # What a user reads first is short.
 for bound in README.md:140 CHANGELOG.md:40; do
     [ "$(wc -l < "$SRC/${bound%:*}")" -le "${bound#*:}" ] || echo "longer than ${bound#*:} lines: ${bound%:*}"

@@ -2,7 +2,8 @@
 # that writes signals, coefficients or rows writes it.  It has a line FISH, then its rate, names and
 # numbers with a bar between.
 mkdir -p src/io bin
-sed 's/^    row(npy)$/    row(npy) \\\n    row(fish)/' "$SRC/src/io/format.h" > src/io/format.h
+awk '/define FORMAT_LIST/ { inside = 1 } inside && !/\\$/ { print $0 " \\"; print "    row(fish)"; inside = 0; next }
+    { print }' "$SRC/src/io/format.h" > src/io/format.h
 diff "$SRC/src/io/format.h" src/io/format.h | grep -c '^> ' || true
 . "$SRC/tests/build/block.inc"
 block src/io/fish.c > src/io/fish.c
