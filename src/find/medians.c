@@ -104,3 +104,13 @@ ss_loading_medians(ss_features *out, const ss_drop *drop, const double *shared, 
     /* v still holds the errors of k/m */
     add_misfit(&out->number[SS_K_OVER_M], shared[SLIP_K_OVER_M], v, out->n, scratch);
 }
+
+double
+ss_smallest_change(const double *x, size_t n)
+{
+    double smallest = INFINITY;
+    for (size_t i = 1; i < n; i++)
+        if (x[i] != x[i - 1])
+            smallest = fmin(smallest, fabs(x[i] - x[i - 1]));
+    return smallest;
+}

@@ -15,5 +15,7 @@ ss_number ss_median_of(const ss_value *v, size_t n, double *scratch);
  * scratch have room for all loadings. */
 void ss_loading_medians(ss_features *out, const ss_drop *drop, const double *shared, const ss_number *damping,
                         ss_value *v, double *scratch);
+/* The smallest change from one of n values to the next, as a converter's step; infinite: there is none. */
+double ss_smallest_change(const double *x, size_t n);
 
 #endif

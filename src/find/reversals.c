@@ -84,7 +84,7 @@ find_reversals(search *s, const double *x, double level)
 
 typedef struct plateau {
     ss_window slip;
-    double level, quartile;     /* quartile: on the side of the other level */
+    double level, spread;       /* spread: from the level to the quartile on the side of the other */
     int stays;
 } plateau;
 
@@ -115,7 +115,7 @@ find_plateau(const search *s, const ss_transition *t, int is_last, const double 
         there += sign * x[i] >= least;
     p.stays = there > HALF * time * s->rate;
     p.level = select(x, p.slip, 0.5, copy);
-    p.quartile = select(x, p.slip, sign > 0 ? 0.25 : 0.75, copy);
+    p.spread = fabs(p.level - select(x, p.slip, sign > 0 ? 0.25 : 0.75, copy));
     return p;
 }
 
@@ -126,42 +126,54 @@ at_goal(const double *z, const double *x, size_t i, double goal)
     return z[i - 1] + (goal - x[i - 1]) / (x[i] - x[i - 1]) * (z[i] - z[i - 1]);
 }
 
-/* The slope from a to b.  Its error is that of a sample at either end. */
+/* The slope from a to b, without so much of the force at either end.  Its error is that of a sample at either end,
+ * or of the displacement's least change. */
 static ss_value
-find_stiffness(const double *x, const double *z, const plateau *a, const plateau *b)
+find_slope(const double *x, const double *z, double least, const plateau *a, const plateau *b,
+           const double near[2])
 {
-    double step = b->level - a->level, begin = a->level + NEAR * step, end = b->level - NEAR * step;
+    double sign = b->level > a->level ? 1 : -1, begin = a->level + sign * near[0], end = b->level - sign * near[1];
     size_t to = a->slip.end, from;
-    while (to < b->slip.end && (x[to] - end) * step < 0)
+    while (to < b->slip.end && (x[to] - end) * sign < 0)
         to++;
     if (to == b->slip.end)
         return unknown;
-    for (from = to; from > a->slip.first && (x[from - 1] - begin) * step > 0; from--)
+    for (from = to; from > a->slip.first && (x[from - 1] - begin) * sign > 0; from--)
         ;
-    if (from == a->slip.first)
+    if (from == a->slip.first || to - from < FEW)
         return unknown;
-    double way = at_goal(z, x, to, end) - at_goal(z, x, from, begin);
-    double stiffness = fabs((1 - 2 * NEAR) * step / way);
-    double error = hypot(z[to] - z[to - 1], z[from] - z[from - 1]) / fabs(way);
-    return to - from >= FEW && error < 1 / SIGMAS
-        ? (ss_value){ stiffness, stiffness * error } : unknown;
+    double way = at_goal(z, x, to, end) - at_goal(z, x, from, begin), slope = fabs((end - begin) / way);
+    double error = hypot(fmax(fabs(z[to] - z[to - 1]), least), fmax(fabs(z[from] - z[from - 1]), least));
+    return (ss_value){ slope, slope * error / fabs(way) };
+}
+
+/* The slope from a to b without a small part of the step at either end.  By how much it moves, if that part grows
+ * by how far the levels spread, is in its error: where a level is not flat, the step has no clear end. */
+static ss_value
+find_stiffness(const double *x, const double *z, double least, const plateau *a, const plateau *b)
+{
+    double part = NEAR * fabs(b->level - a->level);
+    ss_value slope = find_slope(x, z, least, a, b, (double[]){ part, part });
+    ss_value inner = find_slope(x, z, least, a, b, (double[]){ part + a->spread, part + b->spread });
+    return (ss_value){ slope.value, hypot(slope.error, inner.value - slope.value) };
 }
 
 /* Friction and stiffness by the step from one plateau to the next; they stay as they are if there is none. */
 static void
-measure(const search *s, const double *x, size_t i, const plateau *p, ss_value *friction, ss_value *stiffness)
+measure(const search *s, const double *x, const double least[2], size_t i, const plateau *p, ss_value *friction,
+        ss_value *stiffness)
 {
     const plateau *a = &p[i - 1], *b = &p[i];
     double from = s->out->transition[i - 1].onset, to = s->out->transition[i].onset;
     double size = fabs(b->level - a->level) / 2;
-    double off = (fabs(a->level - a->quartile) + fabs(b->level - b->quartile)) / 2;
+    double off = fmax((a->spread + b->spread) / 2, least[0] / sqrt(12));
     if (a->level * b->level >= 0 || !a->stays || !b->stays
         || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from)))
         return;
     *friction = (ss_value){ s->largest * size, s->largest * off };
     if (s->opts->displacement < 0)
         return;
-    *stiffness = find_stiffness(x, s->signal->values + (size_t)s->opts->displacement * s->n, a, b);
+    *stiffness = find_stiffness(x, s->signal->values + (size_t)s->opts->displacement * s->n, least[1], a, b);
     stiffness->value *= s->largest;
     stiffness->error *= s->largest;
 }
@@ -181,6 +193,8 @@ ss_reversals_find(search *s, const double *x)
     double *copy = malloc((s->n + 1) * sizeof *copy);
     ss_status st = copy != NULL ? find_reversals(s, x, level_of(x, s->n, copy)) : SS_ENOMEM;
     size_t stay = 0, n = out->n;
+    const double least[2] = { ss_smallest_change(x, s->n), s->opts->displacement < 0 ? 0
+        : ss_smallest_change(s->signal->values + (size_t)s->opts->displacement * s->n, s->n) };
     plateau *p = malloc((n + 1) * sizeof *p);
     ss_value *friction = malloc(2 * (n + 1) * sizeof *friction), *stiffness = friction + n + 1;
     if (p == NULL || friction == NULL)
@@ -190,7 +204,7 @@ ss_reversals_find(search *s, const double *x)
         stay += (size_t)p[i].stays;
         friction[i] = stiffness[i] = unknown;
         if (i > 0)
-            measure(s, x, i, p, &friction[i], &stiffness[i]);
+            measure(s, x, least, i, p, &friction[i], &stiffness[i]);
     }
     if (st == SS_OK && 2 * stay > n) {
         out->number[SS_FRICTION] = known_median(friction, n, copy);

@@ -13,6 +13,7 @@
 #include "base/gauss.h"
 #include "base/least.h"
 #include "base/options.h"
+#include "find/medians.h"
 
 const char *const ss_quantity_names[SS_QUANTITIES + 1] = { "x", "v", "a", "f", "s", NULL };
 
@@ -121,16 +122,6 @@ cycle_variance(const rank_record *r, double samples, double *d)
             d[count++] = (r->x[i] - later) / sqrt(1 + (1 - part) * (1 - part) + part * part);
         }
     return gaussian_variance(d, count);
-}
-
-double
-ss_smallest_change(const double *x, size_t n)
-{
-    double smallest = INFINITY;
-    for (size_t i = 1; i < n; i++)
-        if (x[i] != x[i - 1])
-            smallest = fmin(smallest, fabs(x[i] - x[i - 1]));
-    return smallest;
 }
 
 /* The variance of a converter's steps: a twelfth of the square of the smallest, and a ninth for noise of a

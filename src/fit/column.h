@@ -27,8 +27,6 @@ ss_status ss_column_check(const ss_signal *signal, size_t column, const ss_rank_
 /* SS_OK for a column that has no unit, or the unit that scenes have: the sizes of both are compared. */
 ss_status ss_column_check_unit(const ss_signal *signal, size_t column, ss_quantity quantity,
                                ss_error *err);
-/* The smallest change from one of n values to the next, as a converter's step; infinite: there is none. */
-double ss_smallest_change(const double *x, size_t n);
 /* The variance of the samples. */
 double ss_record_power(const rank_record *r);
 /* Set r->noise and r->steps of a record that repeats after so many samples; 0: nothing repeats. */

@@ -21,6 +21,7 @@
 #include "base/error.h"
 #include "base/list.h"
 #include "base/number.h"
+#include "find/medians.h"
 #include "fit/column.h"
 #include "fit/loaded.h"
 #include "fit/wander.h"
