@@ -33,7 +33,7 @@ for folder in "${@:-src/find src/fit}"; do
                     rest = $0
                     while (match(rest, /[0-9]*\.[0-9]+(e-?[0-9]+)?|[0-9]+\.?e-?[0-9]+/)) {
                         value = substr(rest, RSTART, RLENGTH)
-                        if (value != "0.5" && value != "0.25" && value !~ /^1e/ && !((NR, value) in seen))
+                        if (value !~ /^0?\.(5|25)$/ && value !~ /^1e/ && !((NR, value) in seen))
                             say("line " NR, value)
                         seen[NR, value] = 1
                         rest = substr(rest, RSTART + RLENGTH)
