@@ -23,6 +23,7 @@
 #include <string.h>
 
 enum { REFUSED = 6 };           /* steps in a row, each shorter, that end a fit: it is at the least */
+enum { ENOUGH = 60 };           /* steps of a fit that says no other number */
 #define LITTLE_NOISE 0.01       /* times noise: the squares change by about noise for no reason */
 #define UNSEEN 1e-12            /* of a column that others explain: less is rounding */
 
@@ -257,7 +258,7 @@ iterate(descent *d, gsl_multilarge_nlinear_workspace *space, gsl_multilarge_nlin
     end->why = "it takes too many steps";
     if (ended != GSL_SUCCESS || !isfinite(d->squares))
         end->why = "there is no model where it starts";
-    while (ended == GSL_SUCCESS && isfinite(d->squares) && !end->converged && end->steps < d->fit->steps) {
+    while (ended == GSL_SUCCESS && isfinite(d->squares) && !end->converged && end->steps < (d->fit->steps > 0 ? d->fit->steps : ENOUGH)) {
         double squares = d->squares;
         int was_old = d->is_old;
         int is_still = d->fit->costly && is_little_gain(d, predicted_gain(d, space, before + d->fit->unknowns));

@@ -20,7 +20,7 @@ typedef struct least {
     int costly;                 /* 1: slopes are kept as long as steps by them gain as they predict; they may
                                    then be wanted for another u than the residuals written last */
     double farthest;            /* the longest step of an unknown, as slopes do not hold farther; 0: any */
-    size_t steps;               /* at most */
+    size_t steps;               /* at most; 0: 60 */
     double tol;                 /* a step ends the fit if no unknown changes by more than this part of it, */
     double noise;               /* or if it lessens the squares by less than a hundredth of this variance of a
                                    residual, */

@@ -17,7 +17,7 @@
 #include "base/least.h"
 
 enum { ONSET, END, TOP, BOTTOM, BEFORE, BEHIND, BEND, PARAMETERS };
-enum { MOST = 256, STEPS = 60 };        /* most samples, more are averaged; most iterations */
+enum { MOST = 256 };                    /* samples: more are averaged */
 
 typedef struct fall {
     size_t n;
@@ -75,7 +75,7 @@ ss_inertia_sign(int *sign, const double *x, ss_window room, const ss_slip *slip,
         least_end ended;
         ss_status st = ss_least_fit(&ended, &(least){ .rows = f.n, .unknowns = f.relaxes ? PARAMETERS : BEND,
                                                       .model = model, .user = &f, .range = range,
-                                                      .difference = step, .steps = STEPS, .tol = 1e-6 },
+                                                      .difference = step, .tol = 1e-6 },
                                     p, NULL, NULL);
         if (st != SS_OK)
             return st;

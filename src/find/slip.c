@@ -22,9 +22,6 @@
 #include "find/judgement.h"
 
 enum { ONSET, TOP, MIDDLE, SPEED, DAMPING, FITTED };    /* onset behind the first sample used; SPEED: w */
-enum { STEPS = 60 };                            /* most iterations */
-#define EXPLAINED 0.98          /* part of the sum of squares about the mean: a fit that explains less is
-                                   another shape */
 #define DEEP 0.8                /* part of D: 10 and 90 % of the fall lie at f_k +- so much */
 #define SMALL 1e-6              /* part of a parameter, of 1 for damping: a step for slopes */
 
@@ -220,9 +217,9 @@ ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t l
     least_end end;
     ss_slip s = { .power = gsl_stats_tss(f.x, 1, f.n), .n = (double)f.n };
     ss_status st = ss_least_fit(&end, &(least){ .rows = f.n, .unknowns = FITTED, .model = model, .user = &f,
-                                                .range = range, .difference = step, .steps = STEPS,
-                                                .tol = 1e-8 }, p, left, covariance);
-    if (st == SS_OK && end.converged && end.squares <= (1 - EXPLAINED) * s.power) {
+                                                .range = range, .difference = step, .tol = 1e-8 },
+                               p, left, covariance);
+    if (st == SS_OK && end.converged && end.squares <= (1 - SLIP_EXPLAINED) * s.power) {
         s.left = end.squares;
         s.variance = end.squares / (double)(f.n - FITTED) * ss_colour(left, NULL, f.n, 0);
         fill(&s, &f, p, step, covariance);

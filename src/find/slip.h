@@ -7,6 +7,7 @@
 
 /* The order of the numbers of a slip. */
 enum { SLIP_ONSET, SLIP_END, SLIP_DROP, SLIP_DURATION, SLIP_TOP, SLIP_MIDDLE, SLIP_K_OVER_M, SLIP_NUMBERS };
+#define SLIP_EXPLAINED 0.98     /* part of the sum of squares: a fit that explains less is another shape */
 enum { SLIP_PARTS = 24 };       /* parts of the time from one length of the slip before it to one behind it */
 
 /* Times in samples, forces in the unit of the samples. */

@@ -16,6 +16,7 @@
 #include <stickslip/sim.h>
 #include "base/error.h"
 #include "base/number.h"
+#include "find/judgement.h"
 #include "fit/forced.h"
 #include "fit/samples.h"
 #include "scene/model.h"
@@ -28,9 +29,6 @@ enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at
 #define FAR 10.0                        /* factor of the range that is searched */
 #define LOW 0.1                         /* the least f_k / (k Z_e): below it sticks are too short to fit */
 #define SHORT 0.25                      /* periods of the contact: shorter sticks show no stiffness */
-#define VAGUE 0.3                       /* a parameter with a larger relative error is not determined */
-#define REFUTED 9.                      /* a gain that refutes a term held: three standard errors, as a lag
-                                           puts the other numbers off by more than it can be seen itself */
 
 typedef struct fitting {
     const double *x;                    /* the column, of n samples */
@@ -178,7 +176,7 @@ vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *erro
         *error = fit->key[i].found.error;
         if (range != NULL && (w->best.u[k] <= range->from || w->best.u[k] >= range->to))
             *error = INFINITY;
-        if (!(*error <= VAGUE * *value))
+        if (!(SIGMAS * *error <= *value))
             return fit->key[i].name;
     }
     return NULL;
@@ -195,7 +193,7 @@ judge_held(ss_fit *fit, const fitting *w)
         return st;
     for (forced_term term = 1; term < HELD_TERMS; term++)
         most = of[term].gain > of[most].gain ? term : most;
-    if (!(of[most].gain > REFUTED))
+    if (!(of[most].gain > SIGMAS * SIGMAS))   /* a lag puts numbers off by more than it can be seen itself */
         return SS_OK;
     if (most == HELD_DAMPING)
         ss_print_to(fit->why, sizeof fit->why, "the scene's damping is not that of the rig, which may be %.3g",

@@ -212,7 +212,7 @@ minimise(fitting *w, double *u)
 {
     static const double wide[] = { SAMPLES_REACH - 1, 4, 1 };
     least fit = { .rows = w->r->n, .unknowns = FORCED_MOVED, .model = motion_model, .user = w, .costly = 1,
-                  .range = w->range, .farthest = FARTHEST, .steps = 48, .tol = 1e-9 };
+                  .range = w->range, .farthest = FARTHEST, .tol = 1e-9 };
     ss_status st = SS_OK;
     for (size_t i = 0; st == SS_OK && i < sizeof wide / sizeof *wide; i++) {
         least_end end;

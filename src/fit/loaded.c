@@ -26,7 +26,6 @@ enum { STARTS = 4, NEAR = 12 };    /* NEAR: rows about a change that are not thi
 #define STIFF 5000              /* ways over a/k that are not tried on the grid: they take most of its time */
 #define DIFFERENCE 1e-5         /* of an unknown, for slopes */
 #define APART 0.1               /* of an unknown, that makes two fits of one */
-#define AS_LIKELY 5             /* difference of logarithms of likelihood that does not tell two fits */
 
 typedef struct start {
     double u[UNKNOWNS], squares, ratio;
@@ -172,7 +171,6 @@ try_start(start best[STARTS], law *l, double ratio, double critical, double ring
 static ss_status
 search(start best[STARTS], law *l, const law *other, double stiffness)
 {
-    static const double ratio[] = { 0, 0.4, 0.7, 0.9, 1.05, 1.2, 1.5, 2 };
     const double way = way_of(l->record);
     ss_status st = SS_OK;
     for (int i = 0; i < STARTS; i++)
@@ -181,12 +179,12 @@ search(start best[STARTS], law *l, const law *other, double stiffness)
         if (st == SS_OK && isfinite(s->squares))
             st = try_start(best, l, s->ratio, s->u[CRITICAL], s->u[RING], exp(s->u[STIFFNESS] - s->u[DIRECT]),
                            stiffness);
-    for (size_t j = 0; other == NULL && j < sizeof ratio / sizeof *ratio; j++)
-        for (double K = 0.03; K < 100; K *= 3.5)
-            for (double w = 3 / way; w < 2000 / way && st == SS_OK; w *= 1.5) {
+    for (double ratio = 0; other == NULL && ratio <= 2; ratio += 0.25)
+        for (double K = 1 / 32.; K < 100; K *= 4)
+            for (double w = 3 / way; w < 2000 / way && st == SS_OK; w *= M_SQRT2) {
                 const double Dc = sqrt(K) / w, over = sqrt(K) * w;
-                if (Dc > way / 300 && Dc < way && K > ratio[j] - 1 && over * way < STIFF)
-                    st = try_start(best, l, ratio[j], (ratio[j] - 1) / K, 2 * log(w), over, stiffness);
+                if (Dc > way / 300 && Dc < way && K > ratio - 1 && over * way < STIFF)
+                    st = try_start(best, l, ratio, (ratio - 1) / K, 2 * log(w), over, stiffness);
             }
     return st;
 }
@@ -197,7 +195,7 @@ static ss_status
 fit(law *l, double u[UNKNOWNS], double noise, double *squares, double *covariance)
 {
     const least how = { .rows = l->record->n, .unknowns = UNKNOWNS, .model = whitened, .user = l,
-                        .range = l->range, .steps = 50, .tol = 1e-7, .noise = noise, .farthest = 1.5 };
+                        .range = l->range, .tol = 1e-7, .noise = noise, .farthest = 1 };
     least_end end = { 0 };
     ss_status st = ss_least_fit(&end, &how, u, NULL, covariance);
     *squares = end.squares;
@@ -266,9 +264,9 @@ are_apart(const double u[UNKNOWNS], const double v[UNKNOWNS])
     return most > APART;
 }
 
-/* Find where the fit to all rows starts, and a rival.  *unlikely becomes -2 times its logarithm of likelihood. */
+/* Find where the fit to all rows starts, and a rival. */
 static ss_status
-begin(law *all, const law *other, double stiffness, double *unlikely)
+begin(law *all, const law *other, double stiffness)
 {
     const ss_range *range = all->range;
     track few;
@@ -297,8 +295,7 @@ begin(law *all, const law *other, double stiffness, double *unlikely)
             second = squares;
         }
     }
-    *unlikely = (double)few.n * log(all->squares);
-    if (second > all->squares * exp(2 * AS_LIKELY / (double)few.n))
+    if (second > all->squares * exp(2 * LOADED_DECISIVE / (double)few.n))
         all->rival[0] = NAN;
     free(few.t);
     free(few.place);
@@ -420,7 +417,7 @@ settle(law *l, double free_rows)
         swap(&l->squares, &squares, 1);
     }
     if (isinf(squares) || !are_apart(l->u, l->rival)
-        || (double)l->record->n * log(squares / l->squares) > 2 * AS_LIKELY)
+        || (double)l->record->n * log(squares / l->squares) > 2 * LOADED_DECISIVE)
         l->rival[0] = NAN;
     else
         report(&l->other, l, l->rival, covariance, squares / free_rows);
@@ -455,7 +452,6 @@ struct loaded {
     law law[SS_STEP_LAWS];
     ss_range range[UNKNOWNS];
     double free_rows, line, logarithms;         /* see fit_line */
-    double unlikely;                            /* of the better law's start */
     double *room;
 };
 
@@ -511,9 +507,9 @@ all_rows(const double *u, double *residual, double *slopes, void *user)
 static ss_status
 fit_joint(joint *j, size_t starts)
 {
-    enum { FEW = 5, MANY = 50 };
+    enum { FEW = 5 };
     least how = { .rows = j->rows, .unknowns = j->unknowns, .model = all_rows, .user = j, .range = j->range,
-                  .steps = FEW, .tol = 1e-7, .noise = 1, .farthest = 1.5 };
+                  .steps = FEW, .tol = 1e-7, .noise = 1, .farthest = 1 };
     least_end end;
     double least_squares = INFINITY, free_rows = (double)(j->n - 1) * SHARED;
     for (size_t i = 0; i < j->n; i++) {
@@ -534,7 +530,7 @@ fit_joint(joint *j, size_t starts)
         } else if (st != SS_OK && st != SS_EDATA)
             return st;
     }
-    how.steps = MANY;
+    how.steps = 0;
     ss_status st = ss_least_fit(&end, &how, j->best, j->residual, j->covariance);
     for (size_t i = 0, row = 0; st == SS_OK && i < j->n; i++) {
         law *l = &j->step[i]->law[j->k];
@@ -650,29 +646,21 @@ ss_loaded_new(loaded **out, const track *record, const loaded *other, double sti
         most = fmax(most, fabs(record->mu[i]));
     const ss_range of_stiffness = stiffness > 0 ? (ss_range){ held, held }
         : (ss_range){ log(1e-5 / way), log(1e4 * most / way) };
-    const loaded empty = { .free_rows = (double)(n - UNKNOWNS + (stiffness > 0)), .line = NAN, .logarithms = NAN, .unlikely = INFINITY,
-        .range = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), log(most) }, { -1000, 1.5 },
+    const loaded empty = { .free_rows = (double)(n - UNKNOWNS + (stiffness > 0)), .line = NAN, .logarithms = NAN,
+        .range = { { -1e9, 1e9 }, { -1e300, 1e300 }, { log(1e-7), log(most) }, { -1000, 2 },
                    { log(0.01 / (way * way)), log(1e9 / (way * way)) }, of_stiffness } };
     loaded *s = *out = malloc(sizeof *s);
     if (s == NULL)
         return SS_ENOMEM;
     *s = empty;
     s->room = malloc(n * (1 + UNKNOWNS) * sizeof *s->room);
-    double unlikely = INFINITY;
     ss_status st = s->room != NULL ? SS_OK : SS_ENOMEM;
     for (int k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
         st = make_room(&s->law[k], record, k == SS_STEP_SLIP, s->range);
         if (st == SS_OK)
-            st = begin(&s->law[k], other != NULL ? &other->law[k] : NULL, stiffness, &unlikely);
-        s->unlikely = fmin(s->unlikely, unlikely);
+            st = begin(&s->law[k], other != NULL ? &other->law[k] : NULL, stiffness);
     }
     return st;
-}
-
-double
-ss_loaded_unlikely(const loaded *s)
-{
-    return s->unlikely;
 }
 
 ss_status

@@ -24,13 +24,13 @@ typedef struct track {
     double blur;                /* standard error of where the load point is then [m] */
 } track;
 
+#define LOADED_DECISIVE 5       /* difference of logarithms of likelihood that tells two laws, or two fits */
+
 typedef struct loaded loaded;
 
 /* Find where the fit of both laws to a record starts, which the caller keeps; other: the same along another path, or
  * NULL.  stiffness [1/m]; 0: it is found.  *out is to be freed even after SS_ENOMEM. */
 ss_status ss_loaded_new(loaded **out, const track *record, const loaded *other, double stiffness);
-/* How unlikely the start is, in squares of errors. */
-double ss_loaded_unlikely(const loaded *step);
 /* Fit them, under one noise. */
 ss_status ss_loaded_fit(loaded *step);
 /* Fit them anew to all of these steps, with one a, b, Dc and stiffness.  SS_ENOMEM. */

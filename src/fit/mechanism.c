@@ -443,7 +443,7 @@ fit(fitted *f, const trial *of)
     }
     least of_fit = { .rows = 2 * (of->tracks * of->n + of->behind), .unknowns = UNKNOWNS, .model = leave,
                      .user = (void *)of, .range = range, .difference = difference, .costly = !of->is_exact,
-                     .steps = 60, .tol = 1e-7, .noise = 1 };
+                     .tol = 1e-7, .noise = 1 };
     ss_status st = ss_least_fit(&end, &of_fit, f->u, NULL, f->covariance);
     f->is_exact = of->is_exact;
     f->squares = end.squares;

@@ -19,12 +19,11 @@
 #include "base/number.h"
 #include "base/progress.h"
 #include "find/judgement.h"
+#include "find/slip.h"
 #include "scene/model.h"
 
 enum { FITTED = 4 };            /* parameters of a slip */
 #define MOST 0.75               /* the least part of the falls that must be such slips */
-#define VAGUE 0.3               /* a number with a larger relative error is not determined */
-#define EXPLAINED 0.98          /* the least part of the falls' power that a fit must explain */
 
 ss_status
 ss_pull_check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
@@ -150,12 +149,12 @@ static void
 judge(ss_pull *p, const pulled_fit *fit)
 {
     size_t i = 0;
-    while (i < p->n_keys && p->key[i].found.error <= VAGUE * fabs(p->key[i].found.value))
+    while (i < p->n_keys && SIGMAS * p->key[i].found.error <= fabs(p->key[i].found.value))
         i++;
     if (!fit->slips)
         snprintf(p->why, sizeof p->why, "the scene does not stick and slip, or not within the steps of "
                  "a fit");
-    else if (p->left > 1 - EXPLAINED && !p->explains) {
+    else if (p->left > 1 - SLIP_EXPLAINED && !p->explains) {
         ss_print_to(p->why, sizeof p->why, "the best such scene leaves %.3g %% of the power of the falls, "
                     "%.3g times the noise", 100 * p->left, p->excess);
         p->verdict = SS_NONE_FITS;

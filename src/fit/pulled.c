@@ -399,7 +399,7 @@ ss_pulled_fit(pulled_fit *out, const falls *r, const ss_scene *scene, double spr
     ss_range *range = malloc(m * sizeof *range);
     ss_status st = u != NULL && range != NULL ? start(&f, 0.9 * far, u, residual) : SS_ENOMEM;
     least fit = { .rows = rows, .unknowns = m, .model = falls_model, .user = &f, .range = range,
-                  .steps = 60, .tol = 1e-6, .noise = r->noise, .gain = 1e-4 };
+                  .tol = 1e-6, .noise = r->noise, .gain = 1e-4 };
     least_end end = { .why = "" };
     for (size_t stage = 0; st == SS_OK && stage < sizeof free_keys / sizeof *free_keys; stage++) {
         for (size_t k = 0; k < m; k++)

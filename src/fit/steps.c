@@ -22,23 +22,20 @@
 #include "base/list.h"
 #include "base/number.h"
 #include "find/medians.h"
+#include "find/judgement.h"
 #include "fit/column.h"
 #include "fit/loaded.h"
 #include "fit/wander.h"
 #include "io/record.h"
 #include "signal/header.h"
 
-enum { FEWEST = 4, MOST = 4096, CLOSE = 1024 };     /* rows of a line, of a step, and behind a corner: no means */
+enum { LEAST = 4, MOST = 4096, CLOSE = 1024 };      /* rows of a line, of a step, and behind a corner: no means */
 enum { BETWEEN = 4 };           /* parts of the way from one row to the next, where it bends */
 enum { ROOM = 6 };              /* columns of a step: time, friction, two paths, two laws */
 #define CHANGE 0.2              /* the least relative change of speed */
 #define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
-#define NOISY 9                 /* times the noise: mean square off a link that noise explains */
 #define SHORT 0.1               /* a ramp over the lines beside it */
 #define STILL 0.01              /* a hold's speed over that of the lines beside it */
-#define FOLLOWS 10              /* the same, over a straight line, of a law that friction follows */
-#define UNLIKELY 40             /* squares of errors by which a path starts worse that is not fitted */
-#define DECISIVE 5              /* difference of logarithms of likelihood that names a law */
 
 const char *const ss_step_law_names[SS_STEP_LAWS] = { "aging", "slip" };
 
@@ -93,7 +90,7 @@ static double
 fit_two(const path *p, size_t first, size_t end, line *left, line *right)
 {
     double least = INFINITY;
-    for (size_t i = first + FEWEST; i + FEWEST <= end; i++) {
+    for (size_t i = first + LEAST; i + LEAST <= end; i++) {
         line a = { 0 }, b = { 0 };
         double squares = fit_line(p, first, i, &a) + fit_line(p, i, end, &b);
         if (squares < least) {
@@ -262,9 +259,9 @@ noise_along(const path *p, const line *l)
 {
     const double by_stamps = l->speed * grain(p->t + l->first, l->end - l->first);
     double sum = 0, n = 0;
-    for (size_t i = l->first + FEWEST; i + FEWEST < l->end; i++, n++)
+    for (size_t i = l->first + LEAST; i + LEAST < l->end; i++, n++)
         sum += off_neighbours(p, i);
-    return fmax(fmax(p->noise, n > 2 * FEWEST ? sum / n : 0), by_stamps * by_stamps / 12);
+    return fmax(fmax(p->noise, n > 2 * LEAST ? sum / n : 0), by_stamps * by_stamps / 12);
 }
 
 /* The time at which a line meets the next, if that is near, else that of the next one's first row. */
@@ -327,7 +324,7 @@ chain(path *p)
             if (pass == 0)
                 continue;
             const int fitted = fits;
-            fits = squares < NOISY * noise_along(p, &p->line[k]) * (double)(end - i) + p->rounding;
+            fits = squares < SIGMAS * SIGMAS * noise_along(p, &p->line[k]) * (double)(end - i) + p->rounding;
             if (fits && fitted)
                 p->corner[0][p->corners[0]++] = (corner){ from, p->start + at[k] };
             else if (i > 0)
@@ -544,8 +541,6 @@ fit_step(ss_step *s, loaded **fit, const track r[2], double same, double stiffne
     for (int k = 0; st == SS_OK && k < paths; k++)
         st = ss_loaded_new(&of[k], &r[k], of[0], stiffness);
     for (int k = 0; st == SS_OK && k < paths; k++) {
-        if (paths > 1 && ss_loaded_unlikely(of[k]) - ss_loaded_unlikely(of[1 - k]) > UNLIKELY)
-            continue;
         st = ss_loaded_fit(of[k]);
         if (st == SS_OK)
             st = ss_loaded_report(of[k], s->law, s->t + 4 * r->n);
@@ -580,14 +575,14 @@ judge(ss_step *s, double ahead, double stiffness)
     s->best = ahead > 0 || isnan(s->law[SS_STEP_AGING].log_likelihood) ? SS_STEP_SLIP : SS_STEP_AGING;
     s->ahead = fabs(ahead);
     const ss_step_law *best = &s->law[s->best];
-    s->answer = s->ahead <= DECISIVE ? SS_STEP_UNDECIDED : (ss_step_answer)s->best;
+    s->answer = s->ahead <= LOADED_DECISIVE ? SS_STEP_UNDECIDED : (ss_step_answer)s->best;
     if (s->answer == SS_STEP_UNDECIDED)
         ss_print_to(s->why, sizeof s->why, "the likelihoods differ by a factor of e^%.2g only", s->ahead);
     if (isnan(best->direct_effect.value)) {
         s->answer = SS_STEP_UNDECIDED;
         ss_print_to(s->why, sizeof s->why, "the direct effect is less than its error");
     }
-    if (!(best->gain > FOLLOWS)) {
+    if (!(best->gain > 2 * LOADED_DECISIVE)) {
         s->answer = SS_STEP_NONE;
         ss_print_to(s->why, sizeof s->why, "friction is a straight line along the path, but for noise");
     }
@@ -638,7 +633,7 @@ fit_steps(ss_steps *out, const path *p, const double *mu, double stiffness, int 
         const size_t k = out->n++;
         st = take(&out->step[k], record[k], p, mu, i, lines);
         if (st == SS_OK)
-            st = fit_step(&out->step[k], &fit[k], record[k], NOISY * p->noise + p->rounding, stiffness);
+            st = fit_step(&out->step[k], &fit[k], record[k], SIGMAS * SIGMAS * p->noise + p->rounding, stiffness);
     }
     if (st == SS_OK && shared)
         st = ss_loaded_share(fit, out->n);
@@ -680,7 +675,7 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
         st = read_columns(x, mu, signal, load, friction, normal, err);
     for (size_t i = 0, back = st == SS_OK && n > 0 && x[n - 1] < x[0]; back && i < n; i++)
         x[i] = -x[i];           /* the slide goes forwards */
-    if (st == SS_OK && n >= 2 * FEWEST)
+    if (st == SS_OK && n >= 2 * LEAST)
         st = find_lines(&p);
     if (st == SS_OK)
         st = fit_steps(made, &p, mu, stiffness, shared);

@@ -81,11 +81,11 @@ static void
 find(wander *w, double *lowest, search *s, gsl_multimin_fminimizer *nelder_mead)
 {
     const double span = s->by_rows ? (double)s->n : s->t[s->n - 1] - s->t[0], least = log(span / (double)s->n);
-    double u[2], best[2] = { 0, least }, height = GSL_POSINF, width[2] = { 0.7, 0.7 };
+    double u[2], best[2] = { 0, least }, height = GSL_POSINF, width[2] = { 1, 1 };
     gsl_vector_view at = gsl_vector_view_array(u, 2), of = gsl_vector_view_array(best, 2);
     gsl_vector_view step = gsl_vector_view_array(width, 2);
     gsl_multimin_function f = { unlikely, 2, s };
-    for (u[1] = least; u[1] < log(span); u[1] += 1.5)
+    for (u[1] = least; u[1] < log(span); u[1] += 2)
         for (u[0] = -4; u[0] <= 4; u[0] += 2) {
             double here = unlikely(&at.vector, s);
             if (here < height)
@@ -93,7 +93,7 @@ find(wander *w, double *lowest, search *s, gsl_multimin_fminimizer *nelder_mead)
             height = fmin(here, height);
         }
     gsl_multimin_fminimizer_set(nelder_mead, &f, &of.vector, &step.vector);
-    for (int i = 0; i < STEPS && gsl_multimin_fminimizer_size(nelder_mead) > 0.02; i++)
+    for (int i = 0; i < STEPS && gsl_multimin_fminimizer_size(nelder_mead) > 1e-2; i++)
         gsl_multimin_fminimizer_iterate(nelder_mead);
     if (nelder_mead->fval < *lowest) {
         *lowest = nelder_mead->fval;
