@@ -16,6 +16,7 @@
 #include "base/list.h"
 #include "base/options.h"
 #include "base/sort.h"
+#include "signal/gaps.h"
 
 enum {
     RICH = 32,                  /* samples a period that are enough */
@@ -131,8 +132,8 @@ is_flat(const double *x, size_t n, double limit, int direction, double period)
     return (double)count > .2 * 3 * period + 2;
 }
 
-/* Average groups of the record's samples.  Those at a limit that it reaches three times, or stays near, are
- * clipped. */
+/* Average groups of the record's samples, but for those in gaps.  Those at a limit that it reaches three times,
+ * or stays near, are clipped. */
 static ss_status
 take_record(decay *d, const double *x, size_t n)
 {
@@ -157,6 +158,12 @@ take_record(decay *d, const double *x, size_t n)
         for (size_t k = i * d->group; k < (i + 1) * d->group; k++)
             sum += x[k] > lo && x[k] < hi ? x[k] : NAN;
         d->x[i] = sum / kept;
+    }
+    for (size_t g = 0; g < d->source->n_gaps; g++) {
+        size_t first, end;
+        ss_gap_rows(&d->source->gap[g], d->source->rate, &first, &end);
+        for (size_t i = first / d->group; i < d->n && i * d->group < end; i++)
+            d->x[i] = NAN;
     }
     return SS_OK;
 }
@@ -838,7 +845,17 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(x[i]))
             return ss_fail(err, SS_EDATA, "column %s has a value that is not finite", of->name);
-    st = find_and_name(out, x, signal->n, &own, source, 0);
+    double *bridged = malloc((signal->n + 1) * sizeof *bridged);
+    ss_span *gap = NULL;
+    st = bridged != NULL ? ss_gaps_of(&gap, &source.n_gaps, signal->head, signal->n) : SS_ENOMEM;
+    source.gap = gap;
+    if (st == SS_OK) {
+        memcpy(bridged, x, signal->n * sizeof *x);
+        ss_gaps_bridge(bridged, signal->n, source.rate, gap, source.n_gaps);
+        st = find_and_name(out, bridged, signal->n, &own, source, 0);
+    }
+    free(gap);
+    free(bridged);
     return st == SS_OK ? SS_OK : ss_fail_memory(err, NULL);
 }
 

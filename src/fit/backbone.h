@@ -92,6 +92,8 @@ not_known(int derivative, double ds)
 /* Where the blocks come from. */
 typedef struct decay_source {
     double rate;                /* samples a second */
+    const ss_span *gap;         /* of the record, in seconds from its first sample */
+    size_t n_gaps;
     int has_phase;
     const char *column;         /* its unit */
     double size;                /* of that in SI units; 0: it is no motion of a mass */

@@ -33,6 +33,12 @@ ss-signal noise | ss-backbone -o none.gp || echo $?
 # no decay; a later one
 ss-signal noise --duration 2 | ss-backbone | tail -n 2
 ss-backbone --from 3 ring.tsv | grep -v '^#' | awk '$6 < 3 { print "before:", $0 }'
+# samples that are missing are none, whatever stands in their place
+awk '/^# columns/ { print "t,a" } !/^#/ { print $1 "," ($1 > 1.02 && $1 < 1.1 || $1 > 1.51 && $1 < 1.53 ? "" : $2) }' ring.tsv > gaps.csv
+for how in split interpolate; do
+    ss-backbone -q --gaps $how gaps.csv | awk '/^# mechanism/ { print }
+        !/^#/ && (($4 - 0.01) ^ 2 > 16 * $5 ^ 2 || ($2 - 20.001) ^ 2 > 16 * $3 ^ 2) { print "off:", $0 }'
+done
 # levels
 awk 'BEGIN { print "t,level"; for (i = 0; i < 2000; i++) print i / 1000 "," 90 - 17.3717793 * i / 1000 + 0.2 * sin(i * i) }' > level.csv
 sed '1s/level/level (dB)/' level.csv | ss-backbone --envelope db --frequency 100 --column level | sed -n 's/^# columns: \([^ ]*\).*/\1/p'
