@@ -2,6 +2,7 @@
 # Here only the readers are compiled for it: all else is the library as it is.
 echo 'int LLVMFuzzerTestOneInput(const char *p, long n) { return p == 0 && n < 0; }' > f.c
 [ -z "$SAN" ] || { echo "it has sanitizers of its own"; exit 77; }
+case $CCLD in *--coverage*) echo "clang cannot link it with gcov"; exit 77 ;; esac
 clang -fsanitize=fuzzer -o f f.c 2> log || { echo "no clang with libFuzzer"; exit 77; }
 mkdir -p tests/fuzz
 # shellcheck disable=SC2086  # flags are lists

@@ -1,6 +1,7 @@
 # The library keeps no global state, bar the lock around FFTW's planner, and calls nothing that
 # changes the process, prints, ends it, or is not for threads.
 [ -z "$SAN" ] || { echo "sanitizers have state of their own"; exit 77; }
+case $CCLD in *--coverage*) echo "gcov has state of its own"; exit 77 ;; esac
 objdump -t "$BUILD/libstickslip.a" > symbols 2> /dev/null || { echo "no objdump"; exit 77; }
 grep -q 'elf' symbols || { echo "no ELF library"; exit 77; }
 awk '/ O (\.data|\.bss|\*COM\*)/ && !/\.data\.rel\.ro/ { print "state:", $NF }' symbols
