@@ -2,6 +2,7 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
+#include "read_opts.h"
 #include "signal_text.h"
 #include "unit.h"
 
@@ -198,13 +199,50 @@ overflow_is_an_error(void **state)
     ss_signal_free(in);
 }
 
+/* A reader of a part of a table goes back to the first row of the part, by itself and behind a filter. */
+static void
+goes_back_to_its_first_row(void **state)
+{
+    enum { ROWS = 2000, FROM = 500, TO = 1500 };
+    static double row[2][ROWS];
+    (void)state;
+    for (int filters = 0; filters < 2; filters++) {
+        const ss_read_opts opts = { READ_OPTS, .from = 0.5, .to = 1.5, .rewinds = 1 };
+        const ss_filter_opts o = filter_of(0, 0, 1);
+        size_t n[2] = { 0, 0 };
+        ss_reader *reader;
+        FILE *in = tmpfile();
+        assert_non_null(in);
+        fputs("t_s,x\n", in);
+        for (int i = 0; i < ROWS; i++)
+            fprintf(in, "%.3f,%d\n", i / 1000., i * i % 97);
+        rewind(in);
+        assert_int_equal(ss_reader_new(&reader, in, "in", &opts, NULL), SS_OK);
+        if (filters)
+            assert_int_equal(ss_reader_filter(reader, &o, NULL), SS_OK);
+        for (int pass = 0; pass < 2; pass++) {
+            double *to;
+            for (size_t got = 1; got > 0; n[pass] += got) {
+                to = row[pass] + n[pass];
+                assert_int_equal(ss_reader_rows(reader, &to, ROWS - n[pass], &got, NULL), SS_OK);
+            }
+            assert_int_equal(ss_reader_rewind(reader, NULL), SS_OK);
+        }
+        assert_int_equal(n[0], n[1]);
+        assert_memory_equal(row[0], row[1], n[0] * sizeof row[0][0]);
+        assert_true(filters ? n[0] > 0 : n[0] == TO - FROM && row[0][0] == FROM * FROM % 97);
+        ss_reader_free(reader);
+        fclose(in);
+    }
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(passes_and_stops), cmocka_unit_test(stops_as_deep_as_asked),
         cmocka_unit_test(chirps_have_their_derivatives), cmocka_unit_test(polynomials_stay_polynomials),
-        cmocka_unit_test(refuses_what_no_filter_is), cmocka_unit_test(overflow_is_an_error),
+        cmocka_unit_test(refuses_what_no_filter_is), cmocka_unit_test(overflow_is_an_error), cmocka_unit_test(goes_back_to_its_first_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,10 @@ ss-trade --models compliant-light | sed -n 's/^# columns:.* microslips \(slips.*
 tr ' ' '\n' < columns | grep -v '^$' | while read -r name; do grep -qw -e "$name" names || echo "no $name"; done
 # Nothing moves without a forcing cycle to settle to.
 ss-trade --models --set base_frequency=0 --set base_amplitude=0 --set x0=0.01 coulomb | awk -F '\t' '!/^#/ { print $1, $NF }'
+# A contact of Bouc and Wen, z' = 1 - z^n, becomes the elastic one as its exponent grows: the difference is of 1 / n.
+for exponent in 64 256; do
+    ss-trade --models --set duration=1 --set settle=1 --set exponent=$exponent dahl | awk '$1 == "compliant" { print $2 }'
+done | awk '{ x[NR] = $1 } END { print "bouc-wen:", NR, (x[1] < 0.02 && x[1] / x[2] > 3.5 && x[1] / x[2] < 4.5) }'
 try() {
     status=0
     ss-trade "$@" || status=$?
