@@ -91,6 +91,16 @@ find_doubt(char *why, size_t room, const driven *d, size_t turns)
         snprintf(why, room, "the motion is mostly rest");
 }
 
+/* Are there fewer rows in a fold to which a law may be fitted? */
+static int
+is_fewer(const driven *d, size_t fewest)
+{
+    size_t used[FOLDS] = { 0 };
+    for (size_t i = 0; i < d->n; i++)
+        used[driven_fold(d, i)] += (size_t)d->used[i];
+    return used[0] < fewest || used[1] < fewest;
+}
+
 /* --- the numbers of the law ----------------------------------------------------------------- */
 
 enum { AT = UNKNOWNS + COLUMNS, BESIDE = COLUMNS - VISCOUS, LATE = LAW_NUMBERS + BESIDE, NUMBERS };
@@ -323,6 +333,8 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size
         if (why[0] == '\0' && choose_folds(&d, opts->folds, turns, &r->interleaved))
             snprintf(why, sizeof why, "the two %s visit other ranges of the motion",
                      r->interleaved ? "folds" : "halves");
+        if (why[0] == '\0' && is_fewer(&d, FEWEST / 4))
+            snprintf(why, sizeof why, "where the motion goes is lost in its noise");
         if (why[0] == '\0' && (st = ss_driven_thin(&rows, &d, DRIVEN_ROWS)) == SS_OK)
             st = ss_driven_thin(&coarse, &d, COARSE);
     }

@@ -173,6 +173,7 @@ ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err)
         return SS_ENOMEM;
     double **column = ss_columns_new(columns, piece);
     g->how = how;
+    g->base.stamped = g->base.inner->stamped;
     g->column = calloc(columns, sizeof *g->column);
     ss_status st = column != NULL && g->column != NULL ? SS_OK : ss_fail_memory(err, g->base.name);
     while (st == SS_OK && n > 0) {

@@ -36,6 +36,14 @@ ss-rank --motion q --column f --extra sin,cos arm.tsv | sed -n 's/ explains.*//p
 ss-signal chirp --rate 500 --frequency 0.01 --duration 5 | awk '/^# col/ { print "# columns: t/s x/m f/N" } /^# / { if (!/col/) print }
     !/^#/ { print $1 "\t" $1 "\t" $2 }' > ramp.tsv
 ss-rank --motion x --column f ramp.tsv
+# a sensor that jumps farther than all motion
+awk 'BEGIN { print "t,x (m),f (N)"; for (i = 0; i < 2000; i++) { p = i * .06
+    print i / 100 "," sin(p) + (i > 1000 ? 4 : 0) "," (cos(p) > 0 ? 1 : -1) + .01 * sin(i * i) } }' > jump.csv
+ss-rank --motion x --column f jump.csv | sed -n 's/^# answer/jump/p'
+# rows keep their stamps, however gaps are treated
+awk -F , 'NR == 1 || ($1 < 5 || $1 > 7.3) && $1 < 9.99 { print }' jump.csv > pause.csv
+ss-rank --motion x --column f pause.csv > found
+for how in split interpolate; do ss-rank --motion x --column f --gaps $how pause.csv | cmp - found; done
 # wrong usage
 for wrong in "--motion x" "--motion x -c x" "--motion v -c f --extra sin,cos" "--motion x -c f --extra tan" \
     "--motion x -c f --long" "--motion x -c f --fit" "--motion x -c f --as a" "--delay 2" "--motion x -c f -s mass=1"; do
