@@ -69,10 +69,8 @@ weights_behind(const kaiser *ker, double behind, lanes weight[4])
         low = low * y + c[0];
         high = high * y + c[1];
     }
-    weight[0] = TWICE(low, 0);
-    weight[1] = TWICE(low, 4);
-    weight[2] = TWICE(high, 0);
-    weight[3] = TWICE(high, 4);
+    const lanes all[4] = { TWICE(low, 0), TWICE(low, 4), TWICE(high, 0), TWICE(high, 4) };
+    memcpy(weight, all, sizeof all);
 }
 
 INLINE void
