@@ -69,8 +69,10 @@ weights_behind(const kaiser *ker, double behind, lanes weight[4])
         low = low * y + c[0];
         high = high * y + c[1];
     }
-    const lanes all[4] = { TWICE(low, 0), TWICE(low, 4), TWICE(high, 0), TWICE(high, 4) };
-    memcpy(weight, all, sizeof all);
+    for (int k = 0; k < 4; k++) {
+        lanes half = k < 2 ? low : high;
+        weight[k] = k % 2 == 0 ? TWICE(half, 0) : TWICE(half, 4);
+    }
 }
 
 INLINE void

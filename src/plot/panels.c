@@ -51,7 +51,8 @@ write_differences(drawing *d, ss_error *err)
 {
     trace *all = &d->of_left;
     d->difference = (ss_column){ (char *)"difference", d->t[0].column->unit };
-    *all = (trace){ .column = &d->difference, .extent = SCRIPT_NO_EXTENT };
+    *all = (trace){ .column = &d->difference };
+    all->extent = SCRIPT_NO_EXTENT;
     for (size_t k = 0; k < d->opts->n_over; k++)
         if (d->left[k].column != NULL)
             ss_script_widen(&all->extent, d->left[k].extent);
