@@ -252,7 +252,7 @@ lint: $(BUILD)/number_pow10.h
 
 # Lines of src/ that the tests run, with gcc's gcov; what they do not is in $(BUILD)-coverage/report.
 coverage:
-	@GCOV_ERROR_FILE=/dev/null $(MAKE) --no-print-directory run-tests BUILD=$(BUILD)-coverage CC=gcc \
+	-@GCOV_ERROR_FILE=/dev/null $(MAKE) --no-print-directory run-tests BUILD=$(BUILD)-coverage CC=gcc \
 		CFLAGS='-O1 -g --coverage -include $(CURDIR)/tests/coverage.h' LDFLAGS=--coverage
 	@BUILD=$(BUILD)-coverage sh tests/coverage.sh
 
