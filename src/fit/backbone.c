@@ -40,7 +40,7 @@ enum {
 #define SURE .02                 /* error of ln A below which a block alone is not biased */
 #define NOISY 10.0              /* dB above a floor: it matters below */
 #define HIGH 25.0               /* the same: it does not matter above */
-#define NEPER 0.11512925464970229       /* a decibel */
+#define NEPER (M_LN10 / 20)     /* a decibel */
 #define MIXED 1.5               /* times what the last block leaves */
 #define FALL .35                /* of ln A in a block, at most */
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
@@ -248,10 +248,10 @@ first_block(const decay *d, block *b, size_t length, double s)
 {
     size_t part = (size_t)fmin((double)length, ceil(LONG * 2 * M_PI / d->w));
     int found = 0;
-    for (double w = d->w * .7; w < d->w * 1.3; w += M_PI / 2 / (double)part) {
+    for (double w = d->w * (1 - 2 * NEAR); w < d->w * (1 + 2 * NEAR); w += M_PI / 2 / (double)part) {
         block trial;
         if (ss_block_fit(&trial, d->x, d->first, d->first + part, (bend){ .s = s, .w = w }, &d->beside, 0)
-            && fabs(trial.rate[PHASE] - d->w) < .4 * d->w && (!found || trial.left < b->left)) {
+            && fabs(trial.rate[PHASE] - d->w) < 3 * NEAR * d->w && (!found || trial.left < b->left)) {
             *b = trial;
             found = 1;
         }
@@ -267,7 +267,7 @@ first_block(const decay *d, block *b, size_t length, double s)
 static ss_status
 follow(decay *d)
 {
-    double period = 2 * M_PI / d->w, s = 1 / (double)(d->end - d->first + 1), sure[TRACKS] = { 0 };
+    double s = 1 / (double)(d->end - d->first + 1), sure[TRACKS] = { 0 };
     double noise = 0, free_of_noise = 0;
     bend at = { .s = s, .w = d->w };
     size_t first = d->first;
@@ -286,11 +286,11 @@ follow(decay *d)
             return SS_OK;
         int found = last != NULL ? ss_block_fit(b, d->x, first, first + length, at, &d->beside, 0)
             : first_block(d, b, length, s);
-        if (!found || (last != NULL && fabs(b->rate[PHASE] - at.w) > .3 * at.w)) {
+        if (!found || (last != NULL && fabs(b->rate[PHASE] - at.w) > 2 * NEAR * at.w)) {
             d->stop = "noise";
             return SS_OK;
         }
-        if (last == NULL && -b->rate[LEVEL] * (double)length > 1.5 * FALL && (double)length > 1.6 * period) {
+        if (last == NULL && -b->rate[LEVEL] * (double)length > 1.5 * FALL) {
             s = -b->rate[LEVEL];                /* it decays so fast that the block must be shorter */
             at = (bend){ .s = s, .w = b->rate[PHASE] };
             length = block_length(d, at, 1, 0);
@@ -302,9 +302,7 @@ follow(decay *d)
         double error = sqrt(b->cov[LEVEL][0] * noise), lost = fmax(at.s * (double)length, 0);
         if (last != NULL && error > .2)
             d->stop = "noise";
-        else if (last != NULL && b->y[LEVEL] < last->y[LEVEL] - 2.5)
-            d->stop = "the motion stops";
-        else if (last != NULL && b->y[LEVEL] > last->y[LEVEL] + .3 + 5 * error)
+        else if (last != NULL && b->y[LEVEL] > last->y[LEVEL] + FALL + 5 * error)
             d->stop = "the amplitude grows";
         else {
             for (int k = 0; k < TRACKS; k++) {
@@ -656,7 +654,7 @@ no_decay(const decay *d)
             return "its damping changes too fast from block to block";
     double lost = b->y[LEVEL] - last->y[LEVEL];
     double error = sqrt(b->cov[LEVEL][0] * b->noise + last->cov[LEVEL][0] * last->noise);
-    return lost > 5 * error && lost > .05 ? NULL : "the oscillation does not decay";
+    return lost > 5 * error ? NULL : "the oscillation does not decay";
 }
 
 /* Find the decay of the line w, beside another if this is not 0 and is not w. */

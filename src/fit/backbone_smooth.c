@@ -18,7 +18,6 @@ enum { PASSES = 20, PARTS = 4 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
 #define KNOWN 1e-14             /* variance of ln A and phase of a block, at least: rounding hides less */
 #define FAR 1.0                 /* the most by which ln s and p change in a pass */
-#define ONE_SIGMA .682689       /* of a normal distribution lie within its standard deviation */
 #define EXACT 3.0               /* times as likely as not a law is exact */
 #define SMALL .005              /* damping over its mean below which its logarithm is none */
 
@@ -102,7 +101,7 @@ mix(double *mean, double *error, double of[WALKS][2], const double weight[WALKS]
             inside += weight[w] * (erf(hi) - erf(lo)) / 2;
             slope += weight[w] * (exp(-hi * hi) + exp(-lo * lo)) * M_2_SQRTPI / 2 / s;
         }
-        off = (ONE_SIGMA - inside) / slope / h;
+        off = (erf(M_SQRT1_2) - inside) / slope / h;
         h *= fmax(fmin(1 + off, 2), .5);
         *error = h;
     }

@@ -49,20 +49,18 @@ const char *const ss_mechanism_names[SS_MECHANISMS + 1] = {
 static const struct law {
     int free[UNKNOWNS];
     unsigned contains;          /* the mechanisms that are cases of it, as bits */
-    double shape[5];            /* the power of A, or where Jenkins slips: to start from, up to 0 */
-    ss_range shapes;
+    ss_range shapes;            /* of the power of A, or of where Jenkins slips */
 } laws[LAWS] = {
-    [SS_VISCOUS] = { { 1, 1, 1, 1 }, 0, { 1 }, { 1, 1 } },
-    [SS_COULOMB_DAMPING] = { { 1, 1, 1, 0, 1 }, 0, { -1 }, { -1, -1 } },
-    [SS_VISCOUS_AND_COULOMB] = { { 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING, { -1 },
-                                 { -1, -1 } },
+    [SS_VISCOUS] = { { 1, 1, 1, 1 }, 0, { 1, 1 } },
+    [SS_COULOMB_DAMPING] = { { 1, 1, 1, 0, 1 }, 0, { -1, -1 } },
+    [SS_VISCOUS_AND_COULOMB] = { { 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING, { -1, -1 } },
     [SS_JENKINS] = { { 1, 1, 1, 1, 1, 1 },     /* of a stiff spring it is Coulomb's */
                      1 << SS_VISCOUS | 1 << SS_COULOMB_DAMPING | 1 << SS_VISCOUS_AND_COULOMB,
-                     { .05, .1, .2, .4, .7 }, { .01, 1 } },
-    [SS_MICROSLIP] = { { 1, 1, 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_QUADRATIC, { .25, .5, .8 }, { .1, 1 } },
-    [SS_QUADRATIC] = { { 1, 1, 1, 0, 1 }, 0, { 1 }, { 1, 1 } },
-    [TWO_MODES] = { { 1, 1, 1, 1, 1, 1, 1, 1 }, 0, { 1 }, { -1e9, 1e9 } },
-    [GEOMETRY] = { { 1, 1, 1, 1, 0, 0, 1 }, 0, { 2 }, { 2, 2 } },
+                     { .01, 1 } },
+    [SS_MICROSLIP] = { { 1, 1, 1, 1, 1, 1, 1 }, 1 << SS_VISCOUS | 1 << SS_QUADRATIC, { .1, 1 } },
+    [SS_QUADRATIC] = { { 1, 1, 1, 0, 1 }, 0, { 1, 1 } },
+    [TWO_MODES] = { { 1, 1, 1, 1, 1, 1, 1, 1 }, 0, { -1e9, 1e9 } },
+    [GEOMETRY] = { { 1, 1, 1, 1, 0, 0, 1 }, 0, { 2, 2 } },
 };
 
 /* A block for the fit: in units of the start's amplitude and of the mean damping. */
@@ -467,8 +465,8 @@ fit_first(fitted *f, trial *of, int kind)
     f->kind = of->kind = kind;
     if (kind == TWO_MODES)
         begin_two(of->p, of->b, of->n, of->ln_a, of->w * of->unit, f->u);
-    for (size_t i = 0; kind != TWO_MODES && i < 5 && law->shape[i] != 0; i++) {
-        double u[UNKNOWNS] = { [SHAPE] = law->shape[i] }, left = begin(of, u);
+    for (double shape = law->shapes.to; kind != TWO_MODES && shape >= law->shapes.from; shape -= fabs(shape) / 2) {
+        double u[UNKNOWNS] = { [SHAPE] = shape }, left = begin(of, u);
         if (left < least_left) {
             least_left = left;
             memcpy(f->u, u, sizeof u);
