@@ -33,7 +33,7 @@ ss_colour(const double *y, const double *x, size_t n, double slope)
     double power = products(y, x, n, slope, mean, 0);
     if (!(power > 0))
         return 1;
-    double rho = fmin(0.99, products(y, x, n, slope, mean, 1) / power), sum = 1;
+    double rho = fmin(1, products(y, x, n, slope, mean, 1) / power), sum = 1;
     for (size_t k = 1; k < n / 2; k++) {
         double here = products(y, x, n, slope, mean, k) / power;
         if (!(here > 0))

@@ -23,7 +23,6 @@
 
 #define SLOWER 1.05             /* factor: less may be made by the sampling of turning points */
 #define QUICK 2.0               /* factor by which all rises are slower than falls if there are few */
-enum { FEW_RISES = 9 };
 
 /* The time, in samples, that x spends between a quarter and three quarters of the way from one turning point
  * to the next, along lines from sample to sample.  It is the same for a signal that is reversed in time, or
@@ -56,7 +55,7 @@ compare_falls(const double *x, double rate, const ss_drop *drop, size_t n, doubl
         signs += (factor * fall < rise) - (fall > factor * rise);
         clear += (QUICK * fall < rise) - (fall > QUICK * rise);
     }
-    if (all <= FEW_RISES)
+    if (all <= SIGMAS * SIGMAS)         /* the test cannot decide */
         return (clear == all) - (clear == -all);
     return (signs > SIGMAS * sqrt(all)) - (signs < -SIGMAS * sqrt(all));
 }

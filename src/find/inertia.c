@@ -70,8 +70,8 @@ ss_inertia_sign(int *sign, const double *x, ss_window room, const ss_slip *slip,
     if (f.n <= PARAMETERS)
         return SS_OK;
     for (f.relaxes = 0; f.relaxes < 2; f.relaxes++) {
-        double corner = f.relaxes ? 0.15 : 0;   /* the corners of a relaxation lie inside the slip's */
-        double p[PARAMETERS] = { corner, 1 - corner, 0, -1, slope, slope, 0.2 };
+        double corner = f.relaxes ? 0.25 : 0;   /* the corners of a relaxation lie inside the slip's */
+        double p[PARAMETERS] = { corner, 1 - corner, 0, -1, slope, slope, 0.5 };
         least_end ended;
         ss_status st = ss_least_fit(&ended, &(least){ .rows = f.n, .unknowns = f.relaxes ? PARAMETERS : BEND,
                                                       .model = model, .user = &f, .range = range,

@@ -14,7 +14,7 @@
 #include "find/judgement.h"
 
 #define BAND 5.0                /* standard deviations of the samples of a rest, either side of its level */
-#define AWAY (3 * BAND)         /* what leaves the band by less is no motion */
+#define AWAY (SIGMAS * BAND)    /* what leaves the band by less is no motion */
 #define PART 0.1                /* of the samples are at rest */
 #define CLEAR 0.05              /* of the largest sample: a wider band is none of a rest */
 

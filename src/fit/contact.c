@@ -22,7 +22,7 @@
 #include "scene/model.h"
 #include "signal/gaps.h"
 
-enum { POINTS = 192, KEEP = 4, STEPS = 60 };    /* of the search */
+enum { POINTS = 192, KEEP = 4 };        /* of the search */
 enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at most */
 #define BUDGET 1e8                      /* integration steps of a fit: less than a minute */
 #define NEAR 1.5                        /* factor within which the features' estimates are right */
@@ -280,7 +280,7 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
         st = find_likely(&w->scene, signal, column, err);
     w->scene.progress = (ss_stretch){ opts->progress, 0, 0.5 };
     if (st == SS_OK)
-        st = ss_forced_search(start, &n, &w->scene, &w->goal, POINTS, KEEP, STEPS);
+        st = ss_forced_search(start, &n, &w->scene, &w->goal, POINTS, KEEP);
     w->scene.progress = (ss_stretch){ opts->progress, 0.5, 1 };
     if (st == SS_OK)
         st = ss_forced_fit(&w->best, &w->rival, &w->scene, start, n, w->goal.power, &w->record);

@@ -21,13 +21,10 @@
 #define NUDGE_DELAY 0.1             /* rows: of a law that jumps, some rows must change */
 enum { KEPT = 3 };                  /* starts that are improved */
 
-/* Where a fit may go, and where its starts lie. */
+/* Where a fit may go; its starts lie in the upper three quarters. */
 static const ss_range ranges[UNKNOWNS] = {
-    [LENGTH] = { -6.9, 1.1 }, [OTHER_LENGTH] = { -2, 2 }, [GAP] = { -6.9, 1.1 }, [EXPONENT] = { -0.69, 3 },
-    [BETA] = { 0.5, 1 }, [RISE] = { 0, 1.6 }, [SPEED] = { -6, 1.5 }, [SHAPE] = { 0, 1.4 } };
-static const ss_range starts[UNKNOWNS] = {
-    [LENGTH] = { -5, 1 }, [OTHER_LENGTH] = { -0.7, 0.7 }, [GAP] = { -4, 0.7 }, [EXPONENT] = { -0.5, 2 },
-    [BETA] = { 0.5, 1 }, [RISE] = { 0.1, 1.2 }, [SPEED] = { -4, 0.7 }, [SHAPE] = { 0, 1.1 } };
+    [LENGTH] = { -7, 1 }, [OTHER_LENGTH] = { -2, 2 }, [GAP] = { -7, 1 }, [EXPONENT] = { -1, 3 }, [BETA] = { 0.5, 1 },
+    [RISE] = { 0, 2 }, [SPEED] = { -6, 2 }, [SHAPE] = { 0, 1 } };
 
 typedef struct problem {
     const driven_law *law;
@@ -335,7 +332,8 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[
         memcpy(u, p->law->held, sizeof u);
         gsl_qrng_get(all_over, at);
         for (size_t k = 0; k < dim; k++)
-            u[p->free[k]] = starts[p->free[k]].from + at[k] * (starts[p->free[k]].to - starts[p->free[k]].from);
+            u[p->free[k]] = ranges[p->free[k]].from
+                + (1 + 3 * at[k]) / 4 * (ranges[p->free[k]].to - ranges[p->free[k]].from);
         fill_columns(p, u);
         for (p->without = 0; p->without <= ALL; p->without++)
             keep(p, best, u);

@@ -28,8 +28,6 @@
 enum { LAGS = 32 };
 enum { LOOKED_AT = 128 };       /* samples of half a cycle, to find the fastest slip */
 #define UNLIKELY 0.1            /* part of the power: if more is left, no descent or start helps */
-#define HOPELESS 0.03           /* part of the power of a cycle: if a start leaves more, a descent over the record
-                                   changes this little, and only the best start is fitted */
 #define FARTHEST 0.2            /* the longest step of an unknown */
 #define ANYWHERE 5              /* units to either side, in which a start of the motion is sought */
 
@@ -122,7 +120,7 @@ static double
 step_of(const fitting *w, size_t unknown)
 {
     if (w->wide > 1 && (unknown == FORCED_X0 || unknown == FORCED_V0))
-        return 0.01;
+        return 1e-2;
     return w->c->model->linear ? 1e-6 : 1e-4;
 }
 
@@ -241,7 +239,7 @@ find_fastest(const ss_sample *s, size_t n, void *user)
 static ss_status
 remembers(fitting *w, const double *u, double power, int *is)
 {
-    double squares = 0, h = 0.01, q[FORCED_MOVED], *changed = malloc((w->r->n + 1) * sizeof *changed);
+    double squares = 0, h = 1e-2, q[FORCED_MOVED], *changed = malloc((w->r->n + 1) * sizeof *changed);
     memcpy(q, u, sizeof q);
     q[FORCED_X0] += h;
     ss_status st = changed != NULL ? move_to(w, u) : SS_ENOMEM;
@@ -495,7 +493,7 @@ ss_forced_fit(forced_fit *best, double *rival, forced *c, const forced_start sta
     size_t lowest = 0, fits = 0;
     ss_status st = SS_OK;
     for (; st == SS_OK && fits < n; fits++) {
-        if (fits > 0 && (start[fits].misfit > HOPELESS * power
+        if (fits > 0 && (start[fits].misfit > UNLIKELY * power
                          || (rival == NULL && ss_residue_explains(&found[lowest].of_samples, r->noise))))
             break;
         c->progress = ss_stretch_part(&whole, (double)fits / (double)n, (double)(fits + 1) / (double)n);
@@ -628,7 +626,7 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
         of[term].nearer = st == SS_OK ? change_term(&changed, term, far) : NAN;
     }
     /* longer lags leave more than noise */
-    for (double samples = 0.125; st == SS_OK && samples <= 8; samples *= 2) {
+    for (double samples = 1 / 8.; st == SS_OK && samples <= 8; samples *= 2) {
         slopes_by_lag(&w, samples, l.extra);
         of[HELD_LAG].gain = fmax(of[HELD_LAG].gain, find_gain(&l, r->n, inverse, &far) / unit);
     }

@@ -22,7 +22,7 @@
 #include "signal/noise.h"
 #include "signal/header.h"
 
-enum { POINTS = 32, KEEP = 2, STEPS = 40 };      /* of the search, within the usual spread */
+enum { POINTS = 32, KEEP = 2 };         /* of the search, within the usual spread */
 #define EQUAL 0.01                      /* of the spread: two scenes are equally near to within this */
 #define BUDGET 2e7                      /* integration steps of a scene: some seconds */
 enum { WINDOW = 4 };                    /* cycles that are compared */
@@ -83,8 +83,7 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
     f->scene.period = w->goal.period;
     f->scene.budget = more * BUDGET;
     f->scene.progress = ss_stretch_part(progress, 0, 0.5);
-    ss_status st = ss_forced_search(start, &n, &f->scene, &w->goal, (size_t)(more * POINTS), (size_t)(more * KEEP),
-                                    STEPS);
+    ss_status st = ss_forced_search(start, &n, &f->scene, &w->goal, (size_t)(more * POINTS), (size_t)(more * KEEP));
     f->scene.progress = ss_stretch_part(progress, 0.5, 1);
     if (st == SS_OK)
         st = ss_forced_fit(&f->fit, NULL, &f->scene, start, n, w->goal.power, &w->record);

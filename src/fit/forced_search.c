@@ -16,8 +16,9 @@
 #include "base/sort.h"
 #include "fit/samples.h"
 
-#define SMALL 0.01              /* size of a simplex that ends a search: a fit goes on faster from there */
-#define SAME 0.02               /* difference of two keys from which descents end at the same point */
+#define SMALL 0.01              /* size of a simplex that ends a search: a fit goes on faster from there; ends within
+                                   twice this are the same */
+enum { STEPS = 40 };            /* of a simplex, at most */
 
 typedef struct search {
     forced *c;
@@ -101,7 +102,7 @@ scatter(point *at, size_t points, size_t free, search *p)
 }
 
 static ss_status
-descend(point *at, size_t free, size_t steps, search *p)
+descend(point *at, size_t free, search *p)
 {
     double first[FORCED_KEYS] = { 0.3, 0.3, 0.3, 0.3 };     /* of the range: about a seventh */
     gsl_vector_view w = gsl_vector_view_array(at->w, free), step = gsl_vector_view_array(first, free);
@@ -110,7 +111,7 @@ descend(point *at, size_t free, size_t steps, search *p)
     if (m == NULL)
         return SS_ENOMEM;
     int failed = gsl_multimin_fminimizer_set(m, &f, &w.vector, &step.vector);
-    for (size_t i = 0; !failed && i < steps && gsl_multimin_fminimizer_size(m) > SMALL; i++)
+    for (size_t i = 0; !failed && i < STEPS && gsl_multimin_fminimizer_size(m) > SMALL; i++)
         failed = gsl_multimin_fminimizer_iterate(m);
     if (m->fval < at->height) {
         at->height = m->fval;
@@ -122,10 +123,10 @@ descend(point *at, size_t free, size_t steps, search *p)
 
 ss_status
 ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cycle *goal, size_t points,
-                 size_t keep, size_t steps)
+                 size_t keep)
 {
     /* a step of the simplex runs the scene once or twice */
-    search p = { .c = c, .cycle = goal, .expected = (double)(points + 3 * keep * steps / 2) };
+    search p = { .c = c, .cycle = goal, .expected = (double)(points + 3 * keep * STEPS / 2) };
     point *at = calloc(points + 1, sizeof *at);
     size_t free_keys = 0;
     *n = 0;
@@ -139,7 +140,7 @@ ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cy
     if (free_keys > 0) {
         st = scatter(at, points, free_keys, &p);
         for (size_t i = 0; st == SS_OK && i < keep; i++)
-            st = descend(&at[i], free_keys, steps, &p);
+            st = descend(&at[i], free_keys, &p);
         qsort(at, keep, sizeof *at, ss_ascending);
     }
     for (size_t i = 0; st == SS_OK && i < (free_keys > 0 ? keep : 1); i++) {
@@ -151,7 +152,7 @@ ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cy
                 farthest = fmax(farthest, fabs(start[*n].key[k] - start[j].key[k]));
             nearest = fmin(nearest, farthest);
         }
-        *n += nearest >= SAME;
+        *n += nearest >= 2 * SMALL;
         st = p.status;
     }
     ss_cycle_goal_free(&p.goal);

@@ -1,6 +1,7 @@
 /* observation.c -- numbers from the features, spikes and contours of a signal, and the distance of
  * two signals by them. */
 #include "fit/observation.h"
+#include "find/search.h"
 #include "map/map.h"
 
 #include <gsl/gsl_statistics_double.h>
@@ -8,8 +9,6 @@
 #include <stdlib.h>
 #include <stickslip/features.h>
 #include <stickslip/spikes.h>
-
-#define SPAN 80.0                       /* [dB] of a contour map */
 
 static double
 median(double *x, size_t n)

@@ -29,7 +29,7 @@
 #define NEARLY 0.05             /* relative error of a fall's height from which the fit may start */
 #define SHORT 0.1               /* of the time of loading 2 (f_s - f_k), and of a period of k/m: no stick
                                    before a fall is shorter than both, but those of a contact that rings */
-enum { SETTLED = 2, SETTLED_CONTACT = 4 };      /* the fall that is settled: a contact may ring for long */
+enum { SETTLED = 4 };           /* the fall that is settled: a contact may ring for long */
 #define PATIENCE 8              /* times as long as a fall should take, for these to come */
 
 enum { MASS, SPEED };           /* the first keys */
@@ -129,8 +129,7 @@ find_fall(double *time, const ss_scene *scene, double *steps)
     const double loading = fabs(scene->stiffness * pull_of(scene)), period = 2 * M_PI / own_frequency(scene);
     const double reload = 2 * (scene->static_friction - scene->friction) / loading;
     ss_scene s = *scene;
-    waiting w = { .least = SHORT * fmin(reload, period), .t = NAN,
-                  .settled = scene->model->has_contact ? SETTLED_CONTACT : SETTLED };
+    waiting w = { .least = SHORT * fmin(reload, period), .t = NAN, .settled = SETTLED };
     ss_sim_stats stats = { .steps = 0 };
     ss_sim_opts opts = ss_samples_opts(scene, SAMPLES_FINE);
     opts.events = wait_for_fall;
