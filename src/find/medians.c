@@ -12,8 +12,6 @@
 #include "find/judgement.h"
 #include "find/slip.h"
 
-#define DEVIATION_SD 1.17       /* relative error of a median deviation, times the root of the number of
-                                   values */
 #define SHORT 0.2               /* part of the time that falls may take, so that the rest may be stick */
 
 /* The median of the errors that are known, and their number in *known; 0: none is known. */
@@ -67,7 +65,7 @@ add_misfit(ss_number *k_over_m, double common, const ss_value *v, size_t n, doub
 {
     size_t known;
     double error = sqrt(1 - common) * median_error(&known, v, n, scratch), scatter = k_over_m->scatter;
-    if (known > 1 && scatter > error * (1 + SIGMAS * DEVIATION_SD / sqrt((double)known)))
+    if (known > 1 && scatter > error * (1 + SIGMAS * GAUSS_MEDIAN_ERROR / sqrt((double)known)))
         k_over_m->error = hypot(k_over_m->error, sqrt(scatter * scatter - error * error));
 }
 

@@ -75,7 +75,7 @@ converter_step(const row_source *source)
             return 0;
     }
     int seldom = changes < n / 20, few = hi - lo < 64 * step;
-    if (!(hi - lo >= 8 * step) || (seldom && few) || (double)fit < 0.9 * (double)changes)
+    if (!(hi - lo >= 8 * step) || (seldom && few) || changes - fit > changes / 10)
         return 0;
     return step;
 }

@@ -19,7 +19,6 @@
 #define REACH 2.0               /* octaves in which spikes are sought from the first row with a spike on */
 #define NEAR 2.0                /* scales: the least distance of two spikes, and what the fit of a break sees */
 #define DRIFT 0.5               /* the most by which a maximum moves from row to row, in scales */
-#define CONCLUSIVE 6.0          /* the least level of the clearest spike above the threshold [dB] */
 
 typedef struct spike_search {
     row_source *source;
@@ -246,7 +245,7 @@ finish(spike_search *s)
     sort(found);
     for (size_t i = 0; i < found->n; i++)
         found->f = fmax(found->f, found->spike[i].f);
-    found->conclusive = found->floor <= -CONCLUSIVE;
+    found->conclusive = found->floor <= -EVENT_CLEAR;
 }
 
 ss_status

@@ -25,7 +25,7 @@ enum { PERIODS = 64, FIRST = 16, LEAST = 8 };   /* in a whole window, before row
 #define SAME 2.                 /* samples between times that are the same */
 #define LOUDER 2.               /* times the largest sample of a window: it taught nothing about those */
 enum { ENOUGH = 8 };            /* transitions show what recurs as well as all of a window do */
-enum { MANY = 16, RARELY = 16 };        /* windows are searched as they come, and of the others one in so many */
+enum { MANY = 16 };             /* windows are searched as they come, and of the others one in so many */
 
 struct mean {
     double weight, value, squares;      /* squares: weighted, about the value (West 1979) */
@@ -221,7 +221,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     double start, until = last ? INFINITY
         : s->head->start + (double)(s->seen - s->behind) / s->head->rate;
     size_t all = s->n < s->window ? s->n : s->window;
-    size_t apart = s->windows < MANY || s->is_changed || s->known.known == NULL ? s->window : RARELY * s->window;
+    size_t apart = s->windows < MANY || s->is_changed || s->known.known == NULL ? s->window : MANY * s->window;
     int whole = last || s->seen - s->searched >= apart;
     size_t n = whole || s->part > all ? all : s->part;
     int finds_all = whole || s->known.period == 0;

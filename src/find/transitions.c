@@ -8,8 +8,6 @@
 #include "signal/gaps.h"
 
 #define SPIKES 60.0             /* [dB] range of the spikes that are counted in a transition */
-#define APART 6.0               /* [dB] above the next weaker one: such events are no swells of noise */
-#define CLEAR 15.0              /* [dB] range of single events */
 
 static int
 has_strong_event(const ss_spikes *found)
@@ -76,7 +74,7 @@ stand_apart(const ss_bursts *found)
     double weakest = 0;
     for (size_t i = 0; i < found->n; i++)
         weakest = fmin(weakest, found->burst[i].level);
-    return found->n < 2 || weakest - fmax(found->next, found->floor) >= APART;
+    return found->n < 2 || weakest - fmax(found->next, found->floor) >= EVENT_CLEAR;
 }
 
 /* Find single events in a record that is quiet elsewhere.  The map is not needed any more. */
@@ -86,7 +84,7 @@ find_single(search *s)
     ss_bursts *found = NULL;
     ss_coefficients_free(s->map);
     s->map = NULL;
-    ss_status st = ss_bursts_find(&found, s->rows, CLEAR, NULL);
+    ss_status st = ss_bursts_find(&found, s->rows, STRONG, NULL);
     if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
         for (size_t i = 0; i < found->n; i++) {
             ss_transition *tr = &s->out->transition[i];

@@ -37,7 +37,8 @@ enum {
 #define GROWS 2.0               /* times the last amplitude: what grows again */
 #define HIT 3.0                 /* times what the blocks behind it leave: a blow is in the first
                                    block */
-#define SURE .02                 /* error of ln A below which a block alone is not biased */
+#define SURE .02                /* error of ln A below which a block alone is not biased */
+#define SHORTEST 1.5            /* periods of a block */
 #define NOISY 10.0              /* dB above a floor: it matters below */
 #define HIGH 25.0               /* the same: it does not matter above */
 #define NEPER (M_LN10 / 20)     /* a decibel */
@@ -237,7 +238,7 @@ block_length(const decay *d, bend at, double amplitude, double noise)
     for (size_t i = 0; i < d->beside.n; i++)
         length = fmax(length, fmin(fabs(2 * M_PI * 1.8 / (d->beside.w[i] - at.w)), LONG * period));
     if (at.s * length > FALL)
-        length = fmax(FALL / at.s, 1.5 * period);
+        length = fmax(FALL / at.s, SHORTEST * period);
     length = fmax(length, fmin(samples, LONG * period));
     return (size_t)ceil(fmax(fmax(length, (double)(d->end - d->first) / MANY), 14 + 3. * (double)d->beside.n));
 }
@@ -830,7 +831,7 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     if (column >= signal->head->n_columns)
         return ss_fail_column(err, column, signal->head->n_columns);
     if (!(own.mode >= 0 && own.level_frequency >= 0 && own.mass >= 0)
-        || (own.periods != 0 && !(own.periods >= 1.5)))
+        || (own.periods != 0 && !(own.periods >= SHORTEST)))
         return ss_fail(err, SS_EINVAL, "an option is out of its range");
     const ss_column *of = &signal->head->column[column];
     decay_source source = { .rate = signal->head->rate, .has_phase = !(own.level_frequency > 0), .column = of->unit,

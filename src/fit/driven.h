@@ -15,7 +15,7 @@ enum { LENGTH, OTHER_LENGTH, GAP, EXPONENT, BETA, RISE, SPEED, SHAPE, DELAY, UNK
 enum { PART, VISCOUS = PART + DRIVEN_PARTS, TILT, INERTIA, SINE, COSINE, BY_SIDE, UNEVEN, PLACE, OFFSET, DRIFT,
        COLUMNS };
 enum { LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
-enum { DRIVEN_ROWS = 4000 };        /* rows that fits look at */
+enum { DRIVEN_ROWS = 4000, DRIVEN_FEWEST = 200 };   /* rows that fits look at, and from which they judge */
 #define DRIVEN_TURN 0.1             /* of the rms motion: a turn that a contact remembers */
 
 /* A law that a motion may drive: a model, the unknowns that it frees, and the numbers that they make. */

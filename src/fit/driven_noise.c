@@ -18,7 +18,6 @@
 
 #define MEMORY (1. / 16)                /* of noise, at most, in cycles */
 #define SHARED 1e-4                     /* ridge of the terms of a free law, which are alike */
-enum { FEWEST = 100 };                  /* differences whose size is known */
 
 ss_status
 ss_driven_partners(const driven *d, size_t *partner)
@@ -176,7 +175,7 @@ find_rough(const driven *d, const double *predicted, size_t turns, double *room)
             if (d->used[i - lag] && d->used[i] && d->used[i + lag])
                 room[n++] = by * by / (6 - 8 * keep + 2 * keep * keep);
         }
-        if (n > FEWEST)
+        if (n > DRIVEN_FEWEST)
             least = fmin(least, ss_wander_variance(room, n));
     }
     return least;

@@ -18,7 +18,6 @@
 #include "signal/header.h"
 
 enum { COARSE = 800 };                  /* rows that searches look at */
-enum { FEWEST = 200 };                  /* rows to be judged */
 #define OTHER_RANGE 1.25                /* ratio of the rms motion in two folds that are not alike */
 
 static const ss_motion_opts defaults = { .size = sizeof defaults, .delay = 1 };
@@ -68,8 +67,8 @@ find_doubt(char *why, size_t room, const driven *d, size_t turns)
         snprintf(why, room, "its numbers are too large");
     else if (!(d->length > 0 && d->speed > 0 && d->force > 0))
         snprintf(why, room, "%s is constant", d->length > 0 && d->speed > 0 ? "the force" : "the motion");
-    else if (d->n < FEWEST)
-        snprintf(why, room, "it has %zu rows, fewer than %d", d->n, FEWEST);
+    else if (d->n < DRIVEN_FEWEST)
+        snprintf(why, room, "it has %zu rows, fewer than %d", d->n, DRIVEN_FEWEST);
     else if (d->least > 1)
         snprintf(why, room, "the motion is noise");
     else if (turns < 2)
@@ -326,14 +325,14 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size
     char why[128];
     size_t turns = 0;
     ss_status st = SS_OK;
-    snprintf(why, sizeof why, "it has %zu rows, fewer than %d", n, FEWEST);
-    if (n >= FEWEST && (st = ss_driven_new(&d, column[0], column[1], column[2], n, opts)) == SS_OK) {
+    snprintf(why, sizeof why, "it has %zu rows, fewer than %d", n, DRIVEN_FEWEST);
+    if (n >= DRIVEN_FEWEST && (st = ss_driven_new(&d, column[0], column[1], column[2], n, opts)) == SS_OK) {
         turns = ss_driven_turns(&d, fmax(DRIVEN_TURN, d.least), NULL);
         find_doubt(why, sizeof why, &d, turns);
         if (why[0] == '\0' && choose_folds(&d, opts->folds, turns, &r->interleaved))
             snprintf(why, sizeof why, "the two %s visit other ranges of the motion",
                      r->interleaved ? "folds" : "halves");
-        if (why[0] == '\0' && is_fewer(&d, FEWEST / 4))
+        if (why[0] == '\0' && is_fewer(&d, DRIVEN_FEWEST / 4))
             snprintf(why, sizeof why, "where the motion goes is lost in its noise");
         if (why[0] == '\0' && (st = ss_driven_thin(&rows, &d, DRIVEN_ROWS)) == SS_OK)
             st = ss_driven_thin(&coarse, &d, COARSE);

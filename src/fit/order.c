@@ -13,11 +13,11 @@ const criterion_rule ss_criterion_rules[SS_CRITERIA] = {
     [SS_BY_ADJUSTMENT] = { "adjustment", "", 1, 1 },
     [SS_BY_MAXIMUM]    = { "maximum", "", 0.5, 1 },
     [SS_BY_FREQUENCY]  = { "frequency", "Hz", 0.154, 1 },
-    [SS_BY_DAMPING]    = { "damping", "", 0.693, 1 },
+    [SS_BY_DAMPING]    = { "damping", "", M_LN2, 1 },
     [SS_BY_JUMP]       = { "jump", "dB", 6, 1 },
     [SS_BY_SPIKES]     = { "spikes", "", 1, 1 },
     [SS_BY_SLOPE]      = { "slope", "dB/octave", 6, 1 },
-    [SS_BY_STIFFNESS]  = { "stiffness", "N/m", 0.693, 1 },
+    [SS_BY_STIFFNESS]  = { "stiffness", "N/m", M_LN2, 1 },
     [SS_BY_MAP]        = { "map", "dB", 80. / 18, 0.25 },
 };
 

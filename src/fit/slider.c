@@ -14,7 +14,6 @@
 #include <string.h>
 
 enum { ORDER = 20, MOST_STEPS = 20000 };        /* steps: between two times */
-#define RUNS_AWAY 1e9           /* times the speed before */
 
 typedef struct series {
     double v[ORDER + 1], other[ORDER + 1];      /* of the speed, and of q or w, in parts of the step */
@@ -59,7 +58,7 @@ part_of(const series *c, int is_slip, double tol)
         double size = fmax(fabs(c->v[n]) / c->v[0], fabs(c->other[n]) / (is_slip ? 1 : c->other[0]));
         most = fmax(most, pow(size / tol, 1. / n));
     }
-    return 0.9 / most;
+    return 1 / most;
 }
 
 /* Step towards the end of a stretch that is `left` long.  Returns how far, and adds the way to *slid; NaN: it runs
@@ -85,7 +84,7 @@ step(series *c, const slider *s, double left, double speed, double tol, double *
     c->v[0] = v;
     c->other[0] = other;
     *slid += way * part * left;
-    return v > 0 && v < RUNS_AWAY && (s->is_slip || other > 0) ? part * left : NAN;
+    return v > 0 && isfinite(v) && (s->is_slip || other > 0) ? part * left : NAN;
 }
 
 ss_status

@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/gauss.h"
 
 enum { COLUMNS = 8, STEPS = 60 };
 
@@ -124,5 +125,5 @@ double
 ss_wander_variance(double squares[], size_t n)
 {
     gsl_sort(squares, 1, n);
-    return gsl_stats_mean(squares, 1, n - n / 10) / 0.623;      /* the other tenth has the rest of the squares */
+    return gsl_stats_mean(squares, 1, n - n / 10) / GAUSS_NINE_TENTHS;
 }
