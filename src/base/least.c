@@ -253,12 +253,13 @@ static void
 iterate(descent *d, gsl_multilarge_nlinear_workspace *space, gsl_multilarge_nlinear_fdf *of, gsl_vector *w,
         least_end *end)
 {
+    const size_t most = d->fit->steps > 0 ? d->fit->steps : ENOUGH;
     double *before = d->u + d->fit->unknowns;
     int ended = gsl_multilarge_nlinear_init(w, of, space);
     end->why = "it takes too many steps";
     if (ended != GSL_SUCCESS || !isfinite(d->squares))
         end->why = "there is no model where it starts";
-    while (ended == GSL_SUCCESS && isfinite(d->squares) && !end->converged && end->steps < (d->fit->steps > 0 ? d->fit->steps : ENOUGH)) {
+    while (ended == GSL_SUCCESS && isfinite(d->squares) && !end->converged && end->steps < most) {
         double squares = d->squares;
         int was_old = d->is_old;
         int is_still = d->fit->costly && is_little_gain(d, predicted_gain(d, space, before + d->fit->unknowns));

@@ -7,7 +7,7 @@
 #include <stickslip/spikes.h>
 #include "find/scale_rows.h"
 
-#define EVENT_CLEAR 6.0         /* [dB] above the threshold, or the next weaker one: an event is no swell of noise */
+#define EVENT_CLEAR 6.0         /* [dB] above threshold or the next weaker one: an event is no swell of noise */
 
 /* Find all spikes of a source, whose memory is freed.  n = 0 if no |W| exceeds the noise. */
 ss_status ss_spikes_find(ss_spikes **out, row_source *source, ss_error *err);

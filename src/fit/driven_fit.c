@@ -23,8 +23,8 @@ enum { KEPT = 3 };                  /* starts that are improved */
 
 /* Where a fit may go; its starts lie in the upper three quarters. */
 static const ss_range ranges[UNKNOWNS] = {
-    [LENGTH] = { -7, 1 }, [OTHER_LENGTH] = { -2, 2 }, [GAP] = { -7, 1 }, [EXPONENT] = { -1, 3 }, [BETA] = { 0.5, 1 },
-    [RISE] = { 0, 2 }, [SPEED] = { -6, 2 }, [SHAPE] = { 0, 1 } };
+    [LENGTH] = { -7, 1 }, [OTHER_LENGTH] = { -2, 2 }, [GAP] = { -7, 1 }, [EXPONENT] = { -1, 3 },
+    [BETA] = { 0.5, 1 }, [RISE] = { 0, 2 }, [SPEED] = { -6, 2 }, [SHAPE] = { 0, 1 } };
 
 typedef struct problem {
     const driven_law *law;

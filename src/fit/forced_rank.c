@@ -83,7 +83,8 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
     f->scene.period = w->goal.period;
     f->scene.budget = more * BUDGET;
     f->scene.progress = ss_stretch_part(progress, 0, 0.5);
-    ss_status st = ss_forced_search(start, &n, &f->scene, &w->goal, (size_t)(more * POINTS), (size_t)(more * KEEP));
+    ss_status st = ss_forced_search(start, &n, &f->scene, &w->goal, (size_t)(more * POINTS),
+                                    (size_t)(more * KEEP));
     f->scene.progress = ss_stretch_part(progress, 0.5, 1);
     if (st == SS_OK)
         st = ss_forced_fit(&f->fit, NULL, &f->scene, start, n, w->goal.power, &w->record);

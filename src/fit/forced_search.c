@@ -16,8 +16,8 @@
 #include "base/sort.h"
 #include "fit/samples.h"
 
-#define SMALL 0.01              /* size of a simplex that ends a search: a fit goes on faster from there; ends within
-                                   twice this are the same */
+#define SMALL 0.01              /* size of a simplex that ends a search: a fit goes on faster from there; ends
+                                   within twice this are the same */
 enum { STEPS = 40 };            /* of a simplex, at most */
 
 typedef struct search {
