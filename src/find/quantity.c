@@ -12,7 +12,7 @@
 
 static const char *const displacement_words[] = { "displacement", "position", "stroke", "disp", "pos", "x", NULL };
 static const char *const motion_words[] = { "velocity", "acceleration", "slip", "speed", "vel", "acc", "v", "a", NULL };
-static const char *const force_words[] = { "force", "friction", "load", "traction", "f", "fx", "fy",
+static const char *const force_words[] = { "force", "torque", "friction", "load", "traction", "f", "fx", "fy",
                                            "fz", "fn", "ft", NULL };
 
 static int

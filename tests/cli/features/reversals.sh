@@ -53,6 +53,12 @@ for phase in 0 2 4; do
         limit = 5 * (1 + .12 * cos(32 * atan2(1, 1) * u + phase)); f = f > limit ? limit : f < -limit ? -limit : f
         print i / 1000 "," x "," f } }' | ss-features -q -c f - | honest loading_stiffness 200
 done
+# a torque is read as a force; its slips are the sides that it goes to
+slider 1e6 | sed '/^# col/s,f/N,torque/(N m),' > torque.tsv
+ss-features -c torque torque.tsv > found
+covers friction 4000 < found
+awk '!/^#/ { side = $3 > 2500 ? 1 : $3 < -1500 ? -1 : side; n += side != last; last = side } END { print n }' torque.tsv > sides
+sed -n 's/^# slips: \([0-9]*\).*/\1/p' found | cmp - sides
 # a gap: what it reaches is left out
 slider 1e6 | awk 'BEGIN { print "t,x (m),f (N)"; OFS = "," } !/^#/ { if ($1 > 3.2 && $1 < 3.6) $3 = ""
     print $1, $2, $3 }' > gap.csv
