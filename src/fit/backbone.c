@@ -16,19 +16,19 @@
 #include "base/list.h"
 #include "base/options.h"
 #include "base/sort.h"
+#include "find/judgement.h"
 #include "signal/gaps.h"
 
 enum {
     RICH = 32,                  /* samples a period that are enough */
-    FEW = 3, MANY = 200,        /* blocks that are a decay, and that tell all of it */
+    MANY = 200,                 /* blocks that tell all of a decay; FEW are one */
     TRIED = 2,                  /* lines beside the strongest, one of which may be the decay */
     REFITS = 2,                 /* smooth curves, each through blocks fitted about the last */
     PARTS = 8,                  /* in which a line is looked at */
     SOME = 1024,                /* terms of a spectrum that tell what is usual */
     ENOUGH = 1 << 16,           /* samples that show a line */
     HARMONICS = 9,              /* of the decay, which are no lines */
-    LEVELS = 20,                /* blocks of a level, at most */
-    LEVEL_ROWS = 3,             /* in one, at least */
+    LEVELS = 20,                /* blocks of a level, at most, of FEW rows each, at least */
     BEHIND = 6,                 /* blocks behind the end, at most */
     SLOW = 4                    /* periods to twice the amplitude, as no blow takes */
 };
@@ -573,7 +573,7 @@ find_levels(decay *d, const double *x, size_t n)
     memcpy(d->x, x, n * sizeof *x);
     for (size_t i = 1; i < n; i++)
         most = x[i] > x[most] ? i : most;
-    if (n < most + FEW * LEVEL_ROWS || most >= tail)
+    if (n < most + FEW * FEW || most >= tail)
         return SS_OK;
     block last = fit_level(x, tail, n, w);
     size_t from = most, to = most;              /* of where the decay alone is seen above its end */
@@ -581,7 +581,7 @@ find_levels(decay *d, const double *x, size_t n)
         from = x[i] * NEPER > last.y[LEVEL] + HIGH * NEPER ? i : from;
         to = x[i] * NEPER > last.y[LEVEL] + NOISY * NEPER ? i + 1 : to;
     }
-    double ratio = to - from < LEVEL_ROWS ? 1 : fmax(last.rate[LEVEL] / fit_level(x, from, to, w).rate[LEVEL], 0);
+    double ratio = to - from < FEW ? 1 : fmax(last.rate[LEVEL] / fit_level(x, from, to, w).rate[LEVEL], 0);
     tail = n;
     if (ratio < .5) {                           /* it bends into a floor, which has this part of the last power */
         double floor = last.y[LEVEL] / NEPER + 10 * log10(1 - ratio);
@@ -589,7 +589,7 @@ find_levels(decay *d, const double *x, size_t n)
         for (size_t i = tail = most; i < n && x[i] > floor + NOISY; tail = ++i)
             d->x[i] += 10 * log10(1 - pow(10, (floor - x[i]) / 10));
     }
-    size_t blocks = tail > most ? (tail - most) / LEVEL_ROWS : 0;
+    size_t blocks = tail > most ? (tail - most) / FEW : 0;
     blocks = blocks < LEVELS ? blocks : LEVELS;
     for (size_t i = 0; i < blocks; i++)
         d->block[d->n_blocks++] = fit_level(d->x, most + (tail - most) * i / blocks,
