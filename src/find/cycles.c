@@ -35,11 +35,15 @@
  * cycles.  Then a part of that length is the period, if the signal repeats after the part as well as
  * it does after the whole when it is shifted by a sample.
  *
+ * Cycles may differ in turn: then several of them repeat far better than one, and these are the period.  How well,
+ * is judged between samples, and a jump that lies between two is no difference.
+ *
  * A hum may make several cycles more alike than one.  What differs after a part of them is then its line alone.
  * It may also keep all lags at multiples of its own period: the rate of what is slow tells. */
 #include "find/cycles.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
@@ -62,11 +66,13 @@
 #define ROBUST 8                /* the fewest cycles whose scatter is found from the median deviation */
 #define MANY 16                 /* cycles: fewer show no modulation; a decay that is slower does not count */
 #define PULLED 16               /* a hum pulls the lag by less than one part in so many */
+#define ALIKE 1e-3              /* of the variance: cycles that differ by less are alike */
+#define CLEARER 4.0             /* by chance, cycles with noise or a clock that wanders differ by a factor of 2 */
 #define ONE 0.9                 /* of what differs: more is one line */
 #define LOW 2.5                 /* times the frequency: the lines of a motion itself may be strong up to there */
 #define MOST 64.0               /* periods that are looked at for that */
 #define SLOW 16.0               /* of a period: part of it that is averaged over */
-enum { MULTIPLES = 6 };
+enum { MULTIPLES = 6 };         /* cycles that may be taken for one beside a hum, or that differ in turn */
 enum { PARTS = 16 };            /* cycles that may be taken for one, at most */
 enum { LAGS = 3 };              /* lags over 2, 4 and 8 cycles, so long a signal must be like itself */
 
@@ -148,6 +154,14 @@ correlation(const view *v, size_t first, size_t lag, size_t m)
 {
     moments of = moments_of(v, first, lag, m);
     return of.a > 0 && of.b > 0 ? of.ab / sqrt(of.a * of.b) : 0;
+}
+
+/* The square of the distance of x from the range of three others. */
+static double
+beyond(double x, double a, double b, double c)
+{
+    double far = fmax(fmin(a, fmin(b, c)) - x, x - fmax(a, fmax(b, c)));
+    return far > 0 ? far * far : 0;
 }
 
 /* The vertex of the parabola through the values at -step, 0, step. */
@@ -416,18 +430,16 @@ find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
     return averaged != NULL && c != NULL ? SS_OK : SS_ENOMEM;
 }
 
-/* --- beside a hum ---------------------------------------------------------------------------- */
+/* --- what differs ---------------------------------------------------------------------------- */
 
-/* Is nearly all that differs after so many samples one line, which is no low multiple of f [per sample], nor any
- * other as far as the record tells?  Then it is a hum's, and the rest repeats.  *hum: its frequency, or 0. */
+/* The frequency of the one line that is nearly all that differs after so many samples [per sample]; 0: it is more. */
 static ss_status
-find_hum(const view *v, size_t lag, double f, double *hum)
+line_between(const view *v, size_t lag, double *f)
 {
     const size_t m = (v->n - lag) / 2 * 2;
     real_fft r;
     double all = 0, line = 0, at = 0;
     size_t top = 1;
-    *hum = 0;
     if (ss_real_fft_new(&r, m, 0) != SS_OK)
         return SS_ENOMEM;
     for (size_t i = 0; i < m; i++)
@@ -440,23 +452,104 @@ find_hum(const view *v, size_t lag, double f, double *hum)
     }
     for (size_t k = top - 1; k <= top + 1; k++)
         line += r.x[k], at += (double)k * r.x[k];
-    double cycles = f * (double)m, multiple = at / line / cycles;
-    if (line > ONE * all && multiple > LOW && fabs(multiple - round(multiple)) * cycles > 0.5)
-        *hum = at / line / (double)m;
+    *f = line > ONE * all ? at / line / (double)m : 0;
     ss_real_fft_free(&r);
     return SS_OK;
 }
 
+/* The mean square by which samples lie beyond their neighbours, cubes through these included. */
+static double
+roughness(const view *v)
+{
+    double sum = 0;
+    for (size_t i = 3; i + 3 < v->n; i++) {
+        const double *x = v->x + i;
+        sum += beyond(x[0], x[-1], x[1], 0.5625 * (x[-1] + x[1]) - 0.0625 * (x[-3] + x[3]));
+    }
+    return sum / (double)v->n;
+}
+
+/* The same of samples and those about them some lag later, in a cycle that but a quarter are more unlike, so that
+ * glitches do not count.  Of at most MOST cycles.  Between samples: Lanczos, 8 of them. */
+static double
+unlikeness(const view *v, double lag, double period)
+{
+    enum { TAPS = 8, BEFORE = TAPS / 2 - 1 };
+    const size_t whole = (size_t)lag, last = v->n - whole - TAPS;
+    double tap[TAPS], sum[(size_t)MOST] = { 0 };
+    size_t n = 0;
+    for (int k = 0; k < TAPS; k++) {
+        double t = M_PI * (lag - (double)whole - (k - BEFORE));
+        tap[k] = t == 0 ? 1 : sin(t) / t * sin(2 * t / TAPS) / (2 * t / TAPS);
+    }
+    for (size_t i = BEFORE; i < last; n++) {
+        const size_t first = i, end = (size_t)fmin((double)last, BEFORE + (double)(n + 1) * period);
+        for (; i < end; i++) {
+            const double *x = v->x + i + whole;
+            double at = 0;
+            for (int k = 0; k < TAPS; k++)
+                at += tap[k] * x[k - BEFORE];
+            sum[n] += beyond(v->x[i], x[0], x[1], at) / (double)(end - first);
+        }
+    }
+    gsl_sort(sum, 1, n);
+    return gsl_stats_quantile_from_sorted_data(sum, 1, n, 0.75);
+}
+
+/* The lag after which it is most like itself, near one that a hum or some cycles may have pulled. */
+static double
+lag_near(const view *v, double about)
+{
+    const size_t off = (size_t)(about / PULLED) + 1, step = off / 8 + 1, m = v->n - (size_t)about - 2 * off - 4;
+    size_t lag = refine(v, 0, m, best_lag(v, 0, m, (size_t)about - off, (size_t)about + off, step), step);
+    size_t likely = refine(v, 0, m, (size_t)(about + 0.5), 1);
+    if (relative(v, 0, likely, m) < relative(v, 0, lag, m))
+        lag = likely;
+    return (double)lag + vertex(relative(v, 0, lag - 1, m), relative(v, 0, lag, m), relative(v, 0, lag + 1, m), 1);
+}
+
+/* --- in turn, or beside a hum ---------------------------------------------------------------- */
+
+/* How unlike it is to itself after so many cycles of this period. */
+static double
+after(const view *v, double period, double cycles)
+{
+    return unlikeness(v, lag_near(v, cycles * period), period);
+}
+
+/* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as many, and
+ * many, too, and not after others; and if one line is all that differs, it is below what repeats, or a hum made it so. */
+static ss_status
+cycles_in_turn(const view *v, double period, size_t *in_turn)
+{
+    const double after_one = after(v, period, 1), bound = after_one / CLEARER, most = (double)v->n / period;
+    double f = 0;
+    *in_turn = 1;
+    if (!(after_one > fmax(roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
+        return SS_OK;
+    ss_status st = line_between(v, (size_t)(lag_near(v, period) + 0.5), &f);
+    for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && f * period < 1 && *in_turn == 1; p++) {
+        int agree = after(v, period, floor(0.5 * most / (double)p) * (double)p) < bound;
+        for (size_t q = 2; agree && q <= 2 * p + 1 && (double)q < 0.6 * most; q++)
+            agree = (after(v, period, (double)q) < bound) == (q % p == 0);
+        if (agree)
+            *in_turn = p;
+    }
+    return st;
+}
+
 /* The largest number of parts of the period after which the signal repeats itself but for a hum, whose frequency
- * *hum becomes; else 1. */
+ * *hum becomes; else 1.  A hum is a line that is high, or no multiple of what repeats as far as the record tells. */
 static ss_status
 parts_beside_hum(const view *v, double period, double *hum, size_t *parts)
 {
     ss_status st = SS_OK;
     for (*parts = MULTIPLES + 1; st == SS_OK && *hum == 0 && *parts > 1;) {
-        size_t lag = (size_t)(period / (double)--*parts + 0.5);
-        if (lag > 4 && relative(v, 0, lag, v->n - lag) < 1 - CYCLES_ALIKE)
-            st = find_hum(v, lag, 1 / period, hum);
+        double f = 0, lag = floor(period / (double)--*parts + 0.5);
+        if (lag > 4 && relative(v, 0, (size_t)lag, v->n - (size_t)lag) < 1 - CYCLES_ALIKE)
+            st = line_between(v, (size_t)lag, &f);
+        double multiple = f * period, off = fabs(multiple - round(multiple)) * ((double)v->n - lag) / period;
+        *hum = f * lag > LOW || (multiple > LOW && off > 0.5) ? f : 0;
     }
     return st;
 }
@@ -520,7 +613,13 @@ ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out)
     if (st == SS_OK && about == 0 && isfinite(out->period.value)) {
         const view first = { x, (size_t)fmin((double)n, MOST * out->period.value) };
         double hum = 0;
-        st = parts_beside_hum(&first, out->period.value, &hum, &parts);
+        size_t in_turn;
+        st = cycles_in_turn(&first, out->period.value, &in_turn);
+        if (st == SS_OK && in_turn > 1)
+            st = find_at(x, n, out->period.value * (double)in_turn, out, &parts);
+        parts = 1;
+        if (st == SS_OK && isfinite(out->period.value))
+            st = parts_beside_hum(&first, out->period.value, &hum, &parts);
         if (st == SS_OK && parts > 1)
             st = find_at(x, n, out->period.value / (double)parts, out, &parts);
         out->hum = isfinite(out->period.value) ? hum : 0;
