@@ -117,12 +117,13 @@ reads_long_records_as_well(void **state)
     }
 }
 
-/* Stiff and soft, light and heavy: within bounds, or refused. */
+/* Stiff and soft, light and heavy: within bounds, or refused.  The stiff ones, with 4 to 8 samples a period, have
+ * died out in the noise when a slip begins: a sensor that resonates would look the same. */
 static void
 reads_stiff_and_soft_contacts(void **state)
 {
     static const double K_y[] = { 6e4, 6e5, 6e6, 2e7 }, damping[] = { 0.005, 0.05, 0.2 };
-    static const struct { double snr; int refused; } noise[] = { { 40, 3 }, { 60, 2 } };
+    static const struct { double snr; int refused; } noise[] = { { 40, 7 }, { 60, 3 } };
     (void)state;
     for (int l = 0; l < 2; l++) {
         int refused = 0;

@@ -28,11 +28,13 @@
 #include <stickslip/spectrum.h>
 #include "find/fitter.h"
 
-#define AROUND 2.0              /* periods on either side of the middle of a stretch */
+#define AROUND 1.5              /* periods on either side of the middle of a stretch: more may hold two events */
 /* What the sensor leaves more than the contact, in parts: less is the sensor.  Of 120 sensors in noise of 50 dB none
  * came to more than .14, of 66 contacts none to less than .154. */
 #define CONTACT 0.15
 #define SHOWN 1.0               /* the same: so it is the contact, whatever else may be */
+#define CHANCE 2.3              /* variances of a sample that noise alone makes behind each of the sticks, and of FEW_MORE: by
+                                   the chance to choose the place of an event */
 #define HIDDEN 2e-4             /* noise re what an event makes: more may hide where a slip begins */
 #define SLOW 0.05               /* range of means re that of samples: with less nothing moves but what rings */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
@@ -43,6 +45,7 @@
 #define FINE (1 / 32.)          /* resolution re the oscillation; coarser in records of under four segments */
 enum { RATE = 24 };             /* most samples of a period that are used */
 enum { EVENTS = 33 };           /* places of an event that are tried, within a period of the middle */
+enum { FEW_MORE = 5 };
 enum { STICKS = 24 };           /* most sticks that are looked behind */
 #define ONE 0.5                 /* of what rings: with more in one sinusoid that runs through all sticks it is a hum */
 #define UNDAMPED 0.01           /* error of the damping re the frequency */
@@ -193,6 +196,7 @@ seek_event(const stretch *of, double all, double left[RINGERS])
 /* Sums over the stretches so far before the next stick. */
 typedef struct place {
     double more, left;          /* what the sensor leaves more than the contact; what the contact leaves */
+    double noise;               /* of which noise */
     double most;                /* the most that the contact leaves more anywhere before the same stick */
     size_t sticks;
 } place;
@@ -219,6 +223,7 @@ compare(const stretch *of, const double *x, ss_window gap, place *sum)
         seek_event(of, all, left);
         sum[i].more += left[BY_SENSOR] - left[BY_CONTACT];
         sum[i].left += left[BY_CONTACT];
+        sum[i].noise += of->noise;
         most = fmax(most, left[BY_CONTACT] - left[BY_SENSOR]);
     }
     for (size_t i = 0; i < n; i++)
@@ -275,9 +280,13 @@ compare_all(const search *s, const ringdown *r, double *more)
             fill_basis(&of, event, who);
     for (size_t i = 0; i < used; i++)
         moved += (size_t)compare(&of, s->x, gap[i], sum);
-    for (size_t k = 0; k < most; k++)
-        if (sum[k].sticks >= 2 && 2 * sum[k].sticks >= used && sum[k].most > 0)
-            best = fmax(best, sum[k].more / fmin(sum[k].left, HIDDEN * sum[k].most));
+    for (size_t k = 0; k < most; k++) {
+        const place *at = &sum[k];
+        double unexplained = fmax(at->left - 2 * at->noise, 0) + fmin(at->noise, HIDDEN * at->most);
+        if (at->sticks >= 2 && 2 * at->sticks >= used && at->most > 0
+            && at->more > CHANCE * (at->noise + FEW_MORE * of.noise) / (double)n)
+            best = fmax(best, at->more / unexplained);
+    }
     if (2 * moved > used)
         *more = best;
     free(sum);
