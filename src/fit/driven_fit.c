@@ -21,7 +21,7 @@
 #define NUDGE_DELAY 0.1             /* rows: of a law that jumps, some rows must change */
 enum { KEPT = 3 };                  /* starts that are improved */
 
-/* Where a fit may go; its starts lie in the upper three quarters. */
+/* Where a fit may go; its starts lie in the upper three quarters, of a ratio in the middle half. */
 static const ss_range ranges[UNKNOWNS] = {
     [LENGTH] = { -7, 1 }, [OTHER_LENGTH] = { -2, 2 }, [GAP] = { -7, 1 }, [EXPONENT] = { -1, 3 },
     [BETA] = { 0.5, 1 }, [RISE] = { 0, 2 }, [SPEED] = { -6, 2 }, [SHAPE] = { 0, 1 } };
@@ -331,9 +331,10 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[
         double u[UNKNOWNS], at[UNKNOWNS];
         memcpy(u, p->law->held, sizeof u);
         gsl_qrng_get(all_over, at);
-        for (size_t k = 0; k < dim; k++)
-            u[p->free[k]] = ranges[p->free[k]].from
-                + (1 + 3 * at[k]) / 4 * (ranges[p->free[k]].to - ranges[p->free[k]].from);
+        for (size_t k = 0; k < dim; k++) {
+            const ss_range in = ranges[p->free[k]];
+            u[p->free[k]] = in.from + (1 + (in.from == -in.to ? 2 : 3) * at[k]) / 4 * (in.to - in.from);
+        }
         fill_columns(p, u);
         for (p->without = 0; p->without <= ALL; p->without++)
             keep(p, best, u);
