@@ -27,7 +27,6 @@
                                    keeps less */
 enum { ENOUGH = 256 };          /* the most windows of a fit while they still grow */
 #define START 0.03              /* s / w from which the fit starts */
-#define COARSE 1e-4             /* tolerance of fits while the windows still grow */
 
 static const ss_value nothing = { NAN, NAN };
 
@@ -91,7 +90,7 @@ grow_windows(fitter *k, ss_window *core, int *ok)
             core[i] = ss_sticks_place(k, k->of->anchor[i], CORE);
             k->window[i] = i % every == 0 ? core[i] : k->window[i];
         }
-    ss_status st = fit_shared(k, COARSE, ok);
+    ss_status st = fit_shared(k, FIT_FINE, ok);
     for (double limit = CORE * GROWTH; is_growing && limit < MOST; limit *= GROWTH) {
         *ok = *ok && fabs(log(k->fit.w / start)) < M_LN2 / 2;   /* else windows are longer than the table */
         if (st != SS_OK || !*ok)
@@ -101,7 +100,7 @@ grow_windows(fitter *k, ss_window *core, int *ok)
         is_growing = 0;
         for (size_t i = 0; i < k->n; i += every)
             is_growing |= ss_window_length(k->window[i]) == longest;
-        st = fit_shared(k, COARSE, ok);
+        st = fit_shared(k, FIT_FINE, ok);
     }
     int lasts = 0;              /* else all cores would be placed in vain */
     for (size_t i = 0; i < k->n; i += every)
@@ -113,7 +112,7 @@ grow_windows(fitter *k, ss_window *core, int *ok)
         if (!is_beside(i, every))
             core[i] = ss_sticks_place(k, k->of->anchor[i], CORE);
     ss_sticks_grow(k, core, 1, longest);
-    return fit_shared(k, COARSE, ok);
+    return fit_shared(k, FIT_FINE, ok);
 }
 
 /* The number of samples in all windows. */
