@@ -282,10 +282,11 @@ ss_ringing_places(search *s)
 typedef struct span {
     double settled, looked, left;
 } span;
-static const span behind_spikes = { 0.5, 2.5, 0.5 }, behind_reversals = { 1, 5, 2 };
+static const span behind_spikes = { 0.5, 2.5, 0.5 }, behind_reversals = { 1, 5, 2 }, before_reversals = { -5, -1, 2 };
 
 /* The band is sought behind so many transitions in a row, at so many places of the record. */
 enum { STRETCH = 64, STRETCHES = 16 };
+#define LOUDER 2.0              /* times the power before the reversals: ringing is so strong behind them */
 
 /* The end of a transition that is known by its spikes, or the onset of a reversal. */
 static double
@@ -307,14 +308,13 @@ stretch_of(const search *s, size_t k)
     return (ss_window){ first, end < first + STRETCH ? end : first + STRETCH };
 }
 
-/* The mean square of |W| at a scale behind the transitions, over the root of the scale, which is that of the
+/* The mean square of |W| at a scale there behind the transitions, over the root of the scale, which is that of the
  * amplitude; 0: fewer than half of the transitions last so long.  level has room for the scale. */
 static ss_status
-power_behind(const search *s, size_t index, double *level, double *power)
+power_behind(const search *s, span in, size_t index, double *level, double *power)
 {
     const ss_features *out = s->out;
     const ss_scale *scale = &s->map->scale[index];
-    const span in = s->spiked ? behind_spikes : behind_reversals;
     const double period = 1 / scale->f, reach = ROW_REACH * scale->a;
     ss_map_part part[STRETCHES];
     double sum = 0;
@@ -323,7 +323,7 @@ power_behind(const search *s, size_t index, double *level, double *power)
         ss_window stretch = stretch_of(s, k);
         if (ss_window_length(stretch) == 0)
             continue;
-        size_t first = point_at(scale, begin_of(s, stretch.first) + in.settled * period);
+        size_t first = point_at(scale, fmax(0, begin_of(s, stretch.first) + in.settled * period));
         size_t end = point_at(scale, begin_of(s, stretch.end - 1) + in.looked * period) + 1;
         first = first > done ? first : done;
         end = end < scale->n ? end : scale->n;
@@ -337,9 +337,9 @@ power_behind(const search *s, size_t index, double *level, double *power)
         for (size_t i = stretch_of(s, k).first; i < stretch_of(s, k).end; i++) {
             double from = begin_of(s, i) + in.settled * period, to = begin_of(s, i) + in.looked * period;
             double next = i + 1 < out->n ? out->transition[i + 1].onset : (double)s->n / s->rate, squares = 0;
-            size_t first = point_at(scale, from), b = first;
+            size_t first = point_at(scale, fmax(0, from)), b = first;
             all++;
-            if (to > (s->spiked ? next : out->transition[i].end) - in.left * period
+            if (from < 0 || to > (s->spiked ? next : out->transition[i].end) - in.left * period
                 || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from) + reach))
                 continue;
             for (; b < scale->n && ss_scale_b(scale, b) <= to; b++)
@@ -351,25 +351,30 @@ power_behind(const search *s, size_t index, double *level, double *power)
     return st;
 }
 
-/* The label of the strongest band that has less power on either side, both known.  0: there is none. */
+/* The label of the strongest band that has less power on either side, both known, and behind reversals more than before
+ * them, where a hum is as strong.  0: there is none. */
 static ss_status
 strongest_band(const search *s, double *f)
 {
+    const span in = s->spiked ? behind_spikes : behind_reversals;
     const ss_coefficients *grid = s->map;
     const size_t n = grid->n_scales;
     double *power = malloc(n * sizeof *power), *level = malloc((grid->scale[n - 1].n + 1) * sizeof *level);
-    double best = 0;
+    double best = 0, calm = 0;
+    size_t top = 0;
     ss_status st = power != NULL && level != NULL ? SS_OK : SS_ENOMEM;
-    *f = 0;
     for (size_t i = 0; st == SS_OK && i < n; i++)
-        st = power_behind(s, i, level, &power[i]);
+        st = power_behind(s, in, i, level, &power[i]);
     for (size_t i = 1; st == SS_OK && i + 1 < n; i++) {
         double before = power[i - 1], at = power[i], next = power[i + 1];
         if (before > 0 && at > before && at > next && next > 0 && at > best) {
             best = at;
-            *f = grid->scale[i].f;
+            top = i;
         }
     }
+    if (st == SS_OK && top > 0 && !s->spiked)
+        st = power_behind(s, before_reversals, top, level, &calm);
+    *f = top > 0 && best > LOUDER * calm ? grid->scale[top].f : 0;
     free(level);
     free(power);
     return st;

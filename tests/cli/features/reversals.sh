@@ -53,6 +53,11 @@ for phase in 0 2 4; do
         limit = 5 * (1 + .12 * cos(32 * atan2(1, 1) * u + phase)); f = f > limit ? limit : f < -limit ? -limit : f
         print i / 1000 "," x "," f } }' | ss-features -q -c f - | honest loading_stiffness 200
 done
+# a hum is there before the reversals, too: nothing rings behind them
+for f in 50 71.3; do
+    slider 1e6 | awk -v f=$f 'BEGIN { OFS = "\t" } !/^#/ { $3 += 400 * sin(6.283185307179586 * f * $1) } { print }' |
+        ss-features -c f | none transition_frequency
+done
 # a torque is read as a force; its slips are the sides that it goes to
 slider 1e6 | sed '/^# col/s,f/N,torque/(N m),' > torque.tsv
 ss-features -c torque torque.tsv > found
