@@ -212,22 +212,27 @@ fit_without_hum(search *s, ringdown *r, double f)
 }
 
 /* The error of all frequencies by a clock that wanders.  What rings is a clock, too: from one transition to the
- * next it differs by that much, so the lengths of cycles that vary by themselves are no wandering.  Neighbours that
+ * next it differs by that much, so the lengths of cycles that vary by themselves are no wandering.  It differs by
+ * what single frequencies scatter beyond their own errors (DerSimonian and Laird 1986), at least.  Neighbours that
  * are correlated by rho count as (1 - rho) / (1 + rho), as in cycles. */
 static double
 clock_error(const search *s, const ringdown *r)
 {
-    double squares = 0, products = 0, before = 0, n = 0;
-    for (size_t i = 0; i < s->out->n; i++)
-        if (isfinite(r->each[i][0].value)) {
-            double differs = r->each[i][0].value - r->all[0].value;
-            squares += differs * differs, products += differs * before, n++;
-            before = differs;
-        }
+    double squares = 0, products = 0, before = 0, n = 0, weights = 0, their_squares = 0, chi2 = 0;
     /* behind the reversals of a force the windows, each by itself, scatter by it already */
     double wander = s->out->reverses ? 0 : s->cycles.wander * r->all[0].value;
-    double rho = squares > 0 ? fmax(0, fmin(0.9, products / squares)) : 0;
-    return n < 3 ? wander : fmin(wander, sqrt(squares / (n - 1) / n * (1 + rho) / (1 - rho)));
+    for (size_t i = 0; i < s->out->n; i++)
+        if (isfinite(r->each[i][0].value)) {
+            double differs = r->each[i][0].value - r->all[0].value, weight = pow(r->each[i][0].error, -2);
+            squares += differs * differs, products += differs * before, n++;
+            weights += weight, their_squares += weight * weight, chi2 += weight * differs * differs;
+            before = differs;
+        }
+    if (n < 3 || s->out->reverses)
+        return wander;
+    double rho = fmax(0, fmin(0.9, products / squares)), correlated = (1 + rho) / (1 - rho);
+    double beyond = fmax(0, chi2 - (n - 1)) / (weights - their_squares / weights) * their_squares / (weights * weights);
+    return fmax(fmin(wander, sqrt(squares / (n - 1) / n * correlated)), sqrt(beyond * correlated));
 }
 
 /* Write the fits to the transitions; what rings behind the next transition belongs to that. */
@@ -248,7 +253,7 @@ report(search *s, const ringdown *r)
     }
     if (!isnan(frequency.value) && wander > r->all[0].error)
         say(out, SS_TRANSITION_FREQUENCY,
-            "the cycles scatter in length by more than noise, as by a clock that wanders: errors allow for it");
+            "the sticks scatter in frequency by more than noise, as by a clock that wanders: errors allow for it");
     for (size_t i = 0; i < out->n; i++) {
         ss_transition *tr = &out->transition[i];
         ss_window win = r->window[i];

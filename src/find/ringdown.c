@@ -205,6 +205,7 @@ ss_ringdown_fit(ringdown *r)
     size_t room = (size_t)ceil(4 * MOST * turn) + 2 * VARPRO_COLUMNS;
     room = room < r->n + 1 ? room : r->n + 1;           /* longer than any window */
     ringdown other = *r;
+    double differ[2] = { 0, 0 };
     other.window = malloc((n + 1) * sizeof *other.window);
     other.each = malloc((n + 1) * sizeof *other.each);
     ss_status st = ss_varpro_init(&k.fit, r->x, room);
@@ -214,6 +215,11 @@ ss_ringdown_fit(ringdown *r)
         st = fit_all(&k, r, 0);
     if (st == SS_OK && r->forcing > 0 && r->is != SLOW_LINE) {
         st = fit_all(&k, &other, r->forcing);
+        for (int j = 0; j < 2; j++) {       /* where both explain it, by how much more than noise they differ is an error */
+            double by = pow(r->all[j].value - other.all[j].value, 2), noise = pow(SIGMAS * r->all[j].error, 2)
+                + pow(SIGMAS * other.all[j].error, 2);
+            differ[j] = by > noise ? by - noise : 0;
+        }
         if (!isnan(other.all[0].error) && !(other.all[0].error >= r->all[0].error)) {
             memcpy(r->window, other.window, n * sizeof *r->window);
             memcpy(r->each, other.each, n * sizeof *r->each);
@@ -221,6 +227,8 @@ ss_ringdown_fit(ringdown *r)
             r->is_train = other.is_train;
             r->slow = r->forcing;
         }
+        for (int j = 0; j < 2; j++)
+            r->all[j].error = hypot(r->all[j].error, sqrt(differ[j]));
     }
     ss_varpro_free(&k.fit);
     free(other.window);
