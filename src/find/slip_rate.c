@@ -23,7 +23,7 @@ typedef struct times {          /* at which slips, or what may be slips, begin [
 } times;
 
 /* The number of slips in a second, by the mean of the times between them.  Times with a gap are left out: it may
- * hide slips. */
+ * hide slips.  The first slip and the last lie anywhere within a sample. */
 static ss_value
 mean_rate(const search *s, times slip)
 {
@@ -38,8 +38,8 @@ mean_rate(const search *s, times slip)
     }
     if (m < 2)
         return unknown;
-    double mean = sum / m, scatter = fmax(0, squares / m - mean * mean);
-    return (ss_value){ 1 / mean, sqrt(scatter / (m - 1)) / (mean * mean) };
+    double mean = sum / m, scatter = fmax(0, squares / m - mean * mean), sample = 1 / (s->rate * m);
+    return (ss_value){ 1 / mean, sqrt(scatter / (m - 1) + sample * sample / 6) / (mean * mean) };
 }
 
 /* Do MOST of the slips come so long before those `step` slips later, to within a part of it? */
