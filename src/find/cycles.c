@@ -66,7 +66,7 @@
 #define ROBUST 8                /* the fewest cycles whose scatter is found from the median deviation */
 #define MANY 16                 /* cycles: fewer show no modulation; a decay that is slower does not count */
 #define PULLED 16               /* a hum pulls the lag by less than one part in so many */
-#define ALIKE 1e-3              /* of the variance: cycles that differ by less are alike */
+#define ALIKE 3e-3              /* of the variance: cycles that differ by less are alike */
 #define CLEARER 4.0             /* by chance, cycles with noise or a clock that wanders differ by a factor of 2 */
 #define ONE 0.9                 /* of what differs: more is one line */
 #define LOW 2.5                 /* times the frequency: the lines of a motion itself may be strong up to there */
@@ -457,16 +457,19 @@ line_between(const view *v, size_t lag, double *f)
     return SS_OK;
 }
 
-/* The mean square by which samples lie beyond their neighbours, cubes through these included. */
+/* The mean square by which samples lie beyond their neighbours, cubes through these included; infinite where a sensor
+ * holds its samples, which differ by when that began. */
 static double
 roughness(const view *v)
 {
     double sum = 0;
+    size_t held = 0;
     for (size_t i = 3; i + 3 < v->n; i++) {
         const double *x = v->x + i;
         sum += beyond(x[0], x[-1], x[1], 0.5625 * (x[-1] + x[1]) - 0.0625 * (x[-3] + x[3]));
+        held += x[0] == x[-1];
     }
-    return sum / (double)v->n;
+    return 2 * held > v->n ? INFINITY : sum / (double)v->n;
 }
 
 /* The same of samples and those about them some lag later, in a cycle that but a quarter are more unlike, so that
@@ -525,7 +528,7 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
     const double after_one = after(v, period, 1), bound = after_one / CLEARER, most = (double)v->n / period;
     double f = 0;
     *in_turn = 1;
-    if (!(after_one > fmax(roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
+    if (!(after_one > fmax(2 * roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
         return SS_OK;
     ss_status st = line_between(v, (size_t)(lag_near(v, period) + 0.5), &f);
     for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && f * period < 1 && *in_turn == 1; p++) {

@@ -6,7 +6,8 @@
  * sums of products of both with f, x and v, each window's means taken off, are two equations for K_y
  * and c.  (Without c, as v is in quadrature with x but for the decay, K_y is too large by an order of the
  * damping ratio squared, .4 % at a ratio of .056.)  v and the slope of y are differences over four
- * samples; by how much K_y moves with differences over two is an error. */
+ * samples; by how much K_y moves with differences over two is an error.  So is by how much it moves when the windows
+ * are cut at both ends, where a slip may reach into all of them: x is far then, and f is not. */
 #include "find/slope.h"
 
 #include <math.h>
@@ -14,6 +15,7 @@
 #include "find/judgement.h"
 
 enum { F, X, V, ROUGH_V, OF };  /* what the instruments are multiplied with; ROUGH_V: over two samples */
+enum { CUT = 8 };               /* of a window, at either end */
 typedef struct sums {
     double by_y[OF], by_slope[OF];
 } sums;
@@ -61,6 +63,15 @@ sums_over(const double *f, const double *x, const double *y, ss_window span)
     return s;
 }
 
+static void
+add(sums *to, sums more)
+{
+    for (int k = 0; k < OF; k++) {
+        to->by_y[k] += more.by_y[k];
+        to->by_slope[k] += more.by_slope[k];
+    }
+}
+
 /* K_y by all sums less those of one window; v: which differences. */
 static double
 stiffness_of(const sums *all, const sums *less, int v)
@@ -78,24 +89,24 @@ ss_slope_find(const double *f, const double *x, const double *y, const ss_window
               ss_value *slope)
 {
     const sums none = { { 0 }, { 0 } };
-    sums *each = malloc((n + 1) * sizeof *each), all = none;
+    sums *each = malloc((n + 1) * sizeof *each), all = none, inner = none;
     double mean = 0, scatter = 0, m = (double)n;
     *slope = (ss_value){ NAN, NAN };
     if (each == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++) {
+        size_t off = ss_window_length(span[i]) / CUT;
         each[i] = sums_over(f, x, y, span[i]);
-        for (int k = 0; k < OF; k++) {
-            all.by_y[k] += each[i].by_y[k];
-            all.by_slope[k] += each[i].by_slope[k];
-        }
+        add(&all, each[i]);
+        add(&inner, sums_over(f, x, y, (ss_window){ span[i].first + off, span[i].end - off }));
     }
     for (size_t i = 0; i < n; i++)
         mean += stiffness_of(&all, &each[i], V) / m;
     for (size_t i = 0; i < n; i++)
         scatter += pow(stiffness_of(&all, &each[i], V) - mean, 2);
     double value = stiffness_of(&all, &none, V), rough = stiffness_of(&all, &none, ROUGH_V);
-    double error = hypot(sqrt(scatter * (m - 1) / m), rough - value);
+    double cut = stiffness_of(&inner, &none, V) - value;
+    double error = hypot(hypot(sqrt(scatter * (m - 1) / m), rough - value), cut);
     if (n >= 2 && isfinite(value) && SIGMAS * error < fabs(value))
         *slope = (ss_value){ fabs(value), error };
     free(each);
