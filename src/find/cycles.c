@@ -432,9 +432,9 @@ find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
 
 /* --- what differs ---------------------------------------------------------------------------- */
 
-/* The frequency of the one line that is nearly all that differs after so many samples [per sample]; 0: it is more. */
+/* The frequency of the one line that is so large a part of what differs after so many samples [per sample], or 0. */
 static ss_status
-line_between(const view *v, size_t lag, double *f)
+line_between(const view *v, size_t lag, double part, double *f)
 {
     const size_t m = (v->n - lag) / 2 * 2;
     real_fft r;
@@ -452,13 +452,13 @@ line_between(const view *v, size_t lag, double *f)
     }
     for (size_t k = top - 1; k <= top + 1; k++)
         line += r.x[k], at += (double)k * r.x[k];
-    *f = line > ONE * all ? at / line / (double)m : 0;
+    *f = line > part * all ? at / line / (double)m : 0;
     ss_real_fft_free(&r);
     return SS_OK;
 }
 
-/* The mean square by which samples lie beyond their neighbours, cubes through these included; infinite where a sensor
- * holds its samples, which differ by when that began. */
+/* The mean square by which samples lie beyond their neighbours, cubes through these included; infinite where a
+ * sensor holds its samples, which differ by when that began. */
 static double
 roughness(const view *v)
 {
@@ -520,8 +520,9 @@ after(const view *v, double period, double cycles)
     return unlikeness(v, lag_near(v, cycles * period), period);
 }
 
-/* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as many, and
- * many, too, and not after others; and if one line is all that differs, it is below what repeats, or a hum made it so. */
+/* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as
+ * many, and many, too, and not after others; and if half of what differs is one line, it is below what repeats, or a
+ * hum made it so. */
 static ss_status
 cycles_in_turn(const view *v, double period, size_t *in_turn)
 {
@@ -530,7 +531,7 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
     *in_turn = 1;
     if (!(after_one > fmax(2 * roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
         return SS_OK;
-    ss_status st = line_between(v, (size_t)(lag_near(v, period) + 0.5), &f);
+    ss_status st = line_between(v, (size_t)(lag_near(v, period) + 0.5), 0.5, &f);
     for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && f * period < 1 && *in_turn == 1; p++) {
         int agree = after(v, period, floor(0.5 * most / (double)p) * (double)p) < bound;
         for (size_t q = 2; agree && q <= 2 * p + 1 && (double)q < 0.6 * most; q++)
@@ -542,7 +543,7 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
 }
 
 /* The largest number of parts of the period after which the signal repeats itself but for a hum, whose frequency
- * *hum becomes; else 1.  A hum is a line that is high, or no multiple of what repeats as far as the record tells. */
+ * *hum becomes; else 1.  A hum is a line that is high, or no multiple of what repeats as far as can be told. */
 static ss_status
 parts_beside_hum(const view *v, double period, double *hum, size_t *parts)
 {
@@ -550,7 +551,7 @@ parts_beside_hum(const view *v, double period, double *hum, size_t *parts)
     for (*parts = MULTIPLES + 1; st == SS_OK && *hum == 0 && *parts > 1;) {
         double f = 0, lag = floor(period / (double)--*parts + 0.5);
         if (lag > 4 && relative(v, 0, (size_t)lag, v->n - (size_t)lag) < 1 - CYCLES_ALIKE)
-            st = line_between(v, (size_t)lag, &f);
+            st = line_between(v, (size_t)lag, ONE, &f);
         double multiple = f * period, off = fabs(multiple - round(multiple)) * ((double)v->n - lag) / period;
         *hum = f * lag > LOW || (multiple > LOW && off > 0.5) ? f : 0;
     }

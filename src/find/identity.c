@@ -29,12 +29,10 @@
 #include "find/fitter.h"
 
 #define AROUND 1.5              /* periods on either side of the middle of a stretch: more may hold two events */
-/* What the sensor leaves more than the contact, in parts: less is the sensor.  Of 120 sensors in noise of 50 dB none
- * came to more than .14, of 66 contacts none to less than .154. */
-#define CONTACT 0.15
+#define CONTACT 0.15            /* what the sensor leaves more than the contact, in parts: less is the sensor */
 #define SHOWN 1.0               /* the same: so it is the contact, whatever else may be */
-#define CHANCE 2.3              /* variances of a sample that noise alone makes behind each of the sticks, and of FEW_MORE: by
-                                   the chance to choose the place of an event */
+#define CHANCE 2.8              /* variances of a sample: noise makes so much behind each stick, as the place of the
+                                   event is chosen, and of some more sticks by chance */
 #define HIDDEN 2e-4             /* noise re what an event makes: more may hide where a slip begins */
 #define SLOW 0.05               /* range of means re that of samples: with less nothing moves but what rings */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
@@ -45,8 +43,7 @@
 #define FINE (1 / 32.)          /* resolution re the oscillation; coarser in records of under four segments */
 enum { RATE = 24 };             /* most samples of a period that are used */
 enum { EVENTS = 33 };           /* places of an event that are tried, within a period of the middle */
-enum { FEW_MORE = 5 };
-enum { STICKS = 24 };           /* most sticks that are looked behind */
+enum { STICKS = 24, MORE = 5 }; /* most sticks that are looked behind; see CHANCE */
 #define ONE 0.5                 /* of what rings: with more in one sinusoid that runs through all sticks it is a hum */
 #define UNDAMPED 0.01           /* error of the damping re the frequency */
 enum { TRIALS = 200 };          /* most of its frequencies to either side */
@@ -284,7 +281,7 @@ compare_all(const search *s, const ringdown *r, double *more)
         const place *at = &sum[k];
         double unexplained = fmax(at->left - 2 * at->noise, 0) + fmin(at->noise, HIDDEN * at->most);
         if (at->sticks >= 2 && 2 * at->sticks >= used && at->most > 0
-            && at->more > CHANCE * (at->noise + FEW_MORE * of.noise) / (double)n)
+            && at->more > CHANCE * (at->noise + MORE * of.noise) / (double)n)
             best = fmax(best, at->more / unexplained);
     }
     if (2 * moved > used)

@@ -231,8 +231,9 @@ clock_error(const search *s, const ringdown *r)
     if (n < 3 || s->out->reverses)
         return wander;
     double rho = fmax(0, fmin(0.9, products / squares)), correlated = (1 + rho) / (1 - rho);
-    double beyond = fmax(0, chi2 - (n - 1)) / (weights - their_squares / weights) * their_squares / (weights * weights);
-    return fmax(fmin(wander, sqrt(squares / (n - 1) / n * correlated)), sqrt(beyond * correlated));
+    double beyond = fmax(0, chi2 - (n - 1)) / (weights - their_squares / weights);
+    return fmax(fmin(wander, sqrt(squares / (n - 1) / n * correlated)),
+                sqrt(beyond * their_squares * correlated) / weights);
 }
 
 /* Write the fits to the transitions; what rings behind the next transition belongs to that. */

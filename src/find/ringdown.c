@@ -215,7 +215,7 @@ ss_ringdown_fit(ringdown *r)
         st = fit_all(&k, r, 0);
     if (st == SS_OK && r->forcing > 0 && r->is != SLOW_LINE) {
         st = fit_all(&k, &other, r->forcing);
-        for (int j = 0; j < 2; j++) {       /* where both explain it, by how much more than noise they differ is an error */
+        for (int j = 0; j < 2; j++) {       /* where both explain it, what they differ by is an error, but for noise */
             double by = pow(r->all[j].value - other.all[j].value, 2), noise = pow(SIGMAS * r->all[j].error, 2)
                 + pow(SIGMAS * other.all[j].error, 2);
             differ[j] = by > noise ? by - noise : 0;

@@ -282,7 +282,8 @@ ss_ringing_places(search *s)
 typedef struct span {
     double settled, looked, left;
 } span;
-static const span behind_spikes = { 0.5, 2.5, 0.5 }, behind_reversals = { 1, 5, 2 }, before_reversals = { -5, -1, 2 };
+static const span behind_spikes = { 0.5, 2.5, 0.5 };
+static const span behind_reversals = { 1, 5, 2 }, before_reversals = { -5, -1, 2 };
 
 /* The band is sought behind so many transitions in a row, at so many places of the record. */
 enum { STRETCH = 64, STRETCHES = 16 };
@@ -351,8 +352,8 @@ power_behind(const search *s, span in, size_t index, double *level, double *powe
     return st;
 }
 
-/* The label of the strongest band that has less power on either side, both known, and behind reversals more than before
- * them, where a hum is as strong.  0: there is none. */
+/* The label of the strongest band that has less power on either side, both known, and behind reversals more than
+ * before them, where a hum is as strong.  0: there is none. */
 static ss_status
 strongest_band(const search *s, double *f)
 {

@@ -6,8 +6,8 @@
  * sums of products of both with f, x and v, each window's means taken off, are two equations for K_y
  * and c.  (Without c, as v is in quadrature with x but for the decay, K_y is too large by an order of the
  * damping ratio squared, .4 % at a ratio of .056.)  v and the slope of y are differences over four
- * samples; by how much K_y moves with differences over two is an error.  So is by how much it moves when the windows
- * are cut at both ends, where a slip may reach into all of them: x is far then, and f is not. */
+ * samples; by how much K_y moves with differences over two is an error.  So is by how much it moves when the
+ * windows are cut at both ends, where a slip may reach into all of them. */
 #include "find/slope.h"
 
 #include <math.h>
