@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { CUTS = 3 };              /* of the start, each by FIT_TRIM_END more */
 #define WHITE 1.2               /* times the variance of white noise: more is coloured, less is chance */
 
 /* The variance of the samples, from the residuals of a fit. */
@@ -66,17 +67,18 @@ jackknife(fitter *k, const linear *total, ss_value value[2])
     return SS_OK;
 }
 
-/* Fit in another way: with windows cut by FIT_TRIM_END at one end, or with a slow part that may bend.  What a
- * filter leaves of a slip goes on into every stick, slowly and alike, so that cuts do not show all of it.
+/* Fit in another way: with windows cut by a part of a period at one end, or with a slow part that may bend.  What a
+ * filter leaves of a slip goes on into every stick, slowly and alike, so that cuts do not show all of it; it may turn
+ * meanwhile, so that one cut shows nothing.
  * moved becomes the squares that w and s move by beyond what noise moves them by: its variance is that of the
  * other fit less that of the first (Hausman 1978).  If there is no such fit, moved stays as it is. */
 typedef enum other_way { CUT_START, CUT_END, BENT } other_way;
 
 static void
-fit_otherwise(fitter *k, other_way how, ss_window *cut, const linear *total, double moved[2])
+fit_otherwise(fitter *k, other_way how, double by_periods, ss_window *cut, const linear *total, double moved[2])
 {
     const double at[2] = { k->fit.w, k->fit.s }, variance = variance_of(k, total);
-    size_t off = periods(k, FIT_TRIM_END);
+    size_t off = periods(k, by_periods);
     ss_value first[2], other[2];
     for (size_t i = 0; i < k->n; i++) {
         size_t length = ss_window_length(k->window[i]), part = off < length ? off : length;
@@ -110,9 +112,10 @@ ss_errors_find(fitter *k, ss_value value[2])
     ss_window *cut = malloc((k->n + 1) * sizeof *cut);
     ss_status st = cut != NULL ? jackknife(k, &total, value) : SS_ENOMEM;
     if (st == SS_OK) {
-        fit_otherwise(k, CUT_START, cut, &total, cut_moved);
-        fit_otherwise(k, CUT_END, cut, &total, cut_moved);
-        fit_otherwise(k, BENT, cut, &total, bent_moved);
+        for (int i = 1; i <= CUTS; i++)
+            fit_otherwise(k, CUT_START, i * FIT_TRIM_END, cut, &total, cut_moved);
+        fit_otherwise(k, CUT_END, FIT_TRIM_END, cut, &total, cut_moved);
+        fit_otherwise(k, BENT, 0, cut, &total, bent_moved);
         double excess = fmax(0, variance_of(k, &total) - WHITE * k->of->white * k->of->white);
         double in_band = excess * 0.5 * (double)total.samples / (double)total.windows;
         ss_value coloured[2];
