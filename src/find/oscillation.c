@@ -11,6 +11,7 @@
 
 #define NEAR 1.0                /* [octaves] the largest distance of a fit from the frequency that recurs */
 #define SHARPER 1.5             /* times the frequency of the oscillation: an event so sharp lies within it */
+#define KNOWN 0.75              /* part of the sticks: so many tell what the others are like */
 #define PRECISE 10.0            /* standard errors that a frequency must be large */
 
 /* Convert omega and s, per sample, to Hz and damping ratio. */
@@ -232,8 +233,9 @@ clock_error(const search *s, const ringdown *r)
         return wander;
     double rho = fmax(0, fmin(0.9, products / squares)), correlated = (1 + rho) / (1 - rho);
     double beyond = fmax(0, chi2 - (n - 1)) / (weights - their_squares / weights);
-    return fmax(fmin(wander, sqrt(squares / (n - 1) / n * correlated)),
-                sqrt(beyond * their_squares * correlated) / weights);
+    if (n > KNOWN * (double)s->out->n)          /* else the others may be those that differ */
+        wander = fmin(wander, sqrt(squares / (n - 1) / n * correlated));
+    return fmax(wander, sqrt(beyond * their_squares * correlated) / weights);
 }
 
 /* Write the fits to the transitions; what rings behind the next transition belongs to that. */
