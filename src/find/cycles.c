@@ -66,7 +66,7 @@
 #define ROBUST 8                /* the fewest cycles whose scatter is found from the median deviation */
 #define MANY 16                 /* cycles: fewer show no modulation; a decay that is slower does not count */
 #define PULLED 16               /* a hum pulls the lag by less than one part in so many */
-#define ALIKE 3e-3              /* of the variance: cycles that differ by less are alike */
+#define ALIKE 2e-3              /* of the variance: cycles that differ by less are alike */
 #define CLEARER 4.0             /* by chance, cycles with noise or a clock that wanders differ by a factor of 2 */
 #define ONE 0.9                 /* of what differs: more is one line */
 #define LOW 2.5                 /* times the frequency: the lines of a motion itself may be strong up to there */
@@ -521,8 +521,8 @@ after(const view *v, double period, double cycles)
 }
 
 /* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as
- * many, and many, too, and not after others; and if half of what differs is one line, it is below what repeats, or a
- * hum made it so. */
+ * many, and many, too, and not after others; and if half of what differs is one line, it is below what repeats, or after
+ * many cycles no more is left of it: else a hum made it so. */
 static ss_status
 cycles_in_turn(const view *v, double period, size_t *in_turn)
 {
@@ -532,8 +532,9 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
     if (!(after_one > fmax(2 * roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
         return SS_OK;
     ss_status st = line_between(v, (size_t)(lag_near(v, period) + 0.5), 0.5, &f);
-    for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && f * period < 1 && *in_turn == 1; p++) {
-        int agree = after(v, period, floor(0.5 * most / (double)p) * (double)p) < bound;
+    for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && *in_turn == 1; p++) {
+        double last = after(v, period, floor(0.5 * most / (double)p) * (double)p);
+        int agree = last < bound && (f * period < 1 || last < 2 * after(v, period, (double)p));
         for (size_t q = 2; agree && q <= 2 * p + 1 && (double)q < 0.6 * most; q++)
             agree = (after(v, period, (double)q) < bound) == (q % p == 0);
         if (agree)
