@@ -19,7 +19,7 @@
  *   sample, over the number of cycles between them;
  * - the largest difference of a half, a quarter or an eighth of the lag over two, four or eight cycles from
  *   the lag over one: a steady hum pulls every lag towards a multiple of its own period;
- * - the error of the interpolation between samples, from the vertices of two parabolas.
+ * - the error of the interpolation between samples, from the vertices of two parabolas, and FINEST.
  *
  * A signal does not repeat itself
  * - if the median cycle explains less of the variance of the next than is asked for;
@@ -66,6 +66,7 @@
 #define ROBUST 8                /* the fewest cycles whose scatter is found from the median deviation */
 #define MANY 16                 /* cycles: fewer show no modulation; a decay that is slower does not count */
 #define PULLED 16               /* a hum pulls the lag by less than one part in so many */
+#define FINEST 0.03             /* of a sample: jumps that a filter has rounded draw lags to whole samples by so much */
 #define ALIKE 2e-3              /* of the variance: cycles that differ by less are alike */
 #define CLEARER 4.0             /* by chance, cycles with noise or a clock that wanders differ by a factor of 2 */
 #define ONE 0.9                 /* of what differs: more is one line */
@@ -363,6 +364,7 @@ summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
     double by_noise = median_of(c, n, &c->noise, v) * pow(f, 4);
     double scatter = student * sqrt(M_PI / 2 * variance / free_ones), skew = hypot(lags - 1 / f, jump);
     drift = drift > 0 ? sqrt(drift) : 0;
+    bend = hypot(bend, FINEST);
     out->frequency = (ss_value){ f, hypot(scatter, hypot(hypot(pull, skew), hypot(drift, bend)) * f * f) };
     out->wander = variance > SIGMAS * SIGMAS * by_noise ? scatter / f : 0;
     out->period = (ss_value){ 1 / f, out->frequency.error / (f * f) };
