@@ -73,6 +73,7 @@
 #define LOW 2.5                 /* times the frequency: the lines of a motion itself may be strong up to there */
 #define MOST 64.0               /* periods that are looked at for that */
 #define SLOW 16.0               /* of a period: part of it that is averaged over */
+enum { FEWEST_SAMPLES = 64 };   /* of a record: fewer are no longer than what is read about a lag */
 enum { MULTIPLES = 6 };         /* cycles that may be taken for one beside a hum, or that differ in turn */
 enum { PARTS = 16 };            /* cycles that may be taken for one, at most */
 enum { LAGS = 3 };              /* lags over 2, 4 and 8 cycles, so long a signal must be like itself */
@@ -528,7 +529,8 @@ after(const view *v, double period, double cycles)
 static ss_status
 cycles_in_turn(const view *v, double period, size_t *in_turn)
 {
-    const double after_one = after(v, period, 1), bound = after_one / CLEARER, most = (double)v->n / period;
+    const double after_one = v->n < FEWEST_SAMPLES ? 0 : after(v, period, 1), bound = after_one / CLEARER;
+    const double most = (double)v->n / period;
     double f = 0;
     *in_turn = 1;
     if (!(after_one > fmax(2 * roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
