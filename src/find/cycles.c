@@ -524,23 +524,28 @@ after(const view *v, double period, double cycles)
 }
 
 /* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as
- * many, and many, too, and not after others; and if half of what differs is one line, it is below what repeats, or after
- * many cycles no more is left of it: else a hum made it so. */
+ * many, and many, too, and not after others; and if half of what differs is one line, it is below what repeats, or
+ * after many cycles no more is left of it: else a hum made it so. */
 static ss_status
 cycles_in_turn(const view *v, double period, size_t *in_turn)
 {
-    const double after_one = v->n < FEWEST_SAMPLES ? 0 : after(v, period, 1), bound = after_one / CLEARER;
+    enum { LOOKED_AT = 2 * MULTIPLES + 2 };
     const double most = (double)v->n / period;
-    double f = 0;
+    double unlike[LOOKED_AT] = { 0 }, f = 0;
+    size_t known = 2;
     *in_turn = 1;
-    if (!(after_one > fmax(2 * roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
+    if (v->n >= FEWEST_SAMPLES)
+        unlike[1] = after(v, period, 1);
+    if (!(unlike[1] > fmax(2 * roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
         return SS_OK;
     ss_status st = line_between(v, (size_t)(lag_near(v, period) + 0.5), 0.5, &f);
+    for (; known < LOOKED_AT && (double)known < 0.6 * most; known++)
+        unlike[known] = after(v, period, (double)known);
     for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && *in_turn == 1; p++) {
-        double last = after(v, period, floor(0.5 * most / (double)p) * (double)p);
-        int agree = last < bound && (f * period < 1 || last < 2 * after(v, period, (double)p));
-        for (size_t q = 2; agree && q <= 2 * p + 1 && (double)q < 0.6 * most; q++)
-            agree = (after(v, period, (double)q) < bound) == (q % p == 0);
+        double bound = unlike[1] / CLEARER, last = after(v, period, floor(0.5 * most / (double)p) * (double)p);
+        int agree = last < bound && (f * period < 1 || last < 2 * unlike[p]);
+        for (size_t q = 2; agree && q <= 2 * p + 1 && q < known; q++)
+            agree = (unlike[q] < bound) == (q % p == 0);
         if (agree)
             *in_turn = p;
     }

@@ -309,7 +309,7 @@ stretch_of(const search *s, size_t k)
     return (ss_window){ first, end < first + STRETCH ? end : first + STRETCH };
 }
 
-/* The mean square of |W| at a scale there behind the transitions, over the root of the scale, which is that of the
+/* The mean square of |W| at a scale so far behind the transitions, over the root of the scale, which is that of the
  * amplitude; 0: fewer than half of the transitions last so long.  level has room for the scale. */
 static ss_status
 power_behind(const search *s, span in, size_t index, double *level, double *power)
