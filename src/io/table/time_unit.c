@@ -89,5 +89,5 @@ ss_is_day_now(double number)
 {
     return (number >= 20000 && number < 80000)          /* Excel's days of 1954 to 2119, MJD of 1913 to 2077 */
         || (number >= 690000 && number < 770000)        /* MATLAB's of 1889 to 2108 */
-        || (number >= 2430000 && number < 2490000);     /* Julian days of 1911 to 2105 */
+        || (number >= 2430000 && number < 2490000);     /* Julian days of 1941 to 2105 */
 }

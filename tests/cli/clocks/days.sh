@@ -13,6 +13,12 @@ days 100 44197.5 11 | sed '1000,1020d' | refused ss-cat --gaps=split
 days 100 44197.5 11 | awk 'NR != 500' | refused ss-cat --resample 50
 days 100 44197.5 11 | sed '1000,1020d' | refused ss-cat
 days 500 44197.5 8 | refused ss-cat
+# where the days of each calendar begin and end: Excel's or MJD, MATLAB's, Julian
+for day in 20000 80000 690000 770000 2430000 2490000; do
+    for from in $((day - 1)) $day; do
+        days 100 $from 12 | ss-cat 2> why > rows && echo "$from: seconds" || echo "$from: days?"
+    done
+done
 echo "-- read as days: 100 Hz to 1 ms and better"
 for day in 25570.25 44197.5 60310.75 738000.5 2460310.5; do days 100 $day 12 | head_of ss-cat --time-unit d; done
 for rate in 0.1 1 50 1000 51.2; do days $rate 44197.5 11 | head_of ss-cat --time-unit d; done

@@ -55,6 +55,9 @@ ss-rank --fit -s damping=1 pull.tsv pull.scene 2> err || echo $?
 sed 's/= .*:/= ...:/' err
 ss-noise --rms 1 pull.tsv | ss-rank --fit - pull.scene || echo $?
 awk '!/^#/ { $2 = -$2 } { print }' OFS='\t' pull.tsv | ss-rank --fit - pull.scene || echo $?
+# a force that does not slip by itself, and the level of friction, which slips but is no spring's
+ss-sim compliant-light -c t,s | ss-rank --fit - pull.scene || echo $?
+ss-sim coulomb -c t,f | ss-rank --fit -a s - pull.scene || echo $?
 # ranked among themselves: the own scene, some per cent off, before other rigs
 other() {
     sed "s/^$1 = .*/$1 = $2/" pull.scene
