@@ -282,7 +282,7 @@ refuses_what_has_no_inverse(void **state)
     coef->scale[4].j++;
     assert_refused(coef, 1e-6, SS_EDATA, "scales are missing");
     ss_header_free(coef->head);
-    ss_header_copy(&coef->head, signal->head, NULL);
+    ss_header_select(&coef->head, signal->head, NULL, signal->head->n_columns, 0, NULL);
     assert_refused(coef, 1e-6, SS_EDATA, "lack their option 'voices'");
     ss_coefficients_free(coef);
     ss_signal_free(signal);

@@ -154,11 +154,8 @@ a_level_is_that_of_all_pieces(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
         ss_variance v = { .n = 0 };
-        for (int again = 0; again < 2; again++)
-            for (size_t i = 0; i < 3; i++) {
-                double x[2] = { row[k].pair[i], -row[k].pair[i] };
-                (again ? ss_variance_square : ss_variance_mean)(&v, x, 2);
-            }
+        for (size_t i = 0; i < 3; i++)
+            ss_variance_add(&v, (double[2]){ row[k].pair[i], -row[k].pair[i] }, 2);
         double rms = ss_variance_noise(&v, 0);
         if (!(fabs(rms / row[k].rms - 1) <= 8 * DBL_EPSILON))
             fail_msg("row %zu: %.17g, not %.17g", k, rms, row[k].rms);

@@ -253,9 +253,10 @@ static void
 parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
 {
     const tool_option options[] = {
-        TOOL_WHOLE(0, "levels", &d->opts.levels, ss_contour_levels),
-        TOOL_NUMBER(0, "span", &d->opts.span, ss_contour_spans), TOOL_FLAG(0, "fill", &d->opts.fill),
-        TOOL_NUMBER(0, "level", &d->opts.level, ss_contour_tops), TOOL_CHOICE(0, "detrend", &d->detrend, detrends),
+        TOOL_WHOLE(0, "levels", &d->opts.levels, ss_contour_ranges.levels),
+        TOOL_NUMBER(0, "span", &d->opts.span, ss_contour_ranges.span), TOOL_FLAG(0, "fill", &d->opts.fill),
+        TOOL_NUMBER(0, "level", &d->opts.level, ss_contour_ranges.level),
+        TOOL_CHOICE(0, "detrend", &d->detrend, detrends),
         TOOL_CHOICE(0, "palette", &d->palette, ss_palettes),
         TOOL_FLAG(0, "ridge", &d->opts.ridge),
         TOOL_NUMBER(0, "fmin", &d->opts.fmin, ss_morlet_ranges.frequency),

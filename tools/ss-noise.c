@@ -111,7 +111,9 @@ add_band(tool_kind kind, ss_noise *noise)
     for (size_t c = 0; c < columns; c++, x += n) {
         if (chosen[c] == 0)
             continue;
-        double level = report(signal->head, c, isnan(rms) ? ss_noise_rms(x, n, snr) : rms);
+        ss_variance variance = { .n = 0 };
+        ss_variance_add(&variance, x, n);
+        double level = report(signal->head, c, isnan(rms) ? ss_variance_noise(&variance, snr) : rms);
         if (level > 0)
             tool_check(ss_noise_add_band(noise, x, n, signal->head->rate, (ss_range){ band[0], band[1] }, level,
                                          &err), &err);
@@ -126,7 +128,7 @@ add_band(tool_kind kind, ss_noise *noise)
     free(chosen);
 }
 
-/* The rms of the noise of each column of white noise; that of a ratio takes two readings of its rows. */
+/* The rms of the noise of each column of white noise; that of a ratio takes one more reading of its rows. */
 static double *
 find_levels(ss_reader *reader, const double *chosen, double *const x[])
 {
@@ -136,12 +138,11 @@ find_levels(ss_reader *reader, const double *chosen, double *const x[])
     double *level = tool_room(NULL, columns, sizeof *level);
     ss_variance *variance = tool_room(NULL, columns, sizeof *variance);
     memset(variance, 0, columns * sizeof *variance);
-    for (int again = 0; again < 2 && !isnan(snr); again++) {
-        while ((n = tool_rows(reader, x, ss_reader_piece(reader))) > 0)
-            for (size_t c = 0; c < columns; c++)
-                (again ? ss_variance_square : ss_variance_mean)(&variance[c], x[c], n);
+    while (!isnan(snr) && (n = tool_rows(reader, x, ss_reader_piece(reader))) > 0)
+        for (size_t c = 0; c < columns; c++)
+            ss_variance_add(&variance[c], x[c], n);
+    if (!isnan(snr))
         tool_check(ss_reader_rewind(reader, &err), &err);
-    }
     for (size_t c = 0; c < columns; c++)
         level[c] = chosen[c] == 0 || (isnan(snr) && isnan(rms)) ? 0
             : report(head, c, isnan(rms) ? ss_variance_noise(&variance[c], snr) : rms);
@@ -159,10 +160,8 @@ change_rows(tool_kind kind, ss_noise *noise)
     char text[128];
     ss_error err = { 0 };
     ss_header *head = NULL;
-    ss_header_copy(&head, ss_reader_header(reader), NULL);
-    if (head == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    size_t columns = head->n_columns, piece = ss_reader_piece(reader);
+    size_t columns = ss_reader_header(reader)->n_columns, piece = ss_reader_piece(reader);
+    tool_check(ss_header_select(&head, ss_reader_header(reader), NULL, columns, 0, &err), &err);
     double **x = tool_columns(columns, piece), *chosen = choose_columns(head), *level = find_levels(reader, chosen, x);
     add_notes(head);
     n = tool_rows(reader, x, piece);            /* if this fails, nothing is written */

@@ -94,9 +94,10 @@ typedef struct ss_contour_opts {
     const ss_overlay *overlay;  /* NULL: none */
     ss_progress progress;       /* called after every scale */
 } ss_contour_opts;
-extern const ss_range ss_contour_levels;
-extern const ss_range ss_contour_spans;         /* [dB] */
-extern const ss_range ss_contour_tops;          /* [dB] of level */
+extern const struct ss_contour_ranges {
+    ss_range levels;
+    ss_range span, level;       /* [dB] */
+} ss_contour_ranges;
 /* 18 levels over 80 dB, or down to the noise.  Where a function takes options, NULL stands for these. */
 void ss_contour_opts_init(ss_contour_opts *opts, size_t size);
 /* The names of palettes, each with even steps of lightness: "viridis", ..., and those with "_r", whose

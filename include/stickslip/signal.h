@@ -29,7 +29,6 @@ typedef struct ss_header {
 
 /* Build a header.  It copies every string; a string that is not valid UTF-8 is read as Latin-1. */
 ss_status ss_header_new(ss_header **out, double rate, double start, ss_error *err);     /* has_time = 1 */
-ss_status ss_header_copy(ss_header **out, const ss_header *head, ss_error *err);
 /* Append a column.  Blanks and slashes in its name become "_", and a repeated name gets the suffix
  * "_2", "_3", ...; unit may be NULL or "".  A first column t in s sets has_time, as readers would take it for the
  * time otherwise.  SS_EINVAL: there is no name. */
@@ -48,8 +47,8 @@ void ss_header_free(ss_header *head);                                       /* N
  * quantities. */
 int ss_header_column(const ss_header *head, const char *name);
 
-/* Copy a header for a signal that has the n columns of these indices, in this order, and starts at
- * the row first. */
+/* Copy a header for a signal that has the n columns of these indices, in this order, or the first n if column is
+ * NULL, and starts at the row first. */
 ss_status ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n,
                            size_t first, ss_error *err);
 
@@ -269,17 +268,13 @@ ss_status ss_noise_add(ss_noise *noise, double *const column[], size_t n_columns
 ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range band,
                             double rms, ss_error *err);
 void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
-/* The rms of noise whose power is snr_db [dB] below the variance of x about its mean. */
-double ss_noise_rms(const double *x, size_t n, double snr_db);
-/* The same for values that come in pieces of n and are read twice: from zeros, with _mean for all, then
- * with _square for all again. */
+/* Add n values to a variance, which begins with zeros. */
 typedef struct ss_variance {
     size_t n;
-    double largest;
-    double mean, square;        /* of the values times a power of 2; the sum of squares about the mean */
+    long double mean, square;   /* square: the sum of squares about the mean */
 } ss_variance;
-void ss_variance_mean(ss_variance *variance, const double *x, size_t n);
-void ss_variance_square(ss_variance *variance, const double *x, size_t n);
+void ss_variance_add(ss_variance *variance, const double *x, size_t n);
+/* The rms of noise whose power is snr_db [dB] below the variance of what was added. */
 double ss_variance_noise(const ss_variance *variance, double snr_db);
 
 /* Replace x by the output of a converter of so many bits whose input spans -range to range: the

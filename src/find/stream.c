@@ -75,7 +75,7 @@ ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t c
     if (st == SS_OK && !(s->opts.fmin > 0 && period > 2 && room < 1e9))
         st = ss_fail(err, SS_EINVAL, "a stream of features needs fmin, below half the rate and not far below it");
     if (st == SS_OK)
-        st = ss_header_copy(&s->head, head, err);
+        st = ss_header_select(&s->head, head, NULL, head->n_columns, 0, err);
     if (st == SS_OK)
         st = ss_rows_begin(&s->rows, to, format, SS_KIND_FEATURES, err);
     if (st == SS_OK) {

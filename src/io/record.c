@@ -127,10 +127,7 @@ ss_rows_word(struct rows *rows, const char *name, const char *word)
 void
 ss_rows_count(struct rows *rows, const char *name, size_t n)
 {
-    char text[SS_NUMBER_MAX];
-    snprintf(text, sizeof text, "%zu", n);
-    if (!write_name(rows, name, ""))
-        write_cell(rows, name, text, 0);
+    ss_rows_number(rows, name, "", (double)n);
 }
 
 void

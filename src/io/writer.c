@@ -204,7 +204,7 @@ new_stream(ss_writer **out_writer, FILE *out, ss_format format, const ss_content
     s->format = ss_format_table(format);
     s->time = head->has_time && s->format->has_time;
     s->file = out;
-    ss_status st = ss_header_copy(&s->head, head, err);
+    ss_status st = ss_header_select(&s->head, head, NULL, head->n_columns, 0, err);
     if (st == SS_OK && s->holds == EVENTS) {
         if ((st = ss_rows_begin(&s->rows, out, format, SS_KIND_EVENTS, err)) == SS_OK) {
             ss_rows_notes(&s->rows, head, (const char *const []){ NULL });      /* it has none of its own */

@@ -14,8 +14,7 @@
 #include "io/record.h"
 #include "map/wavelet.h"
 
-const ss_range ss_contour_levels = { 1, CONTOUR_LEVELS }, ss_contour_spans = { 1e-3, 1000 },
-    ss_contour_tops = { -2000, 2000 };
+const struct ss_contour_ranges ss_contour_ranges = { { 1, CONTOUR_LEVELS }, { 1e-3, 1000 }, { -2000, 2000 } };
 static const ss_contour_opts defaults = { .levels = 18, .span = 80, .noise = NAN, .level = NAN };
 
 SS_OPTIONS(ss_contour_opts, defaults)
@@ -335,11 +334,11 @@ static ss_status
 check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
 {
     const ss_signal *signal = contour->signal;
-    ss_status st = ss_range_check(contour->levels, ss_contour_levels, "levels", err);
+    ss_status st = ss_range_check(contour->levels, ss_contour_ranges.levels, "levels", err);
     if (st == SS_OK)
-        st = ss_range_check(contour->span, ss_contour_spans, "span [dB]", err);
+        st = ss_range_check(contour->span, ss_contour_ranges.span, "span [dB]", err);
     if (st == SS_OK && !isnan(contour->level))
-        st = ss_range_check(contour->level, ss_contour_tops, "level [dB]", err);
+        st = ss_range_check(contour->level, ss_contour_ranges.level, "level [dB]", err);
     if (st != SS_OK)
         return st;
     if (contour->noise < 0 || isinf(contour->noise) || !(contour->top >= 0 && contour->top <= DBL_MAX)

@@ -75,7 +75,7 @@ ss_header_select(ss_header **out, const ss_header *head, const size_t *column, s
                  ss_error *err)
 {
     ss_header *copy;
-    if (out == NULL || head == NULL || (column == NULL && n > 0))
+    if (out == NULL || head == NULL)
         return SS_FAIL_NULL(err);
     *out = NULL;
     ss_status st = ss_header_new(&copy, head->rate, head->start, err);
@@ -88,35 +88,19 @@ ss_header_select(ss_header **out, const ss_header *head, const size_t *column, s
         copy->start += (double)first / head->rate;
     int ascending = 1;                          /* names in ascending order all differ */
     for (size_t i = 0; st == SS_OK && i < n; i++) {
-        ascending = ascending && (i == 0 || column[i] > column[i - 1]);
-        if (column[i] < head->n_columns) {
-            const ss_column *c = &head->column[column[i]];
-            st = ascending ? append_column(copy, strdup(c->name), strdup(c->unit), err)
-                           : ss_header_add_column(copy, c->name, c->unit, err);
-        } else {
-            st = ss_fail_column(err, column[i], head->n_columns);
-        }
+        size_t k = column != NULL ? column[i] : i;
+        ascending = ascending && (column == NULL || i == 0 || k > column[i - 1]);
+        if (k >= head->n_columns)
+            st = ss_fail_column(err, k, head->n_columns);
+        else if (ascending)
+            st = append_column(copy, strdup(head->column[k].name), strdup(head->column[k].unit), err);
+        else
+            st = ss_header_add_column(copy, head->column[k].name, head->column[k].unit, err);
     }
     if (st == SS_OK)
         *out = copy;
     else
         ss_header_free(copy);
-    return st;
-}
-
-ss_status
-ss_header_copy(ss_header **out, const ss_header *head, ss_error *err)
-{
-    if (out == NULL || head == NULL)
-        return SS_FAIL_NULL(err);
-    size_t *all = malloc((head->n_columns + 1) * sizeof *all);
-    *out = NULL;
-    if (all == NULL)
-        return ss_fail_memory(err, NULL);
-    for (size_t i = 0; i < head->n_columns; i++)
-        all[i] = i;
-    ss_status st = ss_header_select(out, head, all, head->n_columns, 0, err);
-    free(all);
     return st;
 }
 

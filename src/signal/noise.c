@@ -137,41 +137,14 @@ ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed, ss_error 
 
 /* --- its level ----------------------------------------------------------------------------- */
 
-/* The square of a number below SQUARE_LEAST loses digits to underflow, that of one above SQUARE_MOST
- * overflows. */
-#define SQUARE_LEAST 1e-145
-#define SQUARE_MOST 1e145
-
-/* The power of 2 by which values up to the largest are multiplied. */
-static int
-order_of(double largest)
-{
-    return largest > SQUARE_MOST ? -1000 : largest > 0 && largest < SQUARE_LEAST ? 1000 : 0;
-}
-
 void
-ss_variance_mean(ss_variance *v, const double *x, size_t n)
+ss_variance_add(ss_variance *v, const double *x, size_t n)
 {
-    if (v == NULL || x == NULL)
-        return;
-    int before = order_of(v->largest);
-    for (size_t i = 0; i < n; i++)
-        v->largest = fmax(v->largest, fabs(x[i]));
-    int order = order_of(v->largest);
-    double unit = ldexp(1, order);
-    v->mean = ldexp(v->mean, order - before);
-    for (size_t i = 0; i < n; i++)
-        v->mean += (x[i] * unit - v->mean) / (double)++v->n;
-}
-
-void
-ss_variance_square(ss_variance *v, const double *x, size_t n)
-{
-    if (v == NULL || x == NULL)
-        return;
-    double unit = ldexp(1, order_of(v->largest));
-    for (size_t i = 0; i < n; i++)
-        v->square += (x[i] * unit - v->mean) * (x[i] * unit - v->mean);
+    for (size_t i = 0; v != NULL && x != NULL && i < n; i++) {
+        long double off = x[i] - v->mean;
+        v->mean += off / ++v->n;
+        v->square += off * (x[i] - v->mean);
+    }
 }
 
 double
@@ -179,18 +152,14 @@ ss_variance_noise(const ss_variance *v, double snr_db)
 {
     if (v == NULL)
         return NAN;
-    double unit = ldexp(1, order_of(v->largest));
-    return v->n > 0 ? sqrt(v->square / (double)v->n) / unit * pow(10, -snr_db / 20) : 0;
+    return v->n > 0 ? (double)sqrtl(v->square / v->n) * pow(10, -snr_db / 20) : 0;
 }
 
 double
 ss_noise_rms(const double *x, size_t n, double snr_db)
 {
     ss_variance v = { .n = 0 };
-    if (x == NULL && n > 0)
-        return NAN;
-    ss_variance_mean(&v, x, n);
-    ss_variance_square(&v, x, n);
+    ss_variance_add(&v, x, n);
     return ss_variance_noise(&v, snr_db);
 }
 

@@ -17,7 +17,7 @@ ss_signal_new(ss_signal **out, const ss_header *head, size_t n, ss_error *err)
     if (signal == NULL)
         return ss_fail_memory(err, NULL);
     signal->n = n;
-    ss_header_copy(&signal->head, head, NULL);
+    ss_header_select(&signal->head, head, NULL, head->n_columns, 0, NULL);
     if (n < SIZE_MAX / sizeof *signal->values / columns)
         signal->values = calloc(n * columns + 1, sizeof *signal->values);
     if (signal->head == NULL || signal->values == NULL) {

@@ -13,7 +13,7 @@ make(size_t size, const struct source_calls *calls, const char *name, const ss_h
     ss_source *s = calloc(1, size);
     ss_header *head = NULL;
     char *copy = strdup(name);
-    if (s == NULL || copy == NULL || ss_header_copy(&head, of, NULL) != SS_OK) {
+    if (s == NULL || copy == NULL || ss_header_select(&head, of, NULL, of->n_columns, 0, NULL) != SS_OK) {
         free(s);
         free(copy);
         ss_header_free(head);

@@ -184,32 +184,33 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     return st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE ? ss_source_fill_gaps(out, t->opts->gaps, err) : st;
 }
 
-/* --- of rows that are no text --------------------------------------------------------------- */
+/* --- rows of another source ----------------------------------------------------------------- */
 
-/* Add all rows of a source, and check that they are numbers. */
+/* Keep all rows of a source, each with its number behind it, as a row of a table has; SS_EGAPS: a value is no number,
+ * and gaps are refused. */
 static ss_status
-add_rows(struct sheet *t, ss_source *from, ss_error *err)
+keep_rows(struct kept *rows, ss_source *from, const char *folder, ss_gaps gaps, ss_error *err)
 {
-    size_t piece = ss_source_piece(from), n = 1;
-    double **column = ss_columns_new(t->n_columns, piece), *row = malloc((t->n_columns + 1) * sizeof *row);
-    ss_status st = column != NULL && row != NULL ? SS_OK : SS_ENOMEM;
+    size_t columns = from->head->n_columns, piece = ss_source_piece(from), n = 1;
+    double **column = ss_columns_new(columns, piece), *row = malloc((columns + 1) * sizeof *row);
+    ss_status st = column != NULL && row != NULL ? SS_OK : ss_fail_memory(err, from->name);
+    ss_kept_begin(rows, from->name, folder, columns + 1);
     while (st == SS_OK && n > 0) {
         st = ss_source_rows(from, column, piece, &n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++) {
-            size_t number = (size_t)t->rows.n + 1;
-            row[t->n_columns] = (double)number;
-            for (size_t c = 0; st == SS_OK && c < t->n_columns; c++) {
+            row[columns] = (double)(rows->n + 1);
+            for (size_t c = 0; st == SS_OK && c < columns; c++) {
                 row[c] = isfinite(column[c][i]) ? column[c][i] : NAN;
-                if (isnan(row[c]) && t->opts->gaps == SS_GAPS_REFUSE)
-                    st = ss_fail(err, SS_EGAPS, "%s: row %zu, column %s: not a finite number", t->name, number,
-                                 t->names->column[c].name);
+                if (isnan(row[c]) && gaps == SS_GAPS_REFUSE)
+                    st = ss_fail(err, SS_EGAPS, "%s: row %.0f, column %s: not a finite number", from->name,
+                                 row[columns], from->head->column[c].name);
             }
-            st = st == SS_OK ? ss_kept_add(&t->rows, row, err) : st;
+            st = st == SS_OK ? ss_kept_add(rows, row, err) : st;
         }
     }
     free(column);
     free(row);
-    return st == SS_OK ? ss_kept_end(&t->rows, err) : st;
+    return st == SS_OK ? ss_kept_end(rows, err) : st;
 }
 
 ss_status
@@ -219,10 +220,9 @@ ss_sheet_of_source(ss_source **s, const ss_read_opts *opts, int named, ss_progre
     struct sheet t = { .name = from->name, .opts = opts, .named = named, .n_columns = from->head->n_columns };
     *s = NULL;
     t.column = calloc(t.n_columns, sizeof *t.column);
-    ss_status st = t.column != NULL ? ss_header_copy(&t.names, from->head, NULL) : SS_ENOMEM;
-    ss_kept_begin(&t.rows, t.name, opts->folder, t.n_columns + 1);
+    ss_status st = t.column != NULL ? ss_header_select(&t.names, from->head, NULL, t.n_columns, 0, NULL) : SS_ENOMEM;
     if (st == SS_OK)
-        st = add_rows(&t, from, err);
+        st = keep_rows(&t.rows, from, opts->folder, opts->gaps, err);
     if (st == SS_OK)
         st = ss_sheet_give(s, &t, progress, err);
     if (st == SS_ENOMEM)
@@ -232,8 +232,7 @@ ss_sheet_of_source(ss_source **s, const ss_read_opts *opts, int named, ss_progre
     return st;
 }
 
-/* --- of a source that cannot go back ------------------------------------------------------- */
-
+/* Of a source that cannot go back. */
 ss_status
 ss_source_keep(ss_source **out, const char *folder, ss_error *err)
 {
@@ -241,24 +240,11 @@ ss_source_keep(ss_source **out, const char *folder, ss_error *err)
     struct samples *s = from->rewinds ? NULL : ss_source_wrap(out, sizeof *s, &samples_calls, err);
     if (s == NULL)
         return from->rewinds ? SS_OK : SS_ENOMEM;
-    size_t columns = from->head->n_columns, piece = ss_source_piece(from), n = 1;
-    double **column = ss_columns_new(columns + 1, piece), *row = column != NULL ? column[columns] : NULL;
     s->base.rewinds = 1;
     s->rows = &s->own;
     s->timing.time.column = NONE;
-    s->of = malloc((columns + 1) * sizeof *s->of);
-    ss_kept_begin(&s->own, s->base.name, folder, columns);
-    ss_status st = column != NULL && s->of != NULL ? SS_OK : ss_fail_memory(err, from->name);
-    for (; st == SS_OK && s->n < columns; s->n++)
+    s->of = malloc((from->head->n_columns + 1) * sizeof *s->of);
+    for (; s->of != NULL && s->n < from->head->n_columns; s->n++)
         s->of[s->n] = s->n;
-    while (st == SS_OK && n > 0) {
-        st = ss_source_rows(from, column, piece, &n, err);
-        for (size_t i = 0; st == SS_OK && i < n; i++) {
-            for (size_t c = 0; c < columns; c++)
-                row[c] = column[c][i];
-            st = ss_kept_add(&s->own, row, err);
-        }
-    }
-    free(column);
-    return st == SS_OK ? ss_kept_end(&s->own, err) : st;
+    return s->of != NULL ? keep_rows(&s->own, from, folder, SS_GAPS_SPLIT, err) : ss_fail_memory(err, from->name);
 }
