@@ -30,18 +30,6 @@ ss_method_at(size_t i)
     return i < METHODS ? &list[i] : NULL;
 }
 
-int
-ss_method_follows(const struct method *how)
-{
-    return how->kind == CLOSED_FORM || how->kind == SERIES;
-}
-
-const char *
-ss_method_follower_names(void)
-{
-    return "exact or taylor";
-}
-
 /* --- choice -------------------------------------------------------------------------------- */
 
 static int

@@ -23,9 +23,6 @@ struct method {
 };
 
 const struct method *ss_method_at(size_t i);               /* NULL after the last */
-/* 1 if the engine gives the derivatives of a motion by its start. */
-int ss_method_follows(const struct method *how);
-const char *ss_method_follower_names(void);          /* for messages */
 
 /* What is asked of a method, if none is named. */
 typedef enum wish {

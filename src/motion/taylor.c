@@ -196,140 +196,6 @@ taylor_at(engine *e, reading where, double s, turn base, double q[], double dqdt
     dqdt[1] = t->sample[MAX_DIM][i];
 }
 
-/* --- neighbouring motions ---------------------------------------------------------------------- */
-
-/* The derivatives of D_REF, D_Q and D_V by each of the three, which stand side by side. */
-enum { LANES = D_MOST + 1 };
-typedef double derivatives[D_MOST][LANES];
-
-/* The derivatives of v' and of the rate of the state's third number by each of the three.  If the
- * derivative of the last of these rates by v varies in time, varies is 1 and slope is its series. */
-typedef struct gains {
-    double v[D_MOST], third[D_MOST], slope[MOST_ORDER + 1];
-    int varies, is_third;
-} gains;
-
-static gains
-gains_of(taylor *t)
-{
-    const state *m = &t->base.m->now;
-    size_t dim = m->model->dim;
-    gains g = { .is_third = dim > 2 };
-    double step[MOST_ORDER + 2], d[MAX_DIM * MAX_DIM], dfdt[MAX_DIM];
-    for (int n = 0; n <= t->order; n++)
-        step[n] = t->unit * t->per_order[n];
-    m->model->jacobian(m, m->u, m->q, d, dfdt);
-    g.v[D_Q] = d[dim];
-    g.v[D_V] = d[dim + 1];
-    g.v[D_REF] = g.is_third ? d[dim + 2] : -m->scene->stiffness / m->scene->mass;
-    for (int i = 0; g.is_third && i < D_MOST; i++)
-        g.third[i] = i == D_REF ? d[8] : i == D_Q ? d[6] : d[7];
-    if (m->model->slope == NULL)
-        return g;
-    m->model->slope(m, step, t->order, t->c, g.slope);
-    *(g.is_third ? &g.third[D_V] : &g.v[D_V]) = 0;
-    for (int n = 0; n <= t->order; n++)
-        g.varies |= g.slope[n] != 0;
-    return g;
-}
-
-static inline void
-next_order(double step, derivatives d[], int n, const gains *g)
-{
-    double sum[LANES] = { 0 };
-    for (int j = 0; g->varies && j <= n; j++)
-        for (int i = 0; i < LANES; i++)
-            sum[i] += g->slope[n - j] * d[j][D_V][i];
-    for (int i = 0; i < LANES; i++) {
-        double ref = d[n][D_REF][i], q = d[n][D_Q][i], v = d[n][D_V][i];
-        d[n + 1][D_Q][i] = step * v;
-        d[n + 1][D_V][i] = step * (g->v[D_Q] * q + g->v[D_V] * v + g->v[D_REF] * ref
-                                   + (g->is_third ? 0 : sum[i]));
-        d[n + 1][D_REF][i] = step * (g->third[D_Q] * q + g->third[D_V] * v + g->third[D_REF] * ref
-                                     + (g->is_third ? sum[i] : 0));
-    }
-}
-
-/* Expand the derivatives in series; at the start they are the identity. */
-VERSIONS static void
-expand_derivatives(const taylor *t, const gains *g, derivatives d[])
-{
-    memset(d[0], 0, sizeof d[0]);
-    for (int i = 0; i < D_MOST; i++)
-        d[0][i][i] = 1;
-    for (int n = 0; n < t->order; n++)
-        next_order(t->unit * t->per_order[n], d, n, g);
-}
-
-/* Derivatives need no more digits than this. */
-#define FINE 1e-10
-
-/* How far [unit] these series keep the tolerance.  The length of the step does not bound it: a state that
- * moves slowly may have neighbours that move fast. */
-static double
-derivatives_reach(const taylor *t, derivatives d[])
-{
-    const double unit[] = { t->scale[t->base.m->now.model->dim > 2 ? 2 : 0], t->scale[0], t->scale[1] };
-    double largest = 0;
-    for (int n = t->order - 1; n <= t->order; n++)
-        for (int i = 0; i < D_MOST; i++)
-            for (int j = 0; j < D_MOST; j++)
-                largest = fmax(largest, fabs(d[n][i][j]) * (unit[j] / unit[i]));
-    return pow(fmax(t->tol, FINE) / largest, t->per_order[t->order - 2]);
-}
-
-/* Expand the slope about a time x [unit] later. */
-static void
-shift_slope(gains *g, int order, double x)
-{
-    for (int i = 0; i < order; i++)
-        for (int n = order - 1; n >= i; n--)
-            g->slope[n] += x * g->slope[n + 1];
-}
-
-/* out becomes d(x) out. */
-VERSIONS static void
-apply_derivatives(const taylor *t, derivatives d[], double x, double out[D_MOST][D_MOST])
-{
-    derivatives at;
-    double before[D_MOST][D_MOST];
-    memcpy(at, d[t->order], sizeof at);
-    for (int n = t->order - 1; n >= 0; n--)
-        for (int i = 0; i < D_MOST; i++)
-            for (int j = 0; j < LANES; j++)
-                at[i][j] = at[i][j] * x + d[n][i][j];
-    memcpy(before, out, sizeof before);
-    for (int i = 0; i < D_MOST; i++)
-        for (int j = 0; j < D_MOST; j++)
-            out[i][j] = at[i][0] * before[0][j] + at[i][1] * before[1][j] + at[i][2] * before[2][j];
-}
-
-/* If a step needs more pieces than this, its derivatives become NaN. */
-enum { MOST_PIECES = 1000 };
-
-static void
-taylor_response(engine *e, double s, double out[D_MOST][D_MOST])
-{
-    taylor *t = (taylor *)e;
-    derivatives d[MOST_ORDER + 1];
-    gains g = gains_of(t);
-    double left = s * t->per_unit;
-    memset(out, 0, D_MOST * sizeof *out);
-    for (int i = 0; i < D_MOST; i++)
-        out[i][i] = 1;
-    for (int pieces = 0; left > 0; pieces++) {
-        expand_derivatives(t, &g, d);
-        e->rhs += (unsigned long)t->order;
-        double reach = derivatives_reach(t, d), x = reach < left ? reach : left;
-        if (pieces == MOST_PIECES)
-            x = left = NAN;
-        apply_derivatives(t, d, x, out);
-        left -= x;
-        if (left > 0 && g.varies)
-            shift_slope(&g, t->order, x);
-    }
-}
-
 static int
 taylor_curve(const engine *e, double c[][MAX_DIM])
 {
@@ -357,8 +223,8 @@ taylor_keep(engine *e, double tol)
 }
 
 static const struct engine_type taylor_type = {
-    .begin = taylor_begin, .step = taylor_step, .at = taylor_at,
-    .response = taylor_response, .curve = taylor_curve, .keep = taylor_keep, .go_on = taylor_go_on
+    .begin = taylor_begin, .step = taylor_step, .at = taylor_at, .curve = taylor_curve, .keep = taylor_keep,
+    .go_on = taylor_go_on
 };
 
 ss_status

@@ -92,7 +92,7 @@ struct variation {
     void (*free)(const state *m, int is_free[D_MOST]);
     /* Carry d across the end of `mode` at q, which this bound was; before and after are the rates of
      * change on its two sides.  A neighbouring state reaches it at another time.  Each column of d is
-     * the difference that one initial difference has caused.  NULL if no rate jumps there. */
+     * the difference that one initial difference has caused.  NULL if the modes are not linear. */
     void (*cross)(const state *m, int mode, const bound *by, const double q[], const double before[],
                   const double after[], double d[D_MOST][D_MOST]);
     /* Move a state by d.  Returns 0 if its mode is not valid there. */
@@ -166,10 +166,6 @@ struct ss_model {
     void (*series)(const state *m, const double step[], int order, double c[][SERIES_PARTS]);
     /* Returns 0 if the law of this scene has no such series; NULL if every scene's has. */
     int (*analytic)(const ss_scene *scene);
-    /* The Taylor coefficients, along the series c and up to the same order, of the derivative of the
-     * state's last rate of change by v.  NULL if this derivative is constant in a mode, or the law has kinks. */
-    void (*slope)(const state *m, const double step[], int order, double c[][SERIES_PARTS],
-                  double slope[]);
     /* Shorten a step [unit] to the range in which these coefficients describe the motion: beyond a
      * pole that they do not show, the motion differs.  NULL if they always describe it. */
     double (*reach)(const state *m, double c[][SERIES_PARTS], double step);

@@ -215,24 +215,6 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
     }
 }
 
-/* The coefficients of tanh(alpha v) follow from those of theta' and theta, its slope is 1 - tanh^2. */
-static void
-slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], double out[])
-{
-    enum { N = MOST_SERIES + 1 };
-    double rate, goal, u[N], e = exp(-2 * fabs(m->scene->own[ALPHA] * m->q[1]));
-    law(m->scene, &rate, &goal);
-    memset(out, 0, (size_t)(order + 1) * sizeof *out);
-    if (goal == 0 || fabs(m->scene->own[ALPHA] * m->q[1]) > SATURATED)
-        return;
-    for (int n = 0; n < order; n++)
-        u[n] = (c[n + 1][2] / (step[n] * rate) + c[n][2]) / goal;
-    double scale = rate * goal * m->scene->own[ALPHA];
-    out[0] = scale * 4 * e / ((1 + e) * (1 + e));
-    for (int n = 1; n < order; n++)
-        out[n] = -scale * (inner_products(u, u, n) + 2 * u[0] * u[n]);
-}
-
 /* In a step v may change by this part of its distance from the poles of tanh, which lie i pi / (2 alpha)
  * from v = 0: where tanh is saturated, its series does not show them. */
 #define WAY_TO_POLE 0.4
@@ -275,7 +257,7 @@ MODEL(state_variable) = {
     .n_parameters = 2, .normalise = normalise, .limit = limit,
     .dim = 3, .force_varies = IN_STICK | IN_SLIP,
     .start = start, .fastest = fastest, .quickest = quickest, .sight = sight, .stiff = stiff,
-    .rates = rates, .jacobian = jacobian, .series = series, .slope = slope, .reach = reach,
+    .rates = rates, .jacobian = jacobian, .series = series, .reach = reach,
     .sample = sample,
     .memory = memory, .in_transition = in_transition, .variation = &ss_kink_variation
 };

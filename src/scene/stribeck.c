@@ -137,23 +137,6 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
     }
 }
 
-/* The derivative of f by v is -(f_s - f_k) p^2 u' / v_s, or p in place of p^2, with u' = 1 or 2 w. */
-static void
-slope(const state *m, const double step[], int order, double c[][SERIES_PARTS], double out[])
-{
-    const ss_scene *s = m->scene;
-    double drop = holding_friction(s, m->mode) - kinetic_friction(s, m->mode), factor = drop / s->own[SPEED] / s->mass;
-    double part[MOST_SERIES + 1];
-    fall f;
-    (void)step;
-    for (int n = 0; n <= order; n++) {
-        next_fall(m, c[n], n, &f);
-        part[n] = s->own[SHAPE] == EXPONENTIAL ? f.p[n] : product_term(f.p, f.p, n);
-        out[n] = factor * (exponent(s) == 1 ? part[n] : 2 * product_term(part, f.w, n));
-    }
-    out[0] -= m->c / s->mass;
-}
-
 /* In a step v may change by this part of itself and v_s, as in lugre.c; the first shape needs no such limit. */
 #define WAY_TO_FALL 0.4
 
@@ -191,7 +174,7 @@ MODEL(stribeck) = {
     .n_parameters = 1,
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .quickest = quickest, .sight = sight,
-    .rates = rates, .jacobian = jacobian, .series = series, .slope = slope, .reach = reach,
+    .rates = rates, .jacobian = jacobian, .series = series, .reach = reach,
     .analytic = analytic,
     .still = ss_stick_still, .next = ss_stick_next, .sample = sample, .variation = &ss_stick_variation,
     .drive = drive

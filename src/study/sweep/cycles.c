@@ -1,11 +1,10 @@
 /* cycles.c -- walk from cycle to cycle, and carry the derivative of the walk along.
  *
- * Within a mode an engine computes the derivative.  Another initial state reaches an event at another
+ * Within a mode the closed form has a derivative.  Another initial state reaches an event at another
  * time, so the derivative jumps there, by the saltation matrix (Aizerman and Gantmakher 1958; Leine and
  * Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7).  The motion
  * after a Coulomb stick does not depend on v and on the time at which the stick began, so a stick
- * removes one direction of the derivative.  If the engine has none, walks that start at neighbouring
- * states give it.  Without forcing and with true sticks it is 0: a stick lasts until the pull has
+ * removes one direction of the derivative.  Elsewhere walks that start at neighbouring states give it.  Without forcing and with true sticks it is 0: a stick lasts until the pull has
  * raised the force to f_s, and this happens at the same x - U t wherever the stick began. */
 #include "study/sweep/cycles.h"
 
@@ -207,7 +206,7 @@ go_leg(cycles *c, double longest, meter *r, tangent *t)
     c->status = ss_walk_on(w, &is_event, &event, c->err);
     if (c->status != SS_OK)
         return 0;
-    if (t != NULL && ends && variation->cross != NULL) {
+    if (t != NULL && ends) {
         for (int i = 0; i < D_MOST; i++)
             t->later[i] = -t->d[D_V][i] / rates[1];
         variation->cross(&w->m.now, mode, &by, q, rates, w->e->dq0, t->d);
@@ -408,7 +407,7 @@ ss_cycles_derive(cycles *c, int n, derivative_use use, tangent *t)
         ss_cycles_go(c, n, NULL);
         return;
     }
-    if (c->w.e->type->response == NULL || m->model->kinks || c->from_pull) {
+    if (c->w.e->type->response == NULL) {
         differences(c, n, use, t);
         return;
     }

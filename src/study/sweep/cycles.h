@@ -65,8 +65,8 @@ typedef struct section {
     double x, v, y;
 } section;
 
-/* The derivative of (x_ref, q, v) now by (x_ref, q, v) at the start, for an engine that has a
- * response.  For a state with a third number, x_ref is this number. */
+/* The derivative of (x_ref, q, v) now by (x_ref, q, v) at the start, x_ref being the third number
+ * of a state that has one. */
 typedef struct tangent {
     double d[D_MOST][D_MOST];
     double later[D_MOST];           /* the delay of the last event, at which v became 0 [s] */

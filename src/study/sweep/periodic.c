@@ -452,7 +452,7 @@ settle_as_asked(finder *f)
 enum { APPROACH = 4 };
 
 /* Without forcing, even differences that are small beside x change the time of the next onset so much that
- * finite differences give no derivative: the method must compute it, unless a true stick makes it 0, or the
+ * finite differences give no derivative: only a closed form does, unless a true stick makes it 0, or the
  * differences lie in the section at which cycles begin. */
 int
 ss_periodic_can_shoot(const ss_scene *scene, const struct method *how)
@@ -460,7 +460,7 @@ ss_periodic_can_shoot(const ss_scene *scene, const struct method *how)
     const ss_model *model = scene->model;
     return model->variation != NULL
         && (scene->base_frequency > 0 || model->still != NULL || !ss_model_has_events(model)
-            || ss_method_follows(how));
+            || how->kind == CLOSED_FORM);
 }
 
 ss_status

@@ -205,8 +205,7 @@ check_cycle(const ss_scene *scene, const ss_steady_opts *opts, const struct meth
     if (!asks || ss_periodic_can_shoot(scene, how))
         return SS_OK;
     return ss_fail(err, SS_EINVAL, "base_frequency is 0: without forcing, shooting, multipliers and "
-                   "exponents of model %s need method %s",
-                   scene->model->name, ss_method_follower_names());
+                   "exponents of model %s need method %s", scene->model->name, ss_method_for(scene, BEST)->name);
 }
 
 /* The rate at which the fastest growing difference from a steady slide grows; negative: it dies out. */
