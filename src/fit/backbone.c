@@ -45,7 +45,6 @@ enum {
 #define MIXED 1.5               /* times what the last block leaves */
 #define FALL .35                /* of ln A in a block, at most */
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
-#define FAINT .01                /* of an amplitude: a line or a blow below is let be */
 #define OUTSTANDING 60.0        /* times the median power: a line, as noise never is */
 #define DIES .03                /* damping ratio of what is no line, but part of a blow or of a slip */
 
@@ -685,7 +684,7 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
             st = settle(d);
         if (st == SS_OK && d->n_blocks >= FEW && is_stop(d)) {
             const block *b = &d->block[--d->n_blocks];
-            d->stop = b->cov[LEVEL][0] * b[-1].left / b[-1].free > .01 ? "noise" : "the motion stops";
+            d->stop = b->cov[LEVEL][0] * b[-1].left / b[-1].free > LITTLE * LITTLE ? "noise" : "the motion stops";
             st = settle(d);
         }
         if (st == SS_OK && d->n_blocks < FEW && d->beside.n > 0) {

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stickslip/backbone.h>
+#include "fit/verdict.h"
 
 /* An oscillation about the middle of a block, per sample: ln A falls by s t + ds t^2/2 + dds t^3/6, the phase
  * grows by w t + dw t^2/2 + ddw t^3/6. */

@@ -186,7 +186,7 @@ ss_block_fit(block *b, const double *x, size_t first, size_t end, bend start, co
         start.w += cimag(step) * ease;
         if (!(start.w > 0) || start.w > 3)
             return 0;
-        if (steps == 0 && (pow(far, 4) < .01 * b->cov[LEVEL][2] * half * half * b->left / b->free || far < 1e-6))
+        if (steps == 0 && (pow(far, 4) < FAINT * b->cov[LEVEL][2] * half * half * b->left / b->free || far < 1e-6))
             return 1;
     }
     return 0;

@@ -330,7 +330,7 @@ ss_blocks_smooth(block *b, size_t n, int has_phase, int derivative)
     place *p = calloc(n, sizeof *p);
     double (*level)[3] = calloc(n, sizeof *level), (*lost)[2] = calloc(n, sizeof *lost);
     double mean = (b[0].y[LEVEL] - b[n - 1].y[LEVEL]) / (b[n - 1].t - b[0].t);
-    double unit = fmax(mean, .1 / (b[n - 1].t - b[0].t));
+    double unit = fmax(mean, LITTLE / (b[n - 1].t - b[0].t));
     int has_room = p != NULL && level != NULL && lost != NULL;
     for (size_t i = 0; has_room && i < n; i++) {
         size_t lo = i > 2 ? i - 2 : 0, hi = i + 2 < n ? i + 2 : n - 1;

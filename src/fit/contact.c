@@ -27,7 +27,6 @@ enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at
 #define BUDGET 1e8                      /* integration steps of a fit: less than a minute */
 #define NEAR 1.5                        /* factor within which the features' estimates are right */
 #define FAR 10.0                        /* factor of the range that is searched */
-#define LOW 0.1                         /* the least f_k / (k Z_e): below it sticks are too short to fit */
 #define SHORT 0.25                      /* periods of the contact: shorter sticks show no stiffness */
 
 typedef struct fitting {
@@ -250,7 +249,8 @@ set_scene(fitting *w, const ss_scene *start, ss_quantity quantity)
     c->period = w->goal.period;
     c->budget = BUDGET;
     c->range[FORCED_STIFFNESS] = (ss_range){ c->own[FORCED_STIFFNESS], c->own[FORCED_STIFFNESS] };
-    c->range[FORCED_RATIO] = (ss_range){ log(LOW), start->friction > 0
+    /* below it sticks are too short to fit */
+    c->range[FORCED_RATIO] = (ss_range){ log(LITTLE), start->friction > 0
         ? log(start->friction / fmax(start->static_friction, start->friction)) : 0 };
 }
 

@@ -51,13 +51,12 @@ smooth(const double *t, const double *x, size_t n, size_t i, size_t m, const siz
 static size_t
 find_window(const double *t, const double *x, size_t n, double *error)
 {
-    enum { TRIED = 2000 };          /* rows */
     const size_t all[2] = { n, n };
     size_t best = 0;
     *error = INFINITY;
     for (size_t m = TERMS - 1; m <= WIDEST && (best == 0 || BLOCKS * m < n); m += 1 + m / 4) {
         double sum = 0, count = 0, blind = 0, out[3];
-        for (size_t i = m; i + m < n; i += 1 + n / TRIED) {
+        for (size_t i = m; i + m < n; i += 1 + 2 * n / DRIVEN_ROWS) {
             size_t run[2] = { i, i + 1 };
             while (run[0] + m > i && x[run[0] - 1] == x[i])
                 run[0]--;

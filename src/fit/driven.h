@@ -15,8 +15,7 @@ enum { LENGTH, OTHER_LENGTH, GAP, EXPONENT, BETA, RISE, SPEED, SHAPE, DELAY, UNK
 enum { PART, VISCOUS = PART + DRIVEN_PARTS, TILT, INERTIA, SINE, COSINE, BY_SIDE, UNEVEN, PLACE, OFFSET, DRIFT,
        COLUMNS };
 enum { LAWS_MOST = 16, FOLDS = 2, ALL = FOLDS };
-enum { DRIVEN_ROWS = 4000, DRIVEN_FEWEST = 200 };   /* rows that fits look at, and from which they judge */
-#define DRIVEN_TURN 0.1             /* of the rms motion: a turn that a contact remembers */
+enum { DRIVEN_ROWS = 4000, DRIVEN_FEWEST = DRIVEN_ROWS / 20 };     /* rows that fits look at; to judge from */
 
 /* A law that a motion may drive: a model, the unknowns that it frees, and the numbers that they make. */
 enum { LAW_NUMBERS = 8 };
@@ -60,7 +59,8 @@ ss_status ss_driven_new(driven *d, const double t[], const double motion[], cons
 /* Keep about so many rows, evenly, and at most as many at which the motion turns. */
 ss_status ss_driven_thin(driven *thin, const driven *d, size_t most);
 void ss_driven_free(driven *d);
-/* Mark the rows at which the motion turns by more than so much; NULL: do not.  Returns their number. */
+/* Mark the rows at which the motion turns by more than so much; NULL: do not.  Returns their number.  (A contact
+ * remembers turns that are not little beside the rms motion.) */
 size_t ss_driven_turns(const driven *d, double least, char is_turn[]);
 
 /* The line over time that suits the used rows of x: its value at the middle and its slope.  Returns the mean square

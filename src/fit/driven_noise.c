@@ -27,7 +27,7 @@ ss_driven_partners(const driven *d, size_t *partner)
     char *is_turn = (char *)(p + d->n);
     if (p == NULL)
         return SS_ENOMEM;
-    ss_driven_turns(d, fmax(DRIVEN_TURN, d->least), is_turn);
+    ss_driven_turns(d, fmax(LITTLE, d->least), is_turn);
     for (size_t i = 0, last = 0, before = 0, turns = 0; i < d->n; i++) {
         if (is_turn[i]) {
             before = last;

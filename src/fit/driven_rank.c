@@ -17,7 +17,7 @@
 #include "signal/gaps.h"
 #include "signal/header.h"
 
-enum { COARSE = 800 };                  /* rows that searches look at */
+enum { COARSE = DRIVEN_ROWS / 5 };      /* rows that searches look at */
 #define OTHER_RANGE 1.25                /* ratio of the rms motion in two folds that are not alike */
 
 static const ss_motion_opts defaults = { .size = sizeof defaults, .delay = 1 };
@@ -85,7 +85,7 @@ find_doubt(char *why, size_t room, const driven *d, size_t turns)
         most = fmax(most, range[b]);
     }
     for (size_t b = 0; b < BLOCKS; b++)
-        moving += range[b] > DRIVEN_TURN * most;
+        moving += range[b] > LITTLE * most;
     if (2 * moving < BLOCKS)
         snprintf(why, room, "the motion is mostly rest");
 }
@@ -327,7 +327,7 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size
     ss_status st = SS_OK;
     snprintf(why, sizeof why, "it has %zu rows, fewer than %d", n, DRIVEN_FEWEST);
     if (n >= DRIVEN_FEWEST && (st = ss_driven_new(&d, column[0], column[1], column[2], n, opts)) == SS_OK) {
-        turns = ss_driven_turns(&d, fmax(DRIVEN_TURN, d.least), NULL);
+        turns = ss_driven_turns(&d, fmax(LITTLE, d.least), NULL);
         find_doubt(why, sizeof why, &d, turns);
         if (why[0] == '\0' && choose_folds(&d, opts->folds, turns, &r->interleaved))
             snprintf(why, sizeof why, "the two %s visit other ranges of the motion",

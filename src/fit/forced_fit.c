@@ -27,7 +27,6 @@
 
 enum { LAGS = 32 };
 enum { LOOKED_AT = 128 };       /* samples of half a cycle, to find the fastest slip */
-#define UNLIKELY 0.1            /* part of the power: if more is left, no descent or start helps */
 #define FARTHEST 0.2            /* the longest step of an unknown */
 #define ANYWHERE 5              /* units to either side, in which a start of the motion is sought */
 
@@ -40,6 +39,7 @@ typedef struct fitting {
     double wide;                /* weights grow from 0 to 1 over so many samples */
     double *motion, *clear, *weight;    /* of each sample, at the unknowns `at` */
     double at[FORCED_MOVED], used, size, offset;        /* used: the sum of the weights */
+    double mean, squares;       /* of the motion, and about its mean, weighed */
     double *moved, moved_at[FORCED_MOVED], step;        /* slopes of the motion by each unknown, where, and the
                                                            step of the motion's start for them */
 } fitting;
@@ -80,12 +80,12 @@ static ss_status
 move_to(fitting *w, const double *u)
 {
     const rank_record *r = w->r;
-    double mean_m = 0, mean_x = 0, mm = 0, mx = 0;
+    double mean_x = 0, mx = 0;
     w->at[0] = NAN;
     ss_status st = run(w, u, w->motion, w->clear);
     if (st != SS_OK)
         return st;
-    w->used = 0;
+    w->used = w->mean = w->squares = 0;
     for (size_t i = 0; i < r->n; i++) {
         int missing = r->missing != NULL && r->missing[i];
         w->weight[i] = missing ? 0 : fmin(fmax((w->clear[i] - 1) / w->wide, 0), 1);
@@ -94,16 +94,16 @@ move_to(fitting *w, const double *u)
     if (!(w->used > (w->wide > 1 ? 0.5 * (double)r->n : 2 * (double)FORCED_UNKNOWNS)))
         return SS_EDATA;
     for (size_t i = 0; i < r->n; i++) {
-        mean_m += w->weight[i] * w->motion[i] / w->used;
+        w->mean += w->weight[i] * w->motion[i] / w->used;
         mean_x += w->weight[i] * r->x[i] / w->used;
     }
     for (size_t i = 0; i < r->n; i++) {
-        double m = w->motion[i] - mean_m;
-        mm += w->weight[i] * m * m;
+        double m = w->motion[i] - w->mean;
+        w->squares += w->weight[i] * m * m;
         mx += w->weight[i] * m * (r->x[i] - mean_x);
     }
-    w->size = mm > 0 ? mx / mm : 0;
-    w->offset = mean_x - w->size * mean_m;
+    w->size = w->squares > 0 ? mx / w->squares : 0;
+    w->offset = mean_x - w->size * w->mean;
     memcpy(w->at, u, sizeof w->at);
     return w->size > 0 ? SS_OK : SS_EDATA;
 }
@@ -127,7 +127,7 @@ step_of(const fitting *w, size_t unknown)
 static int
 moves(const fitting *w, size_t unknown)
 {
-    return unknown >= FORCED_MOVED || w->range[unknown].to > w->range[unknown].from;
+    return w->range[unknown].to > w->range[unknown].from;
 }
 
 /* Find the slopes of the motion at w->at by each unknown that is free, unless they are known. */
@@ -156,7 +156,7 @@ move_unknowns(fitting *w)
     return st;
 }
 
-/* The slope of residual i at w->at by an unknown; the weights are taken as constant. */
+/* The slope of residual i at w->at by an unknown, 0 by one that is held; the weights are taken as constant. */
 static double
 slope_at(const fitting *w, size_t i, size_t unknown)
 {
@@ -170,21 +170,16 @@ slope_at(const fitting *w, size_t i, size_t unknown)
 static void
 write_slopes(const fitting *w, double *slopes)
 {
-    double mean_m = 0, mm = 0;
-    for (size_t i = 0; i < w->r->n; i++)
-        mean_m += w->weight[i] * w->motion[i] / w->used;
-    for (size_t i = 0; i < w->r->n; i++)
-        mm += w->weight[i] * (w->motion[i] - mean_m) * (w->motion[i] - mean_m);
     for (size_t k = 0; k < FORCED_MOVED; k++) {
         double level = 0, along = 0;
-        for (size_t i = 0; moves(w, k) && i < w->r->n; i++) {
+        for (size_t i = 0; i < w->r->n; i++) {
             double slope = sqrt(w->weight[i]) * slope_at(w, i, k);
             level += slope / w->used;
-            along += slope * (w->motion[i] - mean_m) / mm;
+            along += slope * (w->motion[i] - w->mean) / w->squares;
         }
-        for (size_t i = 0; moves(w, k) && i < w->r->n; i++)
+        for (size_t i = 0; i < w->r->n; i++)
             slopes[i * FORCED_MOVED + k] = (slope_at(w, i, k) - sqrt(w->weight[i])
-                                            * (level + along * (w->motion[i] - mean_m))) / sqrt(w->used);
+                                            * (level + along * (w->motion[i] - w->mean))) / sqrt(w->used);
     }
 }
 
@@ -319,22 +314,18 @@ whiteness(const fitting *w)
     return lowest;
 }
 
-/* The linear problem at w->at: residual[i], and their slopes by the n unknowns that are free, whose names
- * they have.  One column more, `extra`, is left empty. */
+/* The linear problem at w->at: residual[i], their slopes by all unknowns, and its solution, the step to the least
+ * squares.  One column more, `extra`, is left empty. */
 typedef struct linear {
-    size_t n, name[FORCED_UNKNOWNS];
-    double *residual, *slopes, *extra;
+    double *residual, *slopes, *extra, step[FORCED_UNKNOWNS], inverse[FORCED_UNKNOWNS * FORCED_UNKNOWNS];
 } linear;
 
 static ss_status
 linearise(fitting *w, linear *l)
 {
     const size_t rows = w->r->n;
+    double squares;
     l->residual = malloc((rows * (FORCED_UNKNOWNS + 2) + 1) * sizeof *l->residual);
-    l->n = 0;
-    for (size_t k = 0; k < FORCED_UNKNOWNS; k++)
-        if (moves(w, k))
-            l->name[l->n++] = k;
     ss_status st = l->residual != NULL ? move_unknowns(w) : SS_ENOMEM;
     if (st != SS_OK)
         return st;
@@ -342,10 +333,10 @@ linearise(fitting *w, linear *l)
     l->extra = l->slopes + rows * FORCED_UNKNOWNS;
     for (size_t i = 0; i < rows; i++) {
         l->residual[i] = sqrt(w->weight[i]) * left_at(w, i);
-        for (size_t k = 0; k < l->n; k++)
-            l->slopes[i * l->n + k] = slope_at(w, i, l->name[k]);
+        for (size_t k = 0; k < FORCED_UNKNOWNS; k++)
+            l->slopes[i * FORCED_UNKNOWNS + k] = slope_at(w, i, k);
     }
-    return SS_OK;
+    return ss_least_linear(l->slopes, l->residual, rows, FORCED_UNKNOWNS, l->step, &squares, l->inverse);
 }
 
 /* Fill in the fit at u, unless it leaves more than it does already. */
@@ -353,8 +344,7 @@ static ss_status
 report(fitting *w, const double *u, forced_fit *m)
 {
     const rank_record *r = w->r;
-    double unit[FORCED_UNKNOWNS], step[FORCED_UNKNOWNS], squares, inverse[FORCED_UNKNOWNS * FORCED_UNKNOWNS];
-    double left = 0, all = 0, count = 0;
+    double left = 0, all = 0, count = 0, unknowns = 0;
     linear l;
     w->wide = 1;
     ss_status st = move_to(w, u);
@@ -365,22 +355,20 @@ report(fitting *w, const double *u, forced_fit *m)
     if (m->of_samples.compared > 0 && left / w->used >= m->of_samples.left)
         return SS_OK;
     st = linearise(w, &l);
-    if (st == SS_OK)
-        st = ss_least_linear(l.slopes, l.residual, r->n, l.n, step, &squares, inverse);
     free(l.residual);
     if (st != SS_OK)
         return st == SS_EDATA ? SS_OK : st;
-    memset(m->covariance, 0, sizeof m->covariance);
-    for (size_t k = 0; k < l.n; k++)
-        unit[k] = l.name[k] == FORCED_FREQUENCY ? w->o.turn : 1;
-    for (size_t k = 0; k < l.n; k++)
-        for (size_t i = 0; i < l.n; i++)
-            m->covariance[l.name[i]][l.name[k]] = unit[i] * unit[k] * inverse[k * l.n + i];
+    for (size_t k = 0; k < FORCED_UNKNOWNS; k++) {
+        unknowns += k >= FORCED_MOVED || moves(w, k);
+        for (size_t i = 0; i < FORCED_UNKNOWNS; i++)
+            m->covariance[i][k] = l.inverse[k * FORCED_UNKNOWNS + i] * (i == FORCED_FREQUENCY ? w->o.turn : 1)
+                * (k == FORCED_FREQUENCY ? w->o.turn : 1);
+    }
     for (size_t i = 0; i < r->n; i++)
         if (r->missing == NULL || !r->missing[i])
             all += left_at(w, i) * left_at(w, i), count++;
     m->left_all = all / count;
-    m->of_samples = (residue){ left / (w->used - (double)l.n), m->of_samples.power,
+    m->of_samples = (residue){ left / (w->used - unknowns), m->of_samples.power,
                                fmax(whiteness(w), r->steps),    /* steps are not white where they are coarse */
                                floor(w->used) };
     m->scene = ss_forced_resized(w->c, scene_of(w, u), w->size);
@@ -458,7 +446,7 @@ fit_start(forced_fit *m, forced *c, const forced_start *start, const rank_record
     m->scene.duration = (double)r->n / r->rate;
     m->scene = ss_forced_resized(c, m->scene, start->size > 0 ? start->size : 1);
     memcpy(m->u, u, sizeof m->u);
-    if (st == SS_OK && start->size > 0 && start->misfit < UNLIKELY * power)
+    if (st == SS_OK && start->size > 0 && start->misfit < LITTLE * power)
         st = minimise(&w, u);
     if (st == SS_OK && start->size > 0)
         st = report(&w, u, m);
@@ -471,7 +459,7 @@ fit_start(forced_fit *m, forced *c, const forced_start *start, const rank_record
         }
     for (size_t i = 0; st == SS_OK && is_free && i < 2; i++) {
         double left = m->of_samples.left;
-        if (m->of_samples.compared == 0 || left > UNLIKELY * power)
+        if (m->of_samples.compared == 0 || left > LITTLE * power)
             break;
         st = free_start(&w, before[i], u, power, &is_free);
         if (st == SS_OK && is_free)
@@ -493,7 +481,7 @@ ss_forced_fit(forced_fit *best, double *rival, forced *c, const forced_start sta
     size_t lowest = 0, fits = 0;
     ss_status st = SS_OK;
     for (; st == SS_OK && fits < n; fits++) {
-        if (fits > 0 && (start[fits].misfit > UNLIKELY * power
+        if (fits > 0 && (start[fits].misfit > LITTLE * power
                          || (rival == NULL && ss_residue_explains(&found[lowest].of_samples, r->noise))))
             break;
         c->progress = ss_stretch_part(&whole, (double)fits / (double)n, (double)(fits + 1) / (double)n);
@@ -542,10 +530,10 @@ ss_forced_refit(forced_fit *m, forced *c, const forced_fit *from, const rank_rec
 /* How much less the sum of squares of what l leaves would be with one unknown more, whose slopes are l->extra, and
  * how far it would go.  (Near the least residual the sum of squares is quadratic: no other fit is needed.) */
 static double
-find_gain(const linear *l, size_t rows, const double *inverse, double *far)
+find_gain(const linear *l, size_t rows, double *far)
 {
-    const size_t n = l->n;
-    double along[FORCED_UNKNOWNS] = { 0 }, all = 0, product = 0;
+    enum { n = FORCED_UNKNOWNS };
+    double along[n] = { 0 }, all = 0, product = 0;
     for (size_t i = 0; i < rows; i++) {
         for (size_t k = 0; k < n; k++)
             along[k] += l->slopes[i * n + k] * l->extra[i];
@@ -554,7 +542,7 @@ find_gain(const linear *l, size_t rows, const double *inverse, double *far)
     }
     double own = all;                   /* of the slopes, what no other unknown makes up for */
     for (size_t k = 0; k < n * n; k++)
-        own -= along[k / n] * inverse[k] * along[k % n];
+        own -= along[k / n] * l->inverse[k] * along[k % n];
     *far = -product / own;              /* residuals fall by slope times step */
     return own > DBL_EPSILON * all ? product * product / own : 0;
 }
@@ -604,7 +592,7 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
     forced_fit unused;
     fitting w;
     linear l = { .residual = NULL };
-    double far, squares, by[FORCED_UNKNOWNS], inverse[FORCED_UNKNOWNS * FORCED_UNKNOWNS];
+    double far;
     own.progress.progress.function = NULL;
     for (forced_term term = 0; term < HELD_TERMS; term++)
         of[term] = (forced_held){ 0, NAN };
@@ -614,21 +602,19 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
         st = move_to(&w, m->u);
     if (st == SS_OK)
         st = linearise(&w, &l);
-    if (st == SS_OK)
-        st = ss_least_linear(l.slopes, l.residual, r->n, l.n, by, &squares, inverse);
-    for (size_t i = 0; st == SS_OK && i < r->n * l.n; i++)
-        l.residual[i / l.n] -= l.slopes[i] * by[i % l.n];
+    for (size_t i = 0; st == SS_OK && i < r->n * FORCED_UNKNOWNS; i++)
+        l.residual[i / FORCED_UNKNOWNS] -= l.slopes[i] * l.step[i % FORCED_UNKNOWNS];
     for (forced_term term = 0; st == SS_OK && term < HELD_LAG; term++) {
         ss_scene changed = c->scene;
         st = slopes_by_scene(&w, term, l.extra);
         if (st == SS_OK)
-            of[term].gain = find_gain(&l, r->n, inverse, &far) / unit;
+            of[term].gain = find_gain(&l, r->n, &far) / unit;
         of[term].nearer = st == SS_OK ? change_term(&changed, term, far) : NAN;
     }
     /* longer lags leave more than noise */
     for (double samples = 1 / 8.; st == SS_OK && samples <= 8; samples *= 2) {
         slopes_by_lag(&w, samples, l.extra);
-        of[HELD_LAG].gain = fmax(of[HELD_LAG].gain, find_gain(&l, r->n, inverse, &far) / unit);
+        of[HELD_LAG].gain = fmax(of[HELD_LAG].gain, find_gain(&l, r->n, &far) / unit);
     }
     free(l.residual);
     free(w.motion);

@@ -23,7 +23,6 @@
 #include "signal/header.h"
 
 enum { POINTS = 32, KEEP = 2 };         /* of the search, within the usual spread */
-#define EQUAL 0.01                      /* of the spread: two scenes are equally near to within this */
 #define BUDGET 2e7                      /* integration steps of a scene: some seconds */
 enum { WINDOW = 4 };                    /* cycles that are compared */
 
@@ -201,7 +200,7 @@ judge(ss_ranking *r, const comparison *w, const found *f)
         if (other->adjusted.model != first->adjusted.model)
             snprintf(r->why, sizeof r->why, "%s and %s friction explain the signal equally well",
                      ss_model_name(first->adjusted.model), ss_model_name(other->adjusted.model));
-        else if (fabs(farther) <= fmax(allowed, EQUAL * log(1 + w->opts->spread)))
+        else if (fabs(farther) <= fmax(allowed, FAINT * log(1 + w->opts->spread)))
             snprintf(r->why, sizeof r->why, "two scenes with %s friction are equally near to the signal",
                      ss_model_name(first->adjusted.model));
         if (r->why[0] != '\0')

@@ -16,8 +16,6 @@
 #include "base/sort.h"
 #include "fit/samples.h"
 
-#define SMALL 0.01              /* size of a simplex that ends a search: a fit goes on faster from there; ends
-                                   within twice this are the same */
 enum { STEPS = 40 };            /* of a simplex, at most */
 
 typedef struct search {
@@ -111,7 +109,7 @@ descend(point *at, size_t free, search *p)
     if (m == NULL)
         return SS_ENOMEM;
     int failed = gsl_multimin_fminimizer_set(m, &f, &w.vector, &step.vector);
-    for (size_t i = 0; !failed && i < STEPS && gsl_multimin_fminimizer_size(m) > SMALL; i++)
+    for (size_t i = 0; !failed && i < STEPS && gsl_multimin_fminimizer_size(m) > FAINT; i++)
         failed = gsl_multimin_fminimizer_iterate(m);
     if (m->fval < at->height) {
         at->height = m->fval;
@@ -152,7 +150,7 @@ ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cy
                 farthest = fmax(farthest, fabs(start[*n].key[k] - start[j].key[k]));
             nearest = fmin(nearest, farthest);
         }
-        *n += nearest >= 2 * SMALL;
+        *n += nearest >= 2 * FAINT;
         st = p.status;
     }
     ss_cycle_goal_free(&p.goal);

@@ -25,7 +25,6 @@ enum { STARTS = 4, NEAR = 12 };    /* NEAR: rows about a change that are not thi
 #define FINE 1e-10
 #define STIFF 5000              /* ways over a/k that are not tried on the grid: they take most of its time */
 #define DIFFERENCE 1e-5         /* of an unknown, for slopes */
-#define APART 0.1               /* of an unknown, that makes two fits of one */
 
 typedef struct start {
     double u[UNKNOWNS], squares, ratio;
@@ -261,7 +260,7 @@ are_apart(const double u[UNKNOWNS], const double v[UNKNOWNS])
     double most = 0;
     for (int k = DIRECT; k < UNKNOWNS; k++)
         most = fmax(most, fabs(u[k] - v[k]));
-    return most > APART;
+    return most > LITTLE;
 }
 
 /* Find where the fit to all rows starts, and a rival. */

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/steps.h>
+#include "fit/verdict.h"
 
 /* Where the load point is at a time, between which it moves evenly; and the part that friction there has in a row. */
 typedef struct place {

@@ -28,7 +28,6 @@ enum { TAKEN = 64, EXACT_MOST = 1 << 15, NEWTON = 12 };     /* samples of the sm
 /* No mechanisms, but rivals of all; by geometry w changes as A^2, as of a pendulum, and s does not. */
 enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
 #define LEAST_TURN .2           /* of ln A over ln x: A of x'' falls nearly as x grows where k is large */
-#define EXPLAINED .1            /* of what a bend leaves of an exact motion, that motion may be off */
 #define TRUST .05               /* of s: the error of what is said of it */
 #define SLIPPING .2             /* of what rates change by in half a period: the error of what a slider, which
                                    slips in a part of it, is said to do */
@@ -757,7 +756,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     of.kind = best->kind;
     if (st == SS_OK && out->n_mechanisms == 1 && best->is_exact && tell(what, &of, best->u) == SS_OK)
         for (size_t i = 0; i < n; i++)
-            b[i].left = fmax(fabs(b[i].left - what[i].left) - EXPLAINED * what[i].left, 0);
+            b[i].left = fmax(fabs(b[i].left - what[i].left) - LITTLE * what[i].left, 0);    /* it may be off */
     free(sum), free(p), free(what);
     if (st != SS_OK)
         return st;

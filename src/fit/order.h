@@ -2,6 +2,7 @@
 #ifndef ORDER_H
 #define ORDER_H
 
+#include <math.h>
 #include <stickslip/rank.h>
 
 /* A score is the distance over the threshold, at most SCORE_MOST.  If only one of signal and scene has the
@@ -12,6 +13,13 @@ typedef struct criterion_rule {
 } criterion_rule;
 extern const criterion_rule ss_criterion_rules[SS_CRITERIA];
 #define SCORE_MOST 3
+
+/* Was anything compared? */
+static inline int
+is_compared(const ss_ranking *r)
+{
+    return r != NULL && !isnan(r->row[0].total);
+}
 
 /* The score of a row by one criterion. */
 double ss_rank_score(const ss_rank_row *row, ss_criterion criterion);

@@ -22,15 +22,12 @@
 #include "scene/model.h"
 
 #define LEAST 2                 /* f_k over f_s - f_k in a simulation: see fall_rows */
-#define BENT 0.01               /* relative error of the slope of loading if slips are no Coulomb slips */
 #define FAR 5                   /* spreads: a scene whose key changes by more is another scene */
 #define FARTHEST 1e3            /* the largest factor of a key if there is no spread */
 #define DIFFERENCE 1e-4         /* of an unknown, for its slopes */
 #define NEARLY 0.05             /* relative error of a fall's height from which the fit may start */
-#define SHORT 0.1               /* of the time of loading 2 (f_s - f_k), and of a period of k/m: no stick
-                                   before a fall is shorter than both, but those of a contact that rings */
 enum { SETTLED = 4 };           /* the fall that is settled: a contact may ring for long */
-#define PATIENCE 8              /* times as long as a fall should take, for these to come */
+#define PATIENCE (2 * SETTLED)  /* times as long as a fall should take, for these to come */
 
 enum { MASS, SPEED };           /* the first keys */
 enum { ONSET, MIDDLE, HALF, LOCALS };           /* the unknowns of a fall */
@@ -129,7 +126,8 @@ find_fall(double *time, const ss_scene *scene, double *steps)
     const double loading = fabs(scene->stiffness * pull_of(scene)), period = 2 * M_PI / own_frequency(scene);
     const double reload = 2 * (scene->static_friction - scene->friction) / loading;
     ss_scene s = *scene;
-    waiting w = { .least = SHORT * fmin(reload, period), .t = NAN, .settled = SETTLED };
+    /* only sticks of a contact that rings are shorter before a fall */
+    waiting w = { .least = LITTLE * fmin(reload, period), .t = NAN, .settled = SETTLED };
     ss_sim_stats stats = { .steps = 0 };
     ss_sim_opts opts = ss_samples_opts(scene, SAMPLES_FINE);
     opts.events = wait_for_fall;
@@ -190,7 +188,7 @@ fall_rows(problem *f, const double u[], size_t i, double time, double *row)
     if (st != SS_OK)
         return st == SS_ENOMEM ? st : SS_EDATA;
     /* the slips of another law than Coulomb's may begin and end elsewhere than the slope was read */
-    const double error = hypot(r->slope.error, BENT * r->slope.value), direction = sign(pull_of(&s));
+    const double error = hypot(r->slope.error, FAINT * r->slope.value), direction = sign(pull_of(&s));
     int is_straight = before >= 1 && before < (double)w->n && !s.model->has_contact;
     double slope = is_straight ? direction * (row[(size_t)before] - row[0]) / (before * step) : r->slope.value;
     row[w->n] = (slope - r->slope.value) / error * sqrt(r->noise / (double)r->n);

@@ -36,12 +36,6 @@ report_half(double done, void *user)
     return ss_stretch_at(s, done) != SS_OK;
 }
 
-static int
-is_compared(const ss_ranking *r)
-{
-    return r != NULL && !isnan(r->row[0].total);
-}
-
 /* Does the signal move as the pulled scenes do rather than as the forced ones? */
 static int
 is_pull(const ss_ranking *others, const ss_ranking *pulled)

@@ -12,12 +12,6 @@ enum { DIGITS = 4 };            /* more than a criterion deserves */
 
 /* --- notes --------------------------------------------------------------------------------- */
 
-static int
-is_compared(const ss_ranking *r)
-{
-    return !isnan(r->row[0].total);
-}
-
 /* The first row if the verdict names its scene, else the row that explains most. */
 static const ss_rank_row *
 find_best(const ss_ranking *r)

@@ -34,8 +34,7 @@ enum { BETWEEN = 4 };           /* parts of the way from one row to the next, wh
 enum { ROOM = 6 };              /* columns of a step: time, friction, two paths, two laws */
 #define CHANGE 0.2              /* the least relative change of speed */
 #define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
-#define SHORT 0.1               /* a ramp over the lines beside it */
-#define STILL 0.01              /* a hold's speed over that of the lines beside it */
+#define STILL FAINT             /* a hold's speed over that of the lines beside it */
 
 const char *const ss_step_law_names[SS_STEP_LAWS] = { "aging", "slip" };
 
@@ -167,7 +166,7 @@ is_ramp(const path *p, const line *l, size_t n)
     }
     for (int k = 0; k < 2; k++) {
         double other = p->t[beside[k]->end - 1] - p->t[beside[k]->first];
-        if (!(time < SHORT * other && way < SHORT * fabs(beside[k]->speed) * other))
+        if (!(time < LITTLE * other && way < LITTLE * fabs(beside[k]->speed) * other))
             return 0;
     }
     return 1;
@@ -245,7 +244,7 @@ grain(const double *x, size_t n)
         most = fmax(most, fabs(x[i]));
     for (double q = pow(10, ceil(log10(most))); q > 1e-12 * most; q /= 10) {
         size_t i = 0;
-        while (i < n && fabs(x[i] / q - rint(x[i] / q)) < 0.01)
+        while (i < n && fabs(x[i] / q - rint(x[i] / q)) < FAINT)
             i++;
         if (i == n)
             return q;

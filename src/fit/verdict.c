@@ -20,7 +20,6 @@
 #define ALIKE 0.5                   /* of the best law's error: laws whose errors differ by less are as good */
 #define EXPLAINED 0.8               /* of the power, by a law that is named */
 #define BEYOND_NOISE 1.5            /* times the noise is surely left: the law's error is more than half the noise */
-#define TAKEN 0.1                   /* of its work a friction takes, unless it is hardly reached */
 #define QUIET 1e-4                  /* of the power: sensors are linear to a hundredth */
 
 /* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
@@ -99,7 +98,7 @@ find_fault(const candidate c[], size_t n, const candidate *best)
     return c[0].tied ? "no law explains more than the null"
         : c[n].tied ? "no law explains more than a spring of any shape and a damper"
         : 1 - best->left < EXPLAINED ? "too little is explained"
-        : best->work < TAKEN ? "friction is hardly reached"
+        : best->work < LITTLE ? "friction is hardly reached"
         : best->excess * surely > BEYOND_NOISE ? "more than noise is left" : NULL;
 }
 
