@@ -92,22 +92,26 @@ driven_fold(const driven *d, size_t i)
  * coarse: the same record with fewer rows.  left is to be freed.  SS_ENOMEM. */
 ss_status ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const driven *coarse,
                         const driven_result others[], size_t n);
+/* Solve normal equations of m unknowns, whose lower half is given, scaled, for n right sides, which become the
+ * solutions. */
+void ss_driven_solve(double h[], size_t m, double right[][UNKNOWNS + COLUMNS], size_t n);
 /* What a fit makes of each row. */
 ss_status ss_driven_predict(double out[], const driven_law *law, const driven *d, const driven_fit *fit);
 
 /* What is left of a law, beside noise. */
 typedef struct driven_noise {
-    double most, rough;             /* upper bounds of the mean square of the noise; rough: if the law is right */
+    double most, rough;             /* upper bounds of the mean square of the noise; rough: if the law is right;
+                                       most NaN: no passage is like another */
     double repeat;                  /* correlation of what is left with that of the nearest other passage */
 } driven_noise;
 /* driven_noise.c: for each row the row of another passage that is nearest to it, or the row itself if it is left
  * out; SS_ENOMEM. */
 ss_status ss_driven_partners(const driven *d, size_t *partner);
-/* What a free law leaves, of blocks of time to which it was not fitted, of what a law leaves whose own force this
- * is; own NULL: a spring of any shape and a damper instead of a free law.  SS_ENOMEM. */
-ss_status ss_driven_free_law(double free_law[BLOCKS], const driven *d, const double *left, const double *own);
+/* What a spring of any shape and a damper leave of what the null leaves, in blocks of time to which they were not
+ * fitted. */
+void ss_driven_spring(double spring[BLOCKS], const driven *d, const double *left);
 /* The noise by what a law leaves; rows: the record d of `turns` turns, thinned, to which the law was fitted. */
-ss_status ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner,
-                          const driven *d, const double *predicted, size_t turns);
+void ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner,
+                     const driven *d, const double *predicted, size_t turns);
 
 #endif

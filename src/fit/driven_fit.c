@@ -147,10 +147,8 @@ fill_columns(problem *p, const double u[UNKNOWNS])
 
 /* --- the amplitudes ------------------------------------------------------------------------ */
 
-/* Solve normal equations of m unknowns, whose lower half is given, scaled, for n right sides, which become the
- * solutions. */
-static void
-solve(double h[], size_t m, double right[][UNKNOWNS + COLUMNS], size_t n)
+void
+ss_driven_solve(double h[], size_t m, double right[][UNKNOWNS + COLUMNS], size_t n)
 {
     double size[UNKNOWNS + COLUMNS];
     for (size_t k = 0; k < m; k++)
@@ -200,7 +198,7 @@ find_amplitudes(problem *p)
             for (size_t l = 0; l <= k; l++)
                 of_m[k * m + l] = g[of[k]][of[l]];
         }
-        solve(of_m, m, right, 1);
+        ss_driven_solve(of_m, m, right, 1);
         worst = -1;
         for (size_t k = 0; k < m; k++)
             if (of[k] <= VISCOUS && c[k] < 0 && (worst < 0 || c[k] * b[of[k]] < c[worst] * b[of[worst]]))
@@ -399,7 +397,7 @@ find_covariance(problem *p, driven_result *r, double *slopes)
     for (size_t k = 0; k < m; k++)
         if (h[k * (m + 1)] > 0)
             r->covariance[of[k]][of[k]] = stands * stands / d->codes * (double)d->n / h[k * (m + 1)];
-    solve(h, m, score, BLOCKS);
+    ss_driven_solve(h, m, score, BLOCKS);
     for (size_t i = 0; i < BLOCKS * m; i++)
         score[i / m][i % m] *= sqrt((double)BLOCKS / (double)(BLOCKS - m));
     for (size_t k = 0; k < m; k++)

@@ -1,23 +1,19 @@
 /* driven_noise.c -- the noise of a measured force.
  *
- * * The noise is unknown, but at most the least of three estimates.  Motions that repeat: what differs between
+ * * The noise is unknown, but at most the less of two estimates.  Motions that repeat: what differs between
  * rows of two passages through nearly the same place, by position, speed and the last two turns; a law's memory is
- * no longer than that.  Laws that are not in the list: what a free law leaves of blocks of time to which it was
- * not fitted.  Other motions: noise of short memory is as rough as its power says, and what a law fails to explain
- * is smoother, but friction that wanders from cycle to cycle, which stands beside it. */
+ * no longer than that.  Other motions: noise of short memory is as rough as its power says, and what a law fails to
+ * explain is smoother, but friction that wanders from cycle to cycle, which stands beside it. */
 #include "fit/driven.h"
-#include "fit/verdict.h"
 #include "fit/wander.h"
 
 #include <float.h>
-#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define MEMORY (1. / 16)                /* of noise, at most, in cycles */
-#define SHARED 1e-4                     /* ridge of the terms of a free law, which are alike */
 
 ss_status
 ss_driven_partners(const driven *d, size_t *partner)
@@ -55,108 +51,54 @@ ss_driven_partners(const driven *d, size_t *partner)
     return SS_OK;
 }
 
-/* A hat function of the k-th knot, at k, of x. */
-static double
-hat(double x, double k)
-{
-    return fmax(1 - fabs(x - k), 0);
-}
-
-/* The terms of a free law: free functions of the place, speed, its square, and acceleration, as a spring of any
- * shape and a damper have them; sliders of many lengths; free functions of the speed, alone and times the law's
- * own force, and of this force in either direction; and its rate. */
-enum { PLACES = 8, SPRING = PLACES + 3, SLIDERS = 16, SPEEDS = 6, FORCES = 8 };
-enum { TERMS = SPRING + SLIDERS + 2 * SPEEDS + 2 * FORCES + 1 };
+/* The terms of a spring of any shape and a damper: free functions of the place, the speed, its square, and the
+ * acceleration. */
+enum { PLACES = 8, TERMS = PLACES + 3 };
 
 static void
-find_range(double range[2], const double *x, size_t n)
+fill_terms(double term[TERMS], const driven *d, const double range[2], size_t i)
 {
-    gsl_stats_minmax(&range[0], &range[1], x, 1, n);
-    range[1] -= range[0];
+    const double at = (d->x[i] - range[0]) / (range[1] - range[0]) * (PLACES - 1);
+    for (int k = 0; k < PLACES; k++)
+        term[k] = fmax(1 - fabs(at - k), 0);
+    term[PLACES] = d->v[i];
+    term[PLACES + 1] = d->v[i] * fabs(d->v[i]);
+    term[PLACES + 2] = d->a[i];
 }
 
-static void
-fill_terms(double (*term)[TERMS], const driven *d, const double *own)
+void
+ss_driven_spring(double spring[BLOCKS], const driven *d, const double *left)
 {
-    double slider[SLIDERS] = { 0 }, place[2], force[2];
-    find_range(place, d->x, d->n);
-    find_range(force, own, d->n);
+    double sum[BLOCKS][TERMS + 1][TERMS] = { { { 0 } } }, range[2], term[TERMS], count = 0;
+    gsl_stats_minmax(&range[0], &range[1], d->x, 1, d->n);
     for (size_t i = 0; i < d->n; i++) {
-        double length = 0.02, speed = asinh(fabs(d->v[i]) / 0.05) * SPEEDS / 5, *at = term[i];
-        for (int k = 0; k < PLACES; k++)
-            *at++ = hat((d->x[i] - place[0]) / place[1] * (PLACES - 1), k);
-        *at++ = d->v[i];
-        *at++ = d->v[i] * fabs(d->v[i]);
-        *at++ = d->a[i];
-        for (int k = 0; k < SLIDERS; k++, length *= M_SQRT2)
-            *at++ = slider[k] = fmax(-1, fmin(slider[k] + (i > 0 ? d->x[i] - d->x[i - 1] : 0) / length, 1));
-        for (int k = 0; k < SPEEDS; k++) {
-            *at++ = copysign(hat(speed, k), d->v[i]);
-            *at++ = own[i] * hat(speed, k);
+        double (*to)[TERMS] = sum[i * BLOCKS / d->n];
+        fill_terms(term, d, range, i);
+        for (int k = 0; k < TERMS && d->used[i]; k++) {
+            for (int l = 0; l <= k; l++)
+                to[k][l] += term[k] * term[l];
+            to[TERMS][k] += term[k] * left[i];
         }
-        for (int k = 0; k < 2 * FORCES; k++)
-            *at++ = (d->v[i] > 0) == k % 2 && force[1] > 0
-                ? hat((own[i] - force[0]) / force[1] * (FORCES - 1), k / 2) : 0;
-        *at++ = i > 0 ? (own[i] - own[i - 1]) / (d->t[i] - d->t[i - 1]) : 0;
+        count += d->used[i];
     }
-}
-
-/* Add the products of the first terms of a row with each other and with what is left of it: most terms are 0. */
-static void
-add_products(double sum[TERMS + 1][TERMS], const double term[TERMS], int terms, double left)
-{
-    int of[TERMS], n = 0;
-    for (int k = 0; k < terms; k++)
-        if (term[k] != 0)
-            of[n++] = k;
-    for (int k = 0; k < n; k++) {
-        const double one = term[of[k]];
-        for (int l = 0; l <= k; l++)
-            sum[of[k]][of[l]] += one * term[of[l]];
-        sum[terms][of[k]] += one * left;
-    }
-}
-
-ss_status
-ss_driven_free_law(double free_law[BLOCKS], const driven *d, const double *left, const double *own)
-{
-    const int terms = own != NULL ? TERMS : SPRING;
-    double (*term)[TERMS] = malloc(d->n * sizeof *term), (*sum)[TERMS + 1][TERMS] = calloc(BLOCKS, sizeof *sum);
-    double count = 0;
-    if (term == NULL || sum == NULL) {
-        free(term);
-        free(sum);
-        return SS_ENOMEM;
-    }
-    fill_terms(term, d, own != NULL ? own : d->x);
-    for (size_t i = 0; i < d->n; i++)
-        if (d->used[i]) {
-            add_products(sum[i * BLOCKS / d->n], term[i], terms, left[i]);
-            count++;
-        }
     for (size_t b = 0; b < BLOCKS; b++) {
-        double others[TERMS + 1][TERMS] = { { 0 } };
+        double h[TERMS * TERMS] = { 0 }, c[1][UNKNOWNS + COLUMNS] = { { 0 } };
         for (size_t i = 0; i < BLOCKS; i++)
-            for (int k = 0; k <= terms && i != b; k++)
-                for (int l = 0; l < terms; l++)
-                    others[k][l] += sum[i][k][l];
-        for (int k = 0; k < terms; k++)
-            others[k][k] += SHARED * others[k][k] + DBL_MIN;
-        gsl_matrix_view A = gsl_matrix_view_array_with_tda(others[0], (size_t)terms, (size_t)terms, TERMS);
-        gsl_vector_view C = gsl_vector_view_array(others[terms], (size_t)terms);
-        gsl_linalg_cholesky_decomp1(&A.matrix);
-        gsl_linalg_cholesky_svx(&A.matrix, &C.vector);
-        free_law[b] = 0;
+            for (int k = 0; k < TERMS && i != b; k++) {
+                for (int l = 0; l <= k; l++)
+                    h[k * TERMS + l] += sum[i][k][l];
+                c[0][k] += sum[i][TERMS][k];
+            }
+        ss_driven_solve(h, TERMS, c, 1);
+        spring[b] = 0;
         for (size_t i = (b * d->n + BLOCKS - 1) / BLOCKS; i * BLOCKS / d->n == b; i++) {
             double rest = left[i];
-            for (int k = 0; k < terms; k++)
-                rest -= others[terms][k] * term[i][k];
-            free_law[b] += d->used[i] * rest * rest / count;
+            fill_terms(term, d, range, i);
+            for (int k = 0; k < TERMS; k++)
+                rest -= c[0][k] * term[k];
+            spring[b] += d->used[i] * rest * rest / count;
         }
     }
-    free(term);
-    free(sum);
-    return SS_OK;
 }
 
 /* The mean square at most of noise with these second differences, if its memory is at most MEMORY of a cycle: of
@@ -220,17 +162,11 @@ find_wander(const driven *d, const double *left, const double *own, size_t turns
     return sum / n;
 }
 
-ss_status
+void
 ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner,
                 const driven *d, const double *predicted, size_t turns)
 {
     double room[DRIVEN_ROWS];
-    double free_law[BLOCKS], unshared;
-    ss_status st = ss_driven_free_law(free_law, rows, r->left, r->own);
-    if (st != SS_OK)
-        return st;
-    out->repeat = find_repeat(rows, partner, r->left, &unshared);
-    out->most = fmin(ss_verdict_sum(free_law), unshared);
+    out->repeat = find_repeat(rows, partner, r->left, &out->most);
     out->rough = find_rough(d, predicted, turns, room) + find_wander(rows, r->left, r->own, turns);
-    return SS_OK;
 }

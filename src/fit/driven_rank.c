@@ -1,7 +1,8 @@
 /* driven_rank.c -- which friction law a recording of motion and force follows.
  *
  * * Each law is fitted to one fold of the recording and judged by what it leaves of the other (driven_fit.c).  The
- * verdict (verdict.c) compares what is left with the noise and with what a free law leaves (driven_noise.c). */
+ * verdict (verdict.c) compares what is left with the noise and with what a spring of any shape leaves
+ * (driven_noise.c). */
 #include "fit/driven.h"
 #include "fit/verdict.h"
 
@@ -271,10 +272,9 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
             st = ss_progress_at(&opts->progress, (double)(i + 1) / LAWS_MOST);
         if (st == SS_OK)
             st = ss_driven_predict(out->predicted, law, d, &r[n].fit[ALL]);
-        if (st == SS_OK)
-            st = ss_driven_noise(&noise, &r[n], rows, partner, d, out->predicted, turns);
         if (st != SS_OK)
             break;
+        ss_driven_noise(&noise, &r[n], rows, partner, d, out->predicted, turns);
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
             .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power,
             .noise = noise.most / power, .rough = noise.rough / power, .work = work_of(&r[n], rows) };
@@ -284,9 +284,8 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         n++;
     }
     out->n = n;
-    if (st == SS_OK)
-        st = ss_driven_free_law(spring, rows, r[0].left, NULL);
     if (st == SS_OK) {
+        ss_driven_spring(spring, rows, r[0].left);
         c[n] = (candidate){ .left = ss_verdict_sum(spring) / power, .block = spring };
         out->verdict = ss_verdict_find(out->answer, sizeof out->answer, c, n, power, &best);
         for (size_t i = 0; i < n; i++) {
