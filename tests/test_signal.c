@@ -31,6 +31,7 @@ finds_columns_by_name_and_number(void **state)
     assert_int_equal(ss_header_column(head, "9 lives"), 9);
     assert_int_equal(ss_header_column(head, "x"), 0);
     assert_int_equal(ss_header_column(head, "3"), 2);
+    assert_int_equal(ss_header_column(head, "03"), 2);
     assert_int_equal(ss_header_column(head, "2"), 5);           /* a name goes before a number */
     assert_int_equal(ss_header_column(head, "0"), -1);
     assert_int_equal(ss_header_column(head, "11"), -1);

@@ -164,7 +164,7 @@ class Judge:
     """Runs the tests of a mutant's line until one fails that passes without the mutant."""
 
     def __init__(self, tree, jobs):
-        self.tree, self.kills, self.fine = tree, collections.Counter(), set()
+        self.tree, self.kills, self.fine = tree, {}, set()
         self.library = "build/libmutant.so"
         self.wrapped = ["-Wl,--wrap=" + w for w in tree.words("$(WRAPPED)").split()]
         if tree.new:            # an archiver that links: programs then find the library by its path
@@ -189,6 +189,10 @@ class Judge:
             elif self.took[test] > 0 and "/" not in test:       # too long to be mapped: it may run all that it is linked of
                 self.lines[test], self.took[test], self.size[test] = {}, 2 * self.took[test], 5000
                 self.linked[test] = self.objects_in(coverage.parent / "covered", test)
+
+    def remember(self, killed):
+        """By what test mutants of what files died."""
+        self.kills = collections.Counter(key for file, test in killed for key in ((file.split("/")[1], test), (file, test)))
 
     @staticmethod
     def objects_in(tree, test):
@@ -276,8 +280,6 @@ class Judge:
                     continue
                 self.put_back(changed)
                 if test in self.fine or self.passes_without(test):
-                    self.kills[file.split("/")[1], test] += 1
-                    self.kills[file, test] += 1
                     what, by = "dead", test
                     break
                 self.put_back(mutated)
@@ -315,8 +317,7 @@ def main():
     judged = {(row := json.loads(text))[0]: row for text in (stored.read_text().splitlines() if stored.exists() else ())}
     judges = []
     for limit, patience in ROUNDS:
-        if not judges:
-            cover(scratch, args.jobs, limit, wanted)
+        cover(scratch, args.jobs, limit, wanted)
         judges = judges or [Judge(Tree(scratch / ("mutants" + san), "-O1 -fvisibility=default", san=san), args.jobs)
                             for san in ("", "1") if san <= args.san]
         for judge in judges:
@@ -328,6 +329,7 @@ def main():
             _, what, by, old, met, of = judged.get(i, (i, "alive", "", "", [], 0))
             if what == "alive" and of < limit and (of == 0 or (mutant[0], old.strip(), mutant[2].strip()) not in known):
                 for judge in judges:
+                    judge.remember((mutants[k][0], by) for k, what, by, *_ in judged.values() if what == "dead")
                     what, by, old = judge.judge(mutant, met, limit, patience)
                     if what != "alive":
                         break
