@@ -3,7 +3,6 @@
  * A format is written to a stream, or, if it is HDF5 (in the layout of stickslip-hdf5(5)), to a path.  There a
  * complete file replaces an existing one; after a failure there is none.  A caller that needs the old file until
  * the new one is complete writes to another name and then renames it.  The same input gives the same bytes.
- * The path may be a device or a FIFO: the file is then made without a name and copied there.
  *
  * The serial packages of HDF5 are not safe for threads.  With them, a program writes or reads HDF5 from one
  * thread at a time. */

@@ -264,8 +264,7 @@ struct filtered {
     double **in, **out;         /* of each column the block before and the one that is filled; what comes of it */
     double (*sum)[2];           /* of each column, for integrals */
     uint64_t blocks;            /* so far */
-    size_t filled, given;       /* rows of this block, and of its results; filled < block: it is not done yet */
-    int ended, done;            /* done: this block's results are there */
+    int ended;                  /* have all rows been read? */
 };
 
 /* The first result of a block that is known: the first n - 1 rows have not filled the filter. */
@@ -326,27 +325,27 @@ static ss_status
 next_block(struct filtered *f, ss_error *err)
 {
     double **to = f->in + f->columns;           /* room for the places of the next rows */
-    while (f->filled < f->block && !f->ended) {
-        size_t n;
+    size_t filled = 0;
+    for (size_t n; filled < f->block && !f->ended; filled += n) {
         for (size_t c = 0; c < f->columns; c++)
-            to[c] = f->in[c] + f->block + f->filled;
-        ss_status st = ss_source_rows(f->base.inner, to, f->block - f->filled, &n, err);
+            to[c] = f->in[c] + f->block + filled;
+        ss_status st = ss_source_rows(f->base.inner, to, f->block - filled, &n, err);
         if (st != SS_OK)
             return st;
         f->ended = n == 0;
-        f->filled += n;
     }
+    f->base.held = filled;
+    f->base.given = first_known(f, f->blocks);
     for (size_t c = 0; c < f->columns; c++) {
-        memset(f->in[c] + f->block + f->filled, 0, (f->block - f->filled) * sizeof *f->in[c]);
+        memset(f->in[c] + f->block + filled, 0, (f->block - filled) * sizeof *f->in[c]);
         run_column(f, c);
         if (f->sums > 0)
             sum_up(f, c);
-        for (size_t i = first_known(f, f->blocks); i < f->filled; i++)
+        for (size_t i = f->base.given; i < filled; i++)
             if (!isfinite(f->out[c][i]))
                 return ss_fail(err, SS_ERANGE, "%s: a filtered value exceeds what a double holds", f->base.name);
     }
-    f->given = first_known(f, f->blocks++);
-    uint64_t rows = (f->blocks - 1) * f->block + f->filled;
+    uint64_t rows = f->blocks++ * f->block + filled;
     if (rows >= f->n || !f->ended)
         return SS_OK;
     return ss_fail(err, SS_EDATA, "%s: the filter needs %zu rows, %.4g s, and there are %llu", f->base.name, f->n,
@@ -354,31 +353,22 @@ next_block(struct filtered *f, ss_error *err)
 }
 
 static ss_status
-give_filtered(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
+make_filtered(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct filtered *f = (struct filtered *)s;
-    while (f->given >= f->filled && !(f->ended && f->done)) {
-        f->filled = f->given = 0;
-        ss_status st = next_block(f, err);
-        if (st != SS_OK)
-            return st;
-        f->done = f->ended;
-    }
-    size_t left = f->given < f->filled ? f->filled - f->given : 0;
-    *n = left < max ? left : max;
-    for (size_t c = 0; c < f->columns; c++)
-        if (column[c] != NULL)
-            memcpy(column[c], f->out[c] + f->given, *n * sizeof *column[c]);
-    f->given += *n;
-    return SS_OK;
+    ss_status st = SS_OK;
+    (void)column, (void)max, (void)n;
+    while (st == SS_OK && s->given >= s->held && !f->ended)
+        st = next_block(f, err);
+    s->held = s->held < s->given ? s->given : s->held;
+    return st;
 }
 
 static void
 start(struct filtered *f)
 {
     f->blocks = 0;
-    f->filled = f->given = 0;
-    f->ended = f->done = 0;
+    f->ended = 0;
     for (size_t c = 0; c < f->columns; c++)
         memset(f->in[c], 0, f->block * sizeof *f->in[c]);
 }
@@ -388,13 +378,6 @@ rewind_filtered(ss_source *s, ss_error *err)
 {
     start((struct filtered *)s);
     return ss_source_rewind(s->inner, err);
-}
-
-static int
-filtered_waits(const ss_source *s)
-{
-    const struct filtered *f = (const struct filtered *)s;
-    return f->given >= f->filled && !f->ended && ss_source_waits(s->inner);
 }
 
 static void
@@ -440,15 +423,17 @@ prepare(struct filtered *f, const struct design *d)
         ss_real_fft_run(&f->forth);
         memcpy(f->tap + p * f->terms, f->forth.x, f->terms * sizeof *f->tap);
     }
-    if (st == SS_OK)
-        start(f);
+    f->base.made = *f->out;
+    f->base.apart = block;
+    start(f);
     return st;
 }
 
 ss_status
 ss_source_filter(ss_source **s, const ss_filter_opts *opts, ss_error *err)
 {
-    static const struct source_calls calls = { give_filtered, rewind_filtered, filtered_waits, free_filtered };
+    static const struct source_calls calls = {
+        .next = make_filtered, .rewind = rewind_filtered, .free = free_filtered };
     struct design d;
     ss_filter_opts o;
     ss_status st = ss_options_take(&o, sizeof o, &defaults, opts, err);

@@ -32,8 +32,7 @@ struct resampled {
     double **to;                /* where the values of the next row go; the stamps behind them */
     double *kept_stamp, *kept;  /* one piece, without a gap, of one column */
     double at;                  /* the number of the next sample */
-    double **sample;            /* of each column, those that are there, from the given-th on */
-    size_t samples, given;
+    double **sample;            /* of each column */
 };
 
 /* Samples of one column: sample first + i, at from + (first + i) / rate, goes to x[i]. */
@@ -130,39 +129,26 @@ count_ready(const struct resampled *r)
     return all > r->at ? (size_t)fmin(all - r->at, (double)r->room) : 0;
 }
 
-/* Compute the next samples, r->samples of them; 0: there are no more. */
 static ss_status
-make_samples(struct resampled *r, ss_error *err)
-{
-    ss_status st;
-    r->given = 0;
-    do {
-        st = read_on(r, err);
-        r->samples = st == SS_OK ? count_ready(r) : 0;
-    } while (st == SS_OK && r->samples == 0 && !r->ended);
-    for (size_t c = 0; st == SS_OK && r->samples > 0 && c < r->columns; c++) {
-        const struct target to = { r->first, r->base.head->rate, r->at, r->sample[c], r->samples };
-        st = fill_column(r, &to, r->value[c]);
-        if (st == SS_ENOMEM)
-            ss_fail_memory(err, r->base.name);
-        else if (st == SS_ERANGE)
-            ss_fail(err, st, "%s: a resampled value exceeds what a double holds", r->base.name);
-    }
-    r->at += (double)r->samples;
-    return st;
-}
-
-static ss_status
-give_samples(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
+make_samples(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct resampled *r = (struct resampled *)s;
-    ss_status st = r->given == r->samples ? make_samples(r, err) : SS_OK;
-    size_t left = st == SS_OK ? r->samples - r->given : 0;
-    *n = left < max ? left : max;
-    for (size_t c = 0; c < r->columns; c++)
-        if (column[c] != NULL)
-            memcpy(column[c], r->sample[c] + r->given, *n * sizeof *column[c]);
-    r->given += *n;
+    ss_status st;
+    (void)column, (void)max, (void)n;
+    s->given = 0;
+    do {
+        st = read_on(r, err);
+        s->held = st == SS_OK ? count_ready(r) : 0;
+    } while (st == SS_OK && s->held == 0 && !r->ended);
+    for (size_t c = 0; st == SS_OK && s->held > 0 && c < r->columns; c++) {
+        const struct target to = { r->first, s->head->rate, r->at, r->sample[c], s->held };
+        st = fill_column(r, &to, r->value[c]);
+        if (st == SS_ENOMEM)
+            ss_fail_memory(err, s->name);
+        else if (st == SS_ERANGE)
+            ss_fail(err, st, "%s: a resampled value exceeds what a double holds", s->name);
+    }
+    r->at += (double)s->held;
     return st;
 }
 
@@ -170,7 +156,7 @@ static ss_status
 rewind_samples(ss_source *s, ss_error *err)
 {
     struct resampled *r = (struct resampled *)s;
-    r->n = r->samples = r->given = 0;
+    r->n = 0;
     r->read = 0;
     r->at = 0;
     r->ended = 0;
@@ -191,7 +177,7 @@ ss_status
 ss_source_resample(ss_source **s, double rate, int stamped, double longest, ss_error *err)
 {
     static const struct source_calls calls = {
-        .next = give_samples, .rewind = rewind_samples, .free = free_samples };
+        .next = make_samples, .rewind = rewind_samples, .free = free_samples };
     struct resampled *r = ss_source_wrap(s, sizeof *r, &calls, err);
     if (r == NULL)
         return SS_ENOMEM;
@@ -213,6 +199,8 @@ ss_source_resample(ss_source **s, double rate, int stamped, double longest, ss_e
     r->to = malloc((columns + 1) * sizeof *r->to);
     if (r->stamp == NULL || r->value == NULL || r->sample == NULL || r->to == NULL)
         return ss_fail_memory(err, r->base.name);
+    r->base.made = *r->sample;
+    r->base.apart = r->room;
     r->kept_stamp = r->stamp + r->room;
     r->kept = r->kept_stamp + r->room;
     return SS_OK;

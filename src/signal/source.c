@@ -61,7 +61,16 @@ ss_status
 ss_source_rows(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     *n = 0;
-    return s->calls->next(s, column, max, n, err);
+    ss_status st = s->given == s->held ? s->calls->next(s, column, max, n, err) : SS_OK;
+    size_t left = s->held - s->given;
+    if (st != SS_OK || s->held == 0)
+        return st;
+    *n = left < max ? left : max;
+    for (size_t c = 0; c < s->head->n_columns; c++)
+        if (column[c] != NULL)
+            memcpy(column[c], s->made + c * s->apart + s->given, *n * sizeof *column[c]);
+    s->given += *n;
+    return SS_OK;
 }
 
 ss_status
@@ -69,15 +78,16 @@ ss_source_rewind(ss_source *s, ss_error *err)
 {
     if (!s->rewinds)
         return ss_fail(err, SS_EINVAL, "%s: its rows are not kept to be read again", s->name);
+    s->held = s->given = 0;
     return s->calls->rewind != NULL ? s->calls->rewind(s, err) : ss_source_rewind(s->inner, err);
 }
 
 int
 ss_source_waits(const ss_source *s)
 {
-    while (s->calls->waits == NULL && s->inner != NULL)
+    while (s->given == s->held && s->calls->waits == NULL && s->inner != NULL)
         s = s->inner;
-    return s->calls->waits != NULL && s->calls->waits(s);
+    return s->given == s->held && s->calls->waits != NULL && s->calls->waits(s);
 }
 
 size_t
@@ -147,42 +157,30 @@ ss_source_all(ss_signal **out, ss_source *s, ss_error *err)
 
 /* --- of a signal in memory ----------------------------------------------------------------- */
 
-struct held {
-    ss_source base;
-    const ss_signal *signal;
-    size_t next;
-};
-
+/* All its rows are there from the beginning. */
 static ss_status
-give_held(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
+end_of_held(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
-    struct held *h = (struct held *)s;
-    size_t left = h->signal->n - h->next;
-    (void)err;
-    *n = left < max ? left : max;
-    for (size_t c = 0; c < s->head->n_columns; c++)
-        if (column[c] != NULL)
-            memcpy(column[c], h->signal->values + c * h->signal->n + h->next, *n * sizeof *column[c]);
-    h->next += *n;
+    (void)s, (void)column, (void)max, (void)n, (void)err;
     return SS_OK;
 }
 
 static ss_status
-begin_held_again(ss_source *s, ss_error *err)
+hold_all(ss_source *s, ss_error *err)
 {
     (void)err;
-    ((struct held *)s)->next = 0;
+    s->held = (size_t)s->length;
     return SS_OK;
 }
 
 ss_source *
 ss_source_of_signal(const ss_signal *signal, const char *name, ss_error *err)
 {
-    static const struct source_calls calls = { .next = give_held, .rewind = begin_held_again };
-    struct held *h = make(sizeof *h, &calls, name, signal->head, err);
-    if (h == NULL)
+    static const struct source_calls calls = { .next = end_of_held, .rewind = hold_all };
+    ss_source *s = make(sizeof *s, &calls, name, signal->head, err);
+    if (s == NULL)
         return NULL;
-    h->base.length = signal->n;
-    h->signal = signal;
-    return &h->base;
+    s->made = signal->values;
+    s->length = s->apart = s->held = signal->n;
+    return s;
 }

@@ -12,7 +12,8 @@
 typedef struct source ss_source;
 
 struct source_calls {
-    /* At most max rows, as ss_reader_rows gives them; *n is 0 before the call. */
+    /* At most max rows, as ss_reader_rows gives them; *n is 0 before the call.  Or make rows that are given from
+     * here on: set held, and given to the first of them. */
     ss_status (*next)(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err);
     /* Back to the first row; NULL: as the inner source goes back, or, if there is none, it cannot. */
     ss_status (*rewind)(ss_source *s, ss_error *err);
@@ -30,6 +31,8 @@ struct source {
     int stamped;                /* 1: the last column holds the times of the rows, at any spacing */
     unsigned long line;         /* of text, where the last row stood; 0: rows have no lines */
     ss_source *inner;              /* the one whose rows these are made of, or NULL */
+    const double *made;         /* rows that were made: the value of row i in column c is made[c * apart + i] */
+    size_t apart, held, given;  /* held: rows there; given: of these, the next to be given */
 };
 
 /* A source of this size, all zeros behind its first member, with an empty header.  NULL: no memory. */

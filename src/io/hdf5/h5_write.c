@@ -3,13 +3,11 @@
  *
  * Every dataset has units and long_name and is attached to its dimension scales.
  * The same input gives the same bytes: creation times are not tracked, file types are little-endian, links are
- * kept in the order of writing.  A file is whole or absent.  If HDF5 cannot seek in the output, it writes a file
- * without a name, which is then copied. */
+ * kept in the order of writing.  A file is whole or absent. */
 #include "io/hdf5/h5_write.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -192,52 +190,18 @@ create_file(const char *path, hid_t access)
     return id;
 }
 
-/* Open the file at the path.  HDF5 cannot go back and forth in a device or a FIFO: there it gets a file
- * without a name, which is copied at the end. */
-static ss_status
-open_disk(h5_output *out)
-{
-    struct stat st;
-    out->spooled = stat(out->path, &st) == 0 && !S_ISREG(st.st_mode);
-    FILE *spool = out->spooled ? tmpfile() : NULL;
-    out->file.disk.fd = spool != NULL ? dup(fileno(spool))
-        : out->spooled ? -1 : open(out->path, O_RDWR | O_CREAT | O_TRUNC, 0666);
-    int why = errno;
-    if (spool != NULL)
-        fclose(spool);
-    return out->file.disk.fd >= 0 ? SS_OK : ss_fail_errno(&out->error, out->path, why);
-}
-
 ss_status
 ss_h5_output_open(h5_output *out)
 {
-    ss_status st = open_disk(out);
-    if (st != SS_OK)
-        return st;
+    out->file.disk.fd = open(out->path, O_RDWR | O_CREAT | O_TRUNC, 0666);
+    if (out->file.disk.fd < 0)
+        return ss_fail_errno(&out->error, out->path, errno);
     hid_t access = ss_h5_disk_access(&out->file.disk, &out->file.driver);
     if (access < 0)
         return SS_ENOMEM;
     out->file.id = create_file(out->path, access);
     H5Pclose(access);
     return out->file.id >= 0 ? SS_OK : SS_ENOMEM;
-}
-
-static int
-copy_out(const h5_output *out)
-{
-    char piece[BUFSIZ];
-    FILE *copy = fopen(out->path, "wb");
-    off_t at = 0;
-    ssize_t n = 1;
-    if (copy == NULL)
-        return errno;
-    while (n > 0 && (n = pread(out->file.disk.fd, piece, sizeof piece, at)) > 0) {
-        at += n;
-        if (fwrite(piece, 1, (size_t)n, copy) != (size_t)n)
-            n = -1;
-    }
-    int why = n < 0 ? errno : 0;
-    return fclose(copy) != 0 && why == 0 ? errno : why;
 }
 
 ss_status
@@ -253,14 +217,12 @@ ss_h5_output_close(h5_output *out, ss_status st)
     out->file.driver = 0;
     if (out->file.disk.fd < 0)
         return st;
-    if (st == SS_OK && out->file.disk.error == 0 && out->spooled)
-        out->file.disk.error = copy_out(out);
     if (close(out->file.disk.fd) != 0 && out->file.disk.error == 0)
         out->file.disk.error = errno;
     out->file.disk.fd = -1;
     if (out->file.disk.error != 0)
         st = ss_fail_errno(&out->error, out->path, out->file.disk.error);
-    if (st != SS_OK && !out->spooled && stat(out->path, &is) == 0 && S_ISREG(is.st_mode))
+    if (st != SS_OK && stat(out->path, &is) == 0 && S_ISREG(is.st_mode))
         unlink(out->path);
     return st;
 }

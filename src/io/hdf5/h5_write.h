@@ -43,7 +43,6 @@ int ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t t
 typedef struct h5_output {
     char *path;                 /* to be freed after the end */
     h5_file file;               /* fails into error */
-    int spooled;                /* path is not a regular file: it gets a copy at the end */
     ss_error error;
 } h5_output;
 

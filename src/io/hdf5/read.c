@@ -37,7 +37,6 @@ typedef struct rows {
     size_t n, row;              /* n: rows; row: of these, the next to be read */
     size_t piece;               /* rows that are read at a time */
     double **value;             /* a piece of each column */
-    size_t n_rows, next;        /* the rows in it; of these, the one to be given next */
     double *raw;                /* a piece of a dataset of several columns, or of the times */
 } rows;
 
@@ -422,39 +421,30 @@ read_piece(rows *s, size_t n)
     if (status != SS_OK)
         return status;
     s->row += n;
-    s->n_rows = n;
-    s->next = 0;
+    s->base.held = n;
+    s->base.given = 0;
     return SS_OK;
 }
 
 static ss_status
-give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
+make_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     rows *s = (rows *)base;
     size_t left = s->n - s->row;
     ss_status status = SS_OK;
+    (void)column, (void)max, (void)n;
     s->file.err = err;
-    if (s->next == s->n_rows)
-        QUIETLY(
-            status = read_piece(s, left < s->piece ? left : s->piece);
-        );
-    if (status != SS_OK)
-        return status;
-    left = s->n_rows - s->next;
-    *n = left < max ? left : max;
-    for (size_t c = 0; c < base->head->n_columns; c++)
-        if (column[c] != NULL)
-            memcpy(column[c], s->value[c] + s->next, *n * sizeof *column[c]);
-    s->next += *n;
-    return SS_OK;
+    QUIETLY(
+        status = read_piece(s, left < s->piece ? left : s->piece);
+    );
+    return status;
 }
 
 static ss_status
 rewind_rows(ss_source *base, ss_error *err)
 {
-    rows *s = (rows *)base;
     (void)err;
-    s->row = s->next = s->n_rows = 0;
+    ((rows *)base)->row = 0;
     return SS_OK;
 }
 
@@ -485,13 +475,17 @@ find(rows *s, const char *dataset, const ss_read_opts *opts)
     s->piece = piece_rows(s);
     s->value = ss_columns_new(s->base.head->n_columns, s->piece);
     s->raw = malloc((s->piece * columns_of(s) + 1) * sizeof *s->raw);       /* times: one column */
-    return s->value != NULL && s->raw != NULL ? SS_OK : SS_ENOMEM;
+    if (s->value == NULL || s->raw == NULL)
+        return SS_ENOMEM;
+    s->base.made = *s->value;
+    s->base.apart = s->piece;
+    return SS_OK;
 }
 
 ss_status
 ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts, ss_error *err)
 {
-    static const struct source_calls calls = { .next = give_rows, .rewind = rewind_rows, .free = free_rows };
+    static const struct source_calls calls = { .next = make_rows, .rewind = rewind_rows, .free = free_rows };
     dataset = dataset != NULL ? dataset : "";
     char *name = malloc(strlen(path) + strlen(dataset) + 2);
     if (name == NULL)
