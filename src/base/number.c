@@ -228,10 +228,10 @@ scan_long(struct decimal *d, const char *p, int behind_point)
 
 /* Read digits with or without a point.  Returns their end, or NULL if there is no digit. */
 static const char *
-scan_digits(struct decimal *d, const char *start, char mark)
+scan_digits(struct decimal *d, const char *start)
 {
     enum { MOST = 19 };
-    const char *p = scan_short(&d->w, start), *point = *p == mark ? p : NULL;
+    const char *p = scan_short(&d->w, start), *point = *p == '.' ? p : NULL;
     if (point != NULL)
         p = scan_short(&d->w, point + 1);
     size_t digits = (size_t)(p - start) - (point != NULL);
@@ -247,9 +247,9 @@ scan_digits(struct decimal *d, const char *start, char mark)
 
 /* Read the unsigned number at p.  Returns its end, or NULL if there is none. */
 static const char *
-scan(struct decimal *d, const char *p, char point)
+scan(struct decimal *d, const char *p)
 {
-    p = scan_digits(d, p, point);
+    p = scan_digits(d, p);
     if (p == NULL || (*p != 'e' && *p != 'E'))
         return p;
     const char *q = p + 1;
@@ -369,20 +369,21 @@ strtod_in_c(const char *text)
 }
 
 double
-ss_number_parse_point(const char *text, char point, char **end)
+ss_number_parse(const char *text, char **end)
 {
     static const double pow10[] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
         1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     struct decimal d = { 0, 0, 0 };
-    const char *p = text;
+    const char *p = text != NULL ? text : "";
     double x = 0;
 
     while (*p == ' ' || (*p >= '\t' && *p <= '\r'))
         p++;
     const char *start = p;
     int negative = *p == '-';
-    p = scan(&d, p + (*p == '-' || *p == '+'), point);
-    *end = (char *)(p != NULL ? p : text);
+    p = scan(&d, p + (*p == '-' || *p == '+'));
+    if (end != NULL)
+        *end = (char *)(p != NULL ? p : text);
     if (p == NULL)
         return 0;
     while (d.w >> 53 && d.w % 10 == 0) {        /* 1.000000000000000000e+00, as NumPy writes it */
@@ -395,18 +396,6 @@ ss_number_parse_point(const char *text, char point, char **end)
     else if (exact && d.e < 0 && d.e >= -22)
         x = (double)d.w / pow10[-d.e];
     else if (d.w != 0 && !multiply(d, &x))
-        return point == '.' ? strtod_in_c(start) : NAN;
+        return strtod_in_c(start);
     return negative ? -x : x;
-}
-
-double
-ss_number_parse(const char *text, char **end)
-{
-    char *ignored;
-    if (text == NULL) {
-        if (end != NULL)
-            *end = NULL;
-        return 0;
-    }
-    return ss_number_parse_point(text, '.', end != NULL ? end : &ignored);
 }

@@ -14,7 +14,4 @@ int ss_print_to(char *text, size_t size, const char *format, ...);
 SS_PRINTF(3, 0)
 int ss_print_text(char *text, size_t size, const char *format, va_list args);
 
-/* As ss_number_parse, with this decimal point; NaN for the few numbers that then need strtod. */
-double ss_number_parse_point(const char *text, char point, char **end);
-
 #endif

@@ -51,8 +51,10 @@ ss_status
 ss_kept_check(const struct kept *k, ss_error *err)
 {
     char name[300];
+    if (k->error == 0)
+        return SS_OK;
     snprintf(name, sizeof name, "%.200s: a temporary file for its rows", k->name);
-    return k->error == 0 ? SS_OK : ss_fail_errno(err, name, k->error);
+    return ss_fail_errno(err, name, k->error);
 }
 
 /* Write the block to the file, and empty it. */

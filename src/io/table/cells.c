@@ -50,8 +50,8 @@ ss_text_split(struct text *x, const char *line, char separator)
         x->cell = cell;
         p += separator == '\t' ? strspn(p, " ") : strspn(p, " \t");
         char *begin = p, *rest = *p == '"' ? unquote(p) : p;
-        char *end = rest + (separator == ' ' ? strcspn(rest, " \t") : separator == '\0' ? strlen(rest)
-                            : strcspn(rest, (char[]){ separator, '\0' }));
+        char *end = separator == ' ' ? rest + strcspn(rest, " \t") : strchr(rest, separator);
+        end = end != NULL ? end : rest + strlen(rest);
         more = *end != '\0';
         *end = '\0';
         if (rest > begin)                       /* what stands behind quotes belongs to the cell */

@@ -264,45 +264,22 @@ read_cell(struct text *x, size_t i, double *value, ss_error *err)
                    ss_cell_is_grouped(cell) ? ": it has separators of thousands; remove them" : "");
 }
 
-/* Read a row of plain numbers only, as most are.  Returns 0 if the row must be read cell by cell. */
-static int
-read_plain(const struct text *x, const char *p, double *row)
-{
-    const char point = x->separator == ',' || x->mark == '\0' ? '.' : x->mark;
-    char *end;
-    if (x->separator != ',' && x->mark == '\0' && strpbrk(p, ".,") != NULL)
-        return 0;
-    for (size_t i = 0; i < x->t.n_columns; i++, p = end + 1) {
-        while (*p == ' ')
-            p++;
-        const char *digit = p + (*p == '-');
-        if (x->t.column[i].kind != COLUMN_NUMBERS || *digit < '0' || *digit > '9')
-            return 0;
-        row[i] = ss_number_parse_point(p, point, &end);
-        if (*end != (i + 1 < x->t.n_columns ? x->separator : '\0') || !ss_is_value(row[i]))
-            return 0;
-    }
-    return 1;
-}
-
 static ss_status
 append_row(struct text *x, const char *line, ss_error *err)
 {
     size_t columns = x->t.n_columns;
     x->first = x->t.rows.n == 0 ? x->in->line : x->first;
     x->row[columns] = (double)x->in->line;
-    if (!read_plain(x, line, x->row)) {
-        size_t n = ss_text_split(x, line, x->separator);
-        if (n == NONE)
-            return SS_ENOMEM;
-        if (n != columns && !(n == columns + 1 && (x->comments || x->labview)))
-            return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", x->t.name, x->in->line, columns,
-                           PLURAL(columns), n);
-        for (size_t i = 0; i < columns; i++) {
-            ss_status st = read_cell(x, i, &x->row[i], err);
-            if (st != SS_OK)
-                return st;
-        }
+    size_t n = ss_text_split(x, line, x->separator);
+    if (n == NONE)
+        return SS_ENOMEM;
+    if (n != columns && !(n == columns + 1 && (x->comments || x->labview)))
+        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", x->t.name, x->in->line, columns,
+                       PLURAL(columns), n);
+    for (size_t i = 0; i < columns; i++) {
+        ss_status st = read_cell(x, i, &x->row[i], err);
+        if (st != SS_OK)
+            return st;
     }
     return ss_kept_add(&x->t.rows, x->row, err);
 }
