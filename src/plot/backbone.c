@@ -88,9 +88,10 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
     fputs("colour = '" BLUE "'; law = '" VERMILION "'\n", out);
     ss_script_write_frame(out, 0.175, 0.965);
     for (int i = 0; i < PANELS; i += is_level ? 2 : 1) {        /* of a level the frequency is not measured */
-        script_extent e = i > 0 ? extent_of(b, i == 2) : SCRIPT_NO_EXTENT;
-        script_scale scale = i > 0 ? ss_script_scale(e) : ss_script_power(0);
-        ss_script_write_panel(&stack, heights[i], gaps[i], &names[i], scale, ROOM);
+        script_axis y = { &names[i], SCRIPT_NO_EXTENT, ss_script_power(0) };
+        if (i > 0)
+            y = ss_script_axis(&names[i], extent_of(b, i == 2));
+        ss_script_write_panel(&stack, heights[i], gaps[i], &y, ROOM, i > 0 ? 5 : 0);
         if (i == 0) {
             ss_script_write_x_label(out, &(ss_column){ "time", "s" }, ss_script_power(0));
             ss_print(out, "set xrange [%.9g:%.9g]\n", signal->head->start,
@@ -107,11 +108,10 @@ ss_plot_backbone(FILE *out, const ss_backbone *b, const ss_signal *signal, size_
         ss_print(out, "set logscale x; set xtics format '%s'\nset xrange [%.6g:%.6g]\n",
                  i + 1 < PANELS ? "" : "%g", b->row[b->n - 1].amplitude / 1.1, b->row[0].amplitude * 1.1);
         ss_script_write_decades(out, "x", i + 1 < PANELS ? 1 : b->row[b->n - 1].amplitude, b->row[0].amplitude);
-        ss_script_write_tics(out, "ytics", ss_script_scaled_extent(e, scale), 5);
-        script_extent drawn = ss_script_scaled_extent(e, scale);
-        double rim = e.hi > e.lo ? MARGIN * (drawn.hi - drawn.lo) : 1;
+        script_extent drawn = ss_script_scaled_extent(y.extent, y.scale);
+        double rim = drawn.hi > drawn.lo ? MARGIN * (drawn.hi - drawn.lo) : 1;
         ss_print(out, "set yrange [%.9g:%.9g]\n", drawn.lo - rim, drawn.hi + rim);
-        ss_print(out, "unit = %.9g; offset = %.17g\n", scale.unit, scale.offset);
+        ss_print(out, "unit = %.9g; offset = %.17g\n", y.scale.unit, y.scale.offset);
         ss_print(out, "plot $rows using 4:(($%d - offset)/unit):($%d/unit) with yerrorbars pt 7 ps 0.3*mark "
                  "lw 0.8 lc rgb colour, $rows using 4:(($%d - offset)/unit) with lines lw 1.2 dt 2 lc rgb law\n",
                  3 + 2 * i, 4 + 2 * i, 8 + i);

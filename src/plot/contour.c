@@ -214,10 +214,10 @@ static void
 write_signal(FILE *out, const trace *t)
 {
     ss_trace_write(out, "$signal", t);
-    ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t->extent, t->scale), 5);
+    ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t->y.extent, t->y.scale), 5);
     fputs("set tmargin at screen 0.925; set bmargin at screen 0.72\n"
           "set label 1 '(a)' at screen 0.01, screen 0.96\nset xtics format ''; ", out);
-    ss_script_write_side_label(out, 2, t->column, t->scale, ROOM);
+    ss_script_write_side_label(out, 2, t->y.column, t->y.scale, ROOM);
     fputs(panel_a, out);
 }
 
@@ -407,7 +407,7 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
         return SS_FAIL_NULL(err);
     picture p;
     script_span of_signal;
-    trace t = { .column = NULL };
+    trace t = { .from = 0 };
     ss_reader *reader = NULL;
     ss_status st = prepare(&p, c, contour, opts, err);
     const ss_signal *signal = st == SS_OK ? p.contour.signal : NULL;

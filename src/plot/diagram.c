@@ -47,20 +47,19 @@ write_panel(script_stack *stack, const map_column *column, script_scale of_x, si
 {
     FILE *out = stack->out;
     const double *x = column[0].value, *y = column[i].value;
-    script_extent e = ss_script_extent(y, n);
-    script_scale of_y = ss_script_scale(e);
     map_label label;
+    const script_axis axis = ss_script_axis(ss_map_label(&label, column[i].label), ss_script_extent(y, n));
+    const script_extent e = axis.extent;
     int line = 1, whole = 1;
     for (size_t k = 0; k < n; k++) {            /* rows of one value of the key stand together */
         line &= k == 0 || x[k] != x[k - 1] || y[k] == y[k - 1] || (isnan(y[k]) && isnan(y[k - 1]));
         whole &= isnan(y[k]) || y[k] == floor(y[k]);
     }
     ss_print(out, "$panel%zu << EOD\n", i);
-    write_points(out, x, of_x, y, of_y, n, e);
+    write_points(out, x, of_x, y, axis.scale, n, e);
     fputs("EOD\n", out);
     double height = i == 1 ? FIRST : NEXT, room = ROOM / NEXT * height;
-    ss_script_write_panel(stack, height, GAP, ss_map_label(&label, column[i].label), of_y, room);
-    ss_script_write_tics(out, "ytics", ss_script_scaled_extent(e, of_y), i == 1 ? 6 : 4);
+    ss_script_write_panel(stack, height, GAP, &axis, room, i == 1 ? 6 : 4);
     if (line && whole)
         ss_print(out, "plot $panel%zu using 1:2 with histeps lw 0.7 lc rgb colour, "
                 "$panel%zu using 1:2 with points pt 7 ps 4*size lc rgb colour\n", i, i);

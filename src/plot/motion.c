@@ -14,26 +14,12 @@
 #define ROOM 9.0                /* for the label of a panel of LEFT [ems] */
 enum { POINTS = 8000 };         /* of a line */
 
-/* A column, what is drawn of it, and its scale. */
-typedef struct axis {
-    ss_column column;
-    script_extent extent;
-    script_scale scale;
-} axis;
-
-static axis
-axis_of(const ss_column *column, script_extent extent)
-{
-    return (axis){ *column, extent, ss_script_scale(extent) };
-}
-
 static void
-write_panel(script_stack *stack, double height, const axis *x, const axis *y, int intervals)
+write_panel(script_stack *stack, double height, const script_axis *x, const script_axis *y, int intervals)
 {
-    ss_script_write_panel(stack, height, AXIS, &y->column, y->scale, ROOM / LEFT * height);
-    ss_script_write_x_label(stack->out, &x->column, x->scale);
+    ss_script_write_panel(stack, height, AXIS, y, ROOM / LEFT * height, intervals);
+    ss_script_write_x_label(stack->out, x->column, x->scale);
     ss_script_write_tics(stack->out, "xtics", ss_script_scaled_extent(x->extent, x->scale), 6);
-    ss_script_write_tics(stack->out, "ytics", ss_script_scaled_extent(y->extent, y->scale), intervals);
 }
 
 ss_status
@@ -67,10 +53,10 @@ ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, 
         return st;
     for (size_t i = 0; i < signal->n; i++)
         ss_script_include(&of_left, f[i] - r->predicted[i]);
-    const axis place = axis_of(of_x, ss_script_extent(x, signal->n));
-    const axis forces = axis_of(of_f, ss_script_extent(f, signal->n));
-    const axis time = axis_of(&t, ss_script_extent(r->time, signal->n)), left = axis_of(&rest, of_left);
-    const axis share = axis_of(&explained, (script_extent){ 0, 1 }), law = axis_of(&none, (script_extent){ 0, 1 });
+    const script_axis place = ss_script_axis(of_x, ss_script_extent(x, signal->n));
+    const script_axis forces = ss_script_axis(of_f, ss_script_extent(f, signal->n));
+    const script_axis time = ss_script_axis(&t, ss_script_extent(r->time, signal->n)), left = ss_script_axis(&rest, of_left);
+    const script_axis share = ss_script_axis(&explained, (script_extent){ 0, 1 }), law = ss_script_axis(&none, (script_extent){ 0, 1 });
     stack.top -= SCRIPT_LEGEND;
     fputs("$loop << EOD\n", out);
     for (size_t i = 0, stride = 1 + signal->n / POINTS; i < signal->n; i += stride)

@@ -191,13 +191,20 @@ ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_opts *opts, 
     return ss_script_begin(out, opts, head, stack->height, NULL, err);
 }
 
+script_axis
+ss_script_axis(const ss_column *column, script_extent extent)
+{
+    return (script_axis){ column, extent, ss_script_scale(extent) };
+}
+
 void
-ss_script_write_panel(script_stack *s, double height, double gap, const ss_column *label,
-                      script_scale scale, double room)
+ss_script_write_panel(script_stack *s, double height, double gap, const script_axis *y, double room, int intervals)
 {
     fputs(s->n++ == 0 ? "set multiplot\n" : "unset title; unset label 1\n", s->out);
     ss_print(s->out, "set tmargin at screen %.5f; set bmargin at screen %.5f\n", s->top / s->height,
              (s->top - height) / s->height);
-    ss_script_write_side_label(s->out, 1, label, scale, room);
+    ss_script_write_side_label(s->out, 1, y->column, y->scale, room);
+    if (intervals > 0)
+        ss_script_write_tics(s->out, "ytics", ss_script_scaled_extent(y->extent, y->scale), intervals);
     s->top -= height + gap;
 }

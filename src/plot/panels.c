@@ -38,10 +38,10 @@ write_data(drawing *d)
     for (size_t k = 0; k < d->opts->n_over; k++)
         for (size_t m = 0; m < d->layer[k].n; m++) {
             trace *over = &d->over[k][m], *t = &d->t[d->layer[k].panel[m]];
-            over->scale = t->scale;
+            over->y.scale = t->y.scale;
             ss_layer_name(name, k, d->layer[k].panel[m], 1);
             ss_trace_write(d->out, name, over);
-            ss_script_widen(&t->extent, over->extent);
+            ss_script_widen(&t->y.extent, over->y.extent);
         }
 }
 
@@ -50,20 +50,19 @@ static ss_status
 write_differences(drawing *d, ss_error *err)
 {
     trace *all = &d->of_left;
-    d->difference = (ss_column){ (char *)"difference", d->t[0].column->unit };
-    *all = (trace){ .column = &d->difference };
-    all->extent = SCRIPT_NO_EXTENT;
+    d->difference = (ss_column){ (char *)"difference", d->t[0].y.column->unit };
+    *all = (trace){ .y = { &d->difference, SCRIPT_NO_EXTENT, ss_script_power(0) } };
     for (size_t k = 0; k < d->opts->n_over; k++)
-        if (d->left[k].column != NULL)
-            ss_script_widen(&all->extent, d->left[k].extent);
-    if (!(all->extent.lo <= all->extent.hi))
+        if (d->left[k].y.column != NULL)
+            ss_script_widen(&all->y.extent, d->left[k].y.extent);
+    if (!(all->y.extent.lo <= all->y.extent.hi))
         return ss_fail(err, SS_EINVAL, "no difference can be drawn: no other column lies over the first panel");
-    all->scale = ss_script_scale(all->extent);
+    all->y.scale = ss_script_scale(all->y.extent);
     for (size_t k = 0; k < d->opts->n_over; k++) {
         char block[24];
-        d->left[k].scale = all->scale;
+        d->left[k].y.scale = all->y.scale;
         snprintf(block, sizeof block, "$difference%s", ss_script_number[k]);
-        if (d->left[k].column != NULL)
+        if (d->left[k].y.column != NULL)
             ss_trace_write(d->out, block, &d->left[k]);
     }
     return SS_OK;
@@ -74,7 +73,7 @@ plot_differences(const drawing *d)
 {
     const char *before = "plot ";
     for (size_t k = 0; k < d->opts->n_over; k++)
-        if (d->left[k].column != NULL) {
+        if (d->left[k].y.column != NULL) {
             ss_print(d->out, "%s$difference%s using 1:2 with lines lw 1 lc rgb over%s", before, ss_script_number[k],
                      ss_script_number[k]);
             before = ", ";
@@ -87,7 +86,7 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
 {
     FILE *out = d->out;
     const ss_plot_opts *opts = d->opts;
-    const ss_column *first[SS_PLOT_OVER + 1] = { d->t[0].column };
+    const ss_column *first[SS_PLOT_OVER + 1] = { d->t[0].y.column };
     size_t panels = d->n + (opts->difference != 0);
     script_stack stack;
     ss_status st = ss_script_begin_stack(&stack, out, opts, head, TIME + PANEL * (double)panels, err);
@@ -104,7 +103,7 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     fputs("set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
           "set xtics tics; set xtics format ''\n", out);
     for (size_t k = 0; k < opts->n_over; k++)
-        first[k + 1] = d->over[k][0].column;
+        first[k + 1] = d->over[k][0].y.column;
     if (opts->n_over > 0)
         ss_script_write_legend(out, opts, first);
     for (size_t i = 0; i < panels; i++) {
@@ -114,8 +113,7 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
         double gap = i + 1 < panels ? 0.1 * PANEL : 0;
         if (i + 1 == panels)
             ss_script_write_time_labels(out, d->span);
-        ss_script_write_panel(&stack, PANEL - gap, gap, t->column, t->scale, ROOM);
-        ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t->extent, t->scale), 5);
+        ss_script_write_panel(&stack, PANEL - gap, gap, &t->y, ROOM, 5);
         if (is_left)
             plot_differences(d);
         else                            /* a line of one sample would be invisible */
@@ -180,7 +178,7 @@ read_difference(trace *t, ss_reader *reader, size_t x, ss_reader *over, size_t y
         if (st == SS_OK)
             ss_extremes_add(&t->block, s.value, n);
     }
-    t->column = &s.head->column[x];
+    t->y.column = &s.head->column[x];
     if (st == SS_OK)
         st = ss_script_find_span(&span, s.start, s.head->rate, s.rows, opts, err);
     if (st == SS_OK)

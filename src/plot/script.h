@@ -19,6 +19,11 @@ typedef struct script_scale {
     int exponent;
 } script_scale;
 
+/* The least and the largest value; lo > hi: there is none. */
+typedef struct script_extent {
+    double lo, hi;
+} script_extent;
+
 /* --- page.c: top, panels and end ------------------------------------------------------------ */
 
 /* Begin a picture of this height [cm], a title included: that of opts, or else scene or model of head, unless it
@@ -58,10 +63,17 @@ typedef struct script_stack {
  * opts->over. */
 ss_status ss_script_begin_stack(script_stack *stack, FILE *out, const ss_plot_opts *opts,
                                 const ss_header *head, double height, ss_error *err);
-/* Let what follows be drawn in a panel of this height, with a gap below it [cm], and a label that has so much
- * room [ems]. */
-void ss_script_write_panel(script_stack *stack, double height, double gap, const ss_column *label,
-                           script_scale scale, double room);
+/* A column along an axis, and what is drawn of it. */
+typedef struct script_axis {
+    const ss_column *column;
+    script_extent extent;
+    script_scale scale;
+} script_axis;
+script_axis ss_script_axis(const ss_column *column, script_extent extent);      /* in the usual scale */
+/* Let what follows be drawn in a panel of this height, with a gap below it [cm], over y, whose label has so much
+ * room [ems], and which has tics at so many intervals at most; 0: at gnuplot's. */
+void ss_script_write_panel(script_stack *stack, double height, double gap, const script_axis *y, double room,
+                           int intervals);
 
 /* --- script.c: numbers, text, scales --------------------------------------------------------- */
 
@@ -75,10 +87,6 @@ void ss_script_quote(FILE *out, const char *text, int in_lines);
 void ss_script_write(FILE *out, double x, int decimals, const char *behind);
 /* Decimals that distinguish a tenth of a pixel column in a picture of this range. */
 int ss_script_decimals(double range);
-/* The least and the largest value; lo > hi: there is none. */
-typedef struct script_extent {
-    double lo, hi;
-} script_extent;
 #define SCRIPT_NO_EXTENT ((script_extent){ INFINITY, -INFINITY })
 static inline void
 ss_script_include(script_extent *e, double x)

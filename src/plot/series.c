@@ -162,13 +162,13 @@ ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t pane
 ss_status
 ss_trace_end(trace *t, const series *s, const script_span *span, ss_error *err)
 {
-    t->extent = SCRIPT_NO_EXTENT;
+    script_extent e = SCRIPT_NO_EXTENT;
     for (size_t i = 0; i < ss_extremes_count(&t->block); i++)
-        ss_script_widen(&t->extent, (script_extent){ t->block.least[i], t->block.most[i] });
+        ss_script_widen(&e, (script_extent){ t->block.least[i], t->block.most[i] });
     t->from = s->start + (double)s->first / s->head->rate;
     t->step = 1 / s->head->rate;
-    t->scale = ss_script_scale(t->extent);
-    return ss_series_check(t->column, t->extent, span, err);
+    t->y = ss_script_axis(t->y.column, e);
+    return ss_series_check(t->y.column, e, span, err);
 }
 
 ss_status
@@ -180,7 +180,7 @@ ss_traces_read(trace t[], script_span *span, ss_reader *reader, const size_t col
     memset(t, 0, n * sizeof *t);
     ss_status st = ss_series_begin(&s, reader, column, n, start, opts, err);
     for (size_t c = 0; st == SS_OK && c < n; c++) {
-        t[c].column = &s.head->column[column[c]];
+        t[c].y.column = &s.head->column[column[c]];
         st = ss_extremes_make(&t[c].block, BLOCKS, 1) ? SS_OK : ss_fail_memory(err, NULL);
     }
     while (st == SS_OK && got > 0) {
@@ -208,7 +208,7 @@ ss_trace_write(FILE *out, const char *name, const trace *t)
 {
     size_t blocks = ss_extremes_count(&t->block), of_block = 1, before = 1;
     double step = ldexp(t->step, t->block.order), pair[2] = { 0, 0 };
-    script_extent e = ss_script_scaled_extent(t->extent, t->scale);
+    script_extent e = ss_script_scaled_extent(t->y.extent, t->y.scale);
     int decimals[2] = { ss_script_decimals(step * (double)blocks), ss_script_decimals(e.hi - e.lo) };
     ss_print(out, "%s << EOD\n", name);
     for (size_t i = 0; i < blocks; i++, before = of_block) {
@@ -217,7 +217,7 @@ ss_trace_write(FILE *out, const char *name, const trace *t)
             putc('\n', out);
         for (size_t k = 0; k < of_block; k++) {
             ss_script_write(out, t->from + step * ((double)i + (double)k / (double)of_block), decimals[0], " ");
-            ss_script_write(out, ss_script_scaled(pair[k], t->scale), decimals[1], "\n");
+            ss_script_write(out, ss_script_scaled(pair[k], t->y.scale), decimals[1], "\n");
         }
     }
     fputs("EOD\n", out);

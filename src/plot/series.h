@@ -53,11 +53,9 @@ enum { BLOCKS = 2048 };         /* of a column; more than a picture has columns 
 
 /* A column that is drawn over time, reduced to the extremes of some blocks for each column of pixels. */
 typedef struct trace {
-    const ss_column *column;
+    script_axis y;              /* its scale is the usual one; a caller may change it */
     extremes block;
     double from, step;          /* [s] the time of the first value, and between two */
-    script_extent extent;
-    script_scale scale;         /* that its extent would have alone; a caller may change it */
 } trace;
 
 /* Read n columns, and find the part that is shown; all t are to be freed even after a failure.  SS_EINVAL:

@@ -163,7 +163,8 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
         }
         const ss_column *of = &head->column[column[i]];
         ss_density_unit(unit, of->unit, opts->decibels);
-        ss_script_write_panel(&stack, PANEL - gap, gap, &(ss_column){ of->name, unit }, ss_script_power(0), ROOM);
+        const script_axis y = { &(ss_column){ of->name, unit }, e, ss_script_power(0) };
+        ss_script_write_panel(&stack, PANEL - gap, gap, &y, ROOM, 0);
         if (e.lo <= e.hi)
             ss_layers_plot(out, layers, opts, i, 0, "", "lines");
         else

@@ -38,26 +38,24 @@ draw_step(script_stack *stack, const ss_step *s, size_t number)
     const ss_column mu = { (char *)"friction", (char *)"" }, left = { (char *)"left", (char *)"" };
     script_extent extent_of_mu, extent_of_left;
     find_extents(s, &extent_of_mu, &extent_of_left);
-    const script_scale scale = ss_script_scale(extent_of_mu), scale_left = ss_script_scale(extent_of_left);
+    const script_axis frictions = ss_script_axis(&mu, extent_of_mu), rest = ss_script_axis(&left, extent_of_left);
     ss_print(out, "$step%zu << EOD\n", number);
     for (size_t i = 0, stride = 1 + s->n / POINTS; i < s->n; i += stride) {
-        ss_print(out, "%.8g %.6g", 1e6 * s->path[i], ss_script_scaled(s->friction[i], scale));
+        ss_print(out, "%.8g %.6g", 1e6 * s->path[i], ss_script_scaled(s->friction[i], frictions.scale));
         for (int k = 0; k < SS_STEP_LAWS; k++)
-            ss_print(out, " %.6g %.6g", ss_script_scaled(s->law[k].model[i], scale),
-                     ss_script_scaled(s->friction[i] - s->law[k].model[i], scale_left));
+            ss_print(out, " %.6g %.6g", ss_script_scaled(s->law[k].model[i], frictions.scale),
+                     ss_script_scaled(s->friction[i] - s->law[k].model[i], rest.scale));
         putc('\n', out);
     }
     fputs("EOD\n", out);
-    ss_script_write_panel(stack, FRICTION, 0.25, &mu, scale, ROOM);
-    ss_script_write_tics(out, "ytics", ss_script_scaled_extent(extent_of_mu, scale), 5);
+    ss_script_write_panel(stack, FRICTION, 0.25, &frictions, ROOM, 5);
     ss_print(out, "set format x ''; unset xlabel\nset key at graph 1, graph 0.99 top right horizontal samplen 1.5 noenhanced\n"
              "plot $step%zu using 1:2 with lines lw 0.6 lc rgb '" SKY_BLUE "' title 'measured'", number);
     for (int k = 0; k < SS_STEP_LAWS; k++)
         ss_print(out, ", '' using 1:%d with lines lw 1.2 lc rgb '%s' title '%s'", 3 + 2 * k, colour[k],
                  ss_step_law_names[k]);
     fputs("\nunset key; unset title\n", out);
-    ss_script_write_panel(stack, LEFT, AXIS, &left, scale_left, LEFT_ROOM);
-    ss_script_write_tics(out, "ytics", ss_script_scaled_extent(extent_of_left, scale_left), 4);
+    ss_script_write_panel(stack, LEFT, AXIS, &rest, LEFT_ROOM, 4);
     ss_script_write_x_label(out, &path, ss_script_power(0));
     ss_print(out, "set format x '%%g'\nplot 0 lc rgb '" ZERO_COLOUR "' lw 0.7");
     for (int k = SS_STEP_LAWS - 1; k >= 0; k--)
