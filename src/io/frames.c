@@ -129,16 +129,10 @@ give_frames(ss_source *s, double *const column[], size_t max, size_t *n, ss_erro
     return *n == 0 && f->bytes_left == 0 && f->end > 0 ? refuse_more(f, err) : SS_OK;
 }
 
-static int
-waits(const ss_source *s)
-{
-    return ss_input_waits(((const struct frames *)s)->in);
-}
-
 struct frames *
 ss_frames_new(struct input *in, ss_error *err)
 {
-    static const struct source_calls calls = { .next = give_frames, .waits = waits };
+    static const struct source_calls calls = { .next = give_frames };
     struct frames *f = ss_source_new(sizeof *f, &calls, in->name, err);
     if (f != NULL)
         f->in = in;

@@ -169,7 +169,8 @@ ss_reader_piece(const ss_reader *reader)
 int
 ss_reader_waits(const ss_reader *reader)
 {
-    return reader != NULL && ss_source_waits(reader->source);
+    return reader != NULL && reader->in.file != NULL && !ss_source_has_rows(reader->source)
+        && ss_input_waits(&reader->in);
 }
 
 ss_status

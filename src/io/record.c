@@ -46,10 +46,8 @@ void
 ss_rows_note_value(struct rows *rows, const char *key, ss_value v, const char *unit, int digits)
 {
     char value[SS_NUMBER_MAX], error[SS_NUMBER_MAX];
-    ss_rows_note(rows, "%s: %s %s%s%s", key,
-                 digits > 0 ? ss_number_rounded(value, v.value, digits) : ss_number_text(value, v.value),
-                 digits > 0 ? ss_number_rounded(error, v.error, digits / 2) : ss_number_text(error, v.error),
-                 unit[0] != '\0' ? " " : "", unit);
+    ss_rows_note(rows, "%s: %s %s%s%s", key, ss_number_rounded(value, v.value, digits),
+                 ss_number_rounded(error, v.error, digits / 2), unit[0] != '\0' ? " " : "", unit);
 }
 
 void
@@ -133,9 +131,7 @@ ss_rows_count(struct rows *rows, const char *name, size_t n)
 void
 ss_rows_number(struct rows *rows, const char *name, const char *unit, double x)
 {
-    char text[SS_NUMBER_MAX];
-    if (!write_name(rows, name, unit))
-        write_cell(rows, name, ss_number_text(text, x), 0);
+    ss_rows_rounded(rows, name, unit, x, 0);
 }
 
 void
@@ -167,19 +163,18 @@ ss_rows_end(struct rows *rows)
 const char *
 ss_number_text(char text[SS_NUMBER_MAX], double x)
 {
-    if (isnan(x))
-        strcpy(text, "-");
-    else
-        ss_number_format(text, x);
-    return text;
+    return ss_number_rounded(text, x, 0);
 }
 
 const char *
 ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits)
 {
     if (isnan(x))
-        return strcpy(text, "-");
-    ss_print_to(text, SS_NUMBER_MAX, "%.*g", digits < 17 ? digits : 17, x);
+        strcpy(text, "-");
+    else if (digits == 0)
+        ss_number_format(text, x);
+    else
+        ss_print_to(text, SS_NUMBER_MAX, "%.*g", digits < 17 ? digits : 17, x);
     return text;
 }
 

@@ -48,7 +48,7 @@ void ss_rows_end(struct rows *rows);
 
 /* A number as a cell or a note shows it: "-" for NaN.  Returns text. */
 const char *ss_number_text(char text[SS_NUMBER_MAX], double x);
-/* The same with this number of digits. */
+/* The same with this number of digits; 0: with all that a reader needs. */
 const char *ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits);
 /* The same with this number of decimals, which may be zeros; nine digits if that is too long. */
 const char *ss_number_fixed(char text[SS_NUMBER_MAX], double x, int decimals);

@@ -97,17 +97,11 @@ give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_err
     return SS_OK;
 }
 
-static int
-waits(const ss_source *s)
-{
-    return ss_input_waits(((const struct text *)s)->in);
-}
-
 /* The header ends before the first line that is no comment. */
 static ss_status
 open_text(ss_source **out, const struct opening *o, ss_error *err)
 {
-    static const struct source_calls calls = { .next = give_rows, .waits = waits };
+    static const struct source_calls calls = { .next = give_rows };
     struct input *in = o->in;
     const char *reason = "";
     char *line;

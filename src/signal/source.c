@@ -83,11 +83,12 @@ ss_source_rewind(ss_source *s, ss_error *err)
 }
 
 int
-ss_source_waits(const ss_source *s)
+ss_source_has_rows(const ss_source *s)
 {
-    while (s->given == s->held && s->calls->waits == NULL && s->inner != NULL)
-        s = s->inner;
-    return s->given == s->held && s->calls->waits != NULL && s->calls->waits(s);
+    for (; s != NULL; s = s->inner)
+        if (s->given < s->held || (s->calls->left != NULL && s->calls->left(s)))
+            return 1;
+    return 0;
 }
 
 size_t

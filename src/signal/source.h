@@ -17,7 +17,7 @@ struct source_calls {
     ss_status (*next)(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err);
     /* Back to the first row; NULL: as the inner source goes back, or, if there is none, it cannot. */
     ss_status (*rewind)(ss_source *s, ss_error *err);
-    int (*waits)(const ss_source *s);      /* as ss_reader_waits; NULL: as the inner source, or never */
+    int (*left)(const ss_source *s);       /* 1: it has rows that it has read and not given; NULL: it keeps none */
     void (*free)(ss_source *s);            /* what the source itself holds; NULL: nothing */
 };
 
@@ -44,7 +44,8 @@ void ss_source_free(ss_source *s);                 /* with the inner ones; NULL 
 ss_status ss_source_rows(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err);
 /* SS_EINVAL: it cannot. */
 ss_status ss_source_rewind(ss_source *s, ss_error *err);
-int ss_source_waits(const ss_source *s);
+/* 1: it, or an inner one, has rows that were read or made, and not given. */
+int ss_source_has_rows(const ss_source *s);
 /* The rows to read at a time, as ss_reader_piece. */
 size_t ss_source_piece(const ss_source *s);
 /* All rows that are left, as a signal. */

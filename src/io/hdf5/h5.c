@@ -263,28 +263,6 @@ ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text)
     return ss_h5_fail(file, SS_EDATA, object, "", "attributes claim more text than the file holds");
 }
 
-ss_status
-ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n)
-{
-    hid_t id = ss_h5_open_dataset(group, name, 1);
-    if (id < 0)
-        return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
-    double bytes;
-    const char *wrong = ss_h5_refuse_values(id, &bytes);
-    hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
-    hssize_t points = H5Sget_simple_extent_npoints(space);
-    ss_status status = SS_OK;
-    if (wrong != NULL)
-        status = ss_h5_fail(file, SS_EDATA, group, name, wrong);
-    else if (points < 0 || (size_t)points != n)
-        status = ss_h5_fail(file, SS_EDATA, group, name, "not of the length that the others have");
-    else if (H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-        status = ss_h5_fail(file, SS_EIO, group, name, "cannot be read");
-    H5Sclose(space);
-    H5Dclose(id);
-    return status;
-}
-
 struct notes {
     h5_file *file;
     ss_header *head;
@@ -359,21 +337,23 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
 }
 
 ss_status
-ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n)
+ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, size_t *n)
 {
-    hid_t id = ss_h5_open_dataset(group, name, 1);
-    if (id < 0)
+    *n = 0;
+    *id = ss_h5_open_dataset(group, name, 1);
+    if (*id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
     double bytes = 0;
-    const char *wrong = ss_h5_refuse_values(id, &bytes);
-    hid_t space = wrong == NULL ? H5Dget_space(id) : -1;
-    *n = space >= 0 ? (size_t)H5Sget_simple_extent_npoints(space) : 0;
-    H5Sclose(space);
+    const char *wrong = ss_h5_refuse_values(*id, &bytes);
     file->claimed += bytes;
-    if (wrong == NULL && file->claimed > file_size(id))
+    if (wrong == NULL && file->claimed > file_size(*id))
         wrong = "with those before, claims more values than a file of this size can hold";
-    H5Dclose(id);
-    return wrong == NULL ? SS_OK : ss_h5_fail(file, SS_EDATA, group, name, wrong);
+    if (wrong != NULL)
+        return ss_h5_fail(file, SS_EDATA, group, name, wrong);
+    hid_t space = H5Dget_space(*id);
+    *n = (size_t)H5Sget_simple_extent_npoints(space);
+    H5Sclose(space);
+    return SS_OK;
 }
 
 int

@@ -74,9 +74,6 @@ int ss_h5_get_number(hid_t object, const char *name, double *value);
 /* The same of text: *text is NULL, or to be freed.  SS_EDATA: the file claims too much of it. */
 ss_status ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text);
 
-/* Read a whole dataset of real numbers, of n values in all, as doubles. */
-ss_status ss_h5_read_values(h5_file *file, hid_t group, const char *name, double *values, size_t n);
-
 /* Read count[i] values along dimension i of a dataset, from at[i] on, as doubles.  Returns 0 if HDF5 fails. */
 int ss_h5_read_piece(hid_t id, int rank, const hsize_t at[], const hsize_t count[], double *values);
 /* The same of n rows, from the row-th on, of a list, or of an array whose rows go along its last dimension if it
@@ -85,8 +82,8 @@ int ss_h5_read_rows(hid_t id, int by_columns, size_t row, size_t n, double *valu
 
 /* SS_EDATA with the place of the first value that is not finite. */
 ss_status ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n);
-/* The number of values of a dataset, which the caller reads next: they are counted as claimed. */
-ss_status ss_h5_read_size(h5_file *file, hid_t group, const char *name, size_t *n);
+/* Open a dataset of n real numbers, which are counted as claimed; it is to be closed even after a failure. */
+ss_status ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, size_t *n);
 
 /* Rate, start and whether the text form has a column of time, from a group into a new header, with the
  * notes of the file. */

@@ -244,10 +244,9 @@ find_array(rows *s, const char *dataset, const ss_read_opts *opts)
 static ss_status
 open_list(h5_file *file, hid_t group, const char *link, hid_t *id, size_t *n)
 {
-    ss_status status = ss_h5_read_size(file, group, link, n);
+    ss_status status = ss_h5_open_values(file, group, link, id, n);
     if (status != SS_OK)
         return status;
-    *id = ss_h5_open_dataset(group, link, 1);
     hid_t space = H5Dget_space(*id);
     int rank = H5Sget_simple_extent_ndims(space);
     H5Sclose(space);

@@ -43,13 +43,13 @@ check_parts(file_source *s, hid_t group, size_t rows, size_t n)
     for (int k = 0; st == SS_OK && k < 2; k++) {
         hsize_t dims[H5S_MAX_RANK] = { 0 };
         size_t claimed;
-        if ((st = ss_h5_read_size(&s->file, group, part_name[k], &claimed)) != SS_OK)
-            break;
-        hid_t id = ss_h5_open_dataset(group, part_name[k], 0), space = H5Dget_space(id);
+        hid_t id;
+        st = ss_h5_open_values(&s->file, group, part_name[k], &id, &claimed);
+        hid_t space = st == SS_OK ? H5Dget_space(id) : -1;
         int rank = H5Sget_simple_extent_dims(space, dims, NULL);
         H5Sclose(space);
         H5Dclose(id);
-        if (rank != 1 + s->dense || dims[rank - 1] != n || (s->dense && dims[0] != rows))
+        if (st == SS_OK && (rank != 1 + s->dense || dims[rank - 1] != n || (s->dense && dims[0] != rows)))
             st = ss_h5_fail(&s->file, SS_EDATA, group, part_name[k], "not the coefficients of the grid that the "
                             "notes give");
     }
@@ -86,6 +86,7 @@ read_grid(file_source *s, ss_coefficients *map)
     ss_morlet_opts opts;
     ss_error why = { 0 };
     double dense, *j = NULL;
+    hid_t of_j = -1;
     size_t n = 0;
     if (H5Lexists(file->id, "wavelet", H5P_DEFAULT) <= 0)
         return ss_fail_wanted(ss_h5_fail(file, SS_EKIND, 0, "", "no /wavelet in it"), SS_KIND_COEFFICIENTS, file->err);
@@ -95,7 +96,7 @@ read_grid(file_source *s, ss_coefficients *map)
     if (st == SS_OK)
         st = ss_h5_need_number(file, s->group, "dense", 0, 1, &dense);
     if (st == SS_OK)
-        st = ss_h5_read_size(file, s->group, "j", &n);
+        st = ss_h5_open_values(file, s->group, "j", &of_j, &n);
     if (st == SS_OK && (st = ss_coefficients_take_notes(map, &opts, &why)) == SS_EDATA)
         return ss_h5_fail(file, st, 0, "", why.text);
     if (st == SS_OK && map->n == 0)
@@ -107,12 +108,14 @@ read_grid(file_source *s, ss_coefficients *map)
     j = malloc((n + 1) * sizeof *j);
     st = map->scale == NULL || j == NULL ? SS_ENOMEM
         : n == 0 ? ss_h5_fail(file, SS_EDATA, s->group, "j", "no scales")
-        : ss_h5_read_values(file, s->group, "j", j, n);
+        : H5Dread(of_j, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, j) >= 0 ? SS_OK
+        : ss_h5_fail(file, SS_EIO, s->group, "j", "cannot be read");
     if (st == SS_OK && s->dense)
         st = check_parts(s, s->group, n, map->n);
     for (size_t i = 0; st == SS_OK && i < n; i++)
         st = add_scale(s, map, j[i], &opts);
     free(j);
+    H5Dclose(of_j);
     for (int k = 0; st == SS_OK && s->dense && k < 2; k++)
         s->part[k] = ss_h5_open_dataset(s->group, part_name[k], 0);
     if (st == SS_OK && (s->row = malloc(s->longest * sizeof *s->row)) == NULL)
@@ -131,10 +134,11 @@ read_scale(file_source *s, size_t i, size_t n, double *w)
     hid_t group = s->dense ? s->group : open_scale(s, name, i);
     ss_status st = SS_OK;
     for (size_t k = 0; st == SS_OK && k < 2; k++) {
-        if (!s->dense)
-            st = ss_h5_read_values(&s->file, group, part_name[k], s->row, n);
-        else if (!ss_h5_read_piece(s->part[k], 2, at, count, s->row))
+        hid_t id = s->dense ? s->part[k] : ss_h5_open_dataset(group, part_name[k], 1);
+        if (!ss_h5_read_piece(id, 1 + s->dense, at + !s->dense, count + !s->dense, s->row))
             st = ss_h5_fail(&s->file, SS_EIO, group, part_name[k], "cannot be read");
+        if (!s->dense)
+            H5Dclose(id);
         if (st == SS_OK)
             st = ss_h5_check_finite(&s->file, group, part_name[k], s->row, n);
         for (size_t c = 0; st == SS_OK && c < n; c++)

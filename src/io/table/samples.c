@@ -110,10 +110,10 @@ rewind_samples(ss_source *base, ss_error *err)
 }
 
 static int
-samples_wait(const ss_source *base)
+rows_left(const ss_source *base)
 {
     const struct samples *s = (const struct samples *)base;
-    return s->next == s->rows->n && s->live->later->waits(s->live);
+    return s->next < s->rows->n;
 }
 
 static void
@@ -150,13 +150,13 @@ choose_columns(struct samples *s, const struct sheet *t, int stamped, ss_error *
     return stamped ? ss_header_add_column(head, "t", "s", err) : SS_OK;
 }
 
-static const struct source_calls samples_calls = { give_samples, rewind_samples, NULL, free_samples };
+static const struct source_calls samples_calls = { give_samples, rewind_samples, rows_left, free_samples };
 
 ss_status
 ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *err)
 {
-    static const struct source_calls live = { give_samples, NULL, samples_wait, free_samples };
-    static const struct source_calls rows = { give_rows, rewind_samples, NULL, free_samples };
+    static const struct source_calls live = { give_samples, NULL, rows_left, free_samples };
+    static const struct source_calls rows = { give_rows, rewind_samples, rows_left, free_samples };
     struct timing timing = { .usual = 0 };
     ss_status st = ss_sheet_find_clock(t, &timing, err);
     if (st != SS_OK)
@@ -185,6 +185,14 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
 }
 
 /* --- rows of another source ----------------------------------------------------------------- */
+
+void
+ss_sheet_free(struct sheet *t)
+{
+    ss_kept_free(&t->rows);
+    ss_header_free(t->names);
+    free(t->column);
+}
 
 /* Keep all rows of a source, each with its number behind it, as a row of a table has; SS_EGAPS: a value is no number,
  * and gaps are refused. */

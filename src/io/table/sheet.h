@@ -32,7 +32,6 @@ struct sheet;
 struct sheet_calls {
     /* Drop the rows, and add those that have arrived, at least one unless there are no more. */
     ss_status (*next)(struct sheet *t, ss_error *err);
-    int (*waits)(const struct sheet *t);
     void (*free)(struct sheet *t);
 };
 
@@ -53,8 +52,6 @@ struct sheet {
     const struct sheet_calls *later;    /* NULL: all rows are there */
 };
 
-/* Begin a table, of which all is zeros.  SS_ENOMEM, without a text. */
-ss_status ss_sheet_begin(struct sheet *t, const char *name, const ss_read_opts *opts);
 void ss_sheet_free(struct sheet *t);
 
 /* Pass a warning to the caller's function, if there is one. */

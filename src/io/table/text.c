@@ -533,12 +533,6 @@ read_tables(struct text *x, ss_error *err)
 
 /* --- rows as they come --------------------------------------------------------------------- */
 
-static int
-text_waits(const struct sheet *t)
-{
-    return ss_input_waits(((const struct text *)t)->in);
-}
-
 /* Drop the rows, and add those that have arrived, at least one unless the text ends. */
 static ss_status
 next_rows(struct sheet *t, ss_error *err)
@@ -614,7 +608,7 @@ free_text(struct sheet *t)
 static ss_status
 open_text(ss_source **out, const struct opening *o, ss_error *err)
 {
-    static const struct sheet_calls as_they_come = { next_rows, text_waits, free_text };
+    static const struct sheet_calls as_they_come = { next_rows, free_text };
     struct input *in = o->in;
     int live = 0, found;
     struct text *x = calloc(1, sizeof *x);
@@ -623,7 +617,9 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
     x->in = in;
     x->layout = LAYOUT_ONE;
     x->opts = *o->opts;
-    ss_status st = ss_sheet_begin(&x->t, in->name, &x->opts);
+    x->t.name = in->name;
+    x->t.opts = &x->opts;
+    ss_status st = ss_header_new(&x->t.names, 0, 0, NULL);
     in->share = 0.5;                            /* of the work; the other half is to give the rows */
     if (st == SS_OK)
         st = ss_input_need(in, 3, err);

@@ -1,10 +1,12 @@
 /* time.c -- find the column of time of a table, and the clock that its numbers, dates or times of day show. */
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <time.h>
 #include "base/error.h"
+#include "base/number.h"
 #include "signal/resample.h"
 #include "io/table/clock.h"
 #include "io/table/sheet.h"
@@ -22,6 +24,19 @@ enum { MOST_SAMPLES = 1000000, MOST_PER_STAMP = 1000 };
 #define LEAST_IN_DAYS .1        /* [Hz] slower records of days are not looked for */
 enum { ROUND = 4 };             /* digits of a rate in days; those of scattered stamps have more */
 #define DOUBTED_RATE 100.       /* [Hz] a slower clock without a unit may count milliseconds */
+
+void
+ss_sheet_warn(const struct sheet *t, ss_status about, const char *format, ...)
+{
+    ss_error text;
+    va_list args;
+    if (t->opts->warn == NULL)
+        return;
+    va_start(args, format);
+    ss_print_text(text.text, sizeof text.text, format, args);
+    va_end(args);
+    t->opts->warn(about, text.text, t->opts->user);
+}
 
 /* --- the stamps of the rows ---------------------------------------------------------------- */
 
