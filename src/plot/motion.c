@@ -53,10 +53,12 @@ ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force, 
         return st;
     for (size_t i = 0; i < signal->n; i++)
         ss_script_include(&of_left, f[i] - r->predicted[i]);
+    const script_extent whole = { 0, 1 };
     const script_axis place = ss_script_axis(of_x, ss_script_extent(x, signal->n));
     const script_axis forces = ss_script_axis(of_f, ss_script_extent(f, signal->n));
-    const script_axis time = ss_script_axis(&t, ss_script_extent(r->time, signal->n)), left = ss_script_axis(&rest, of_left);
-    const script_axis share = ss_script_axis(&explained, (script_extent){ 0, 1 }), law = ss_script_axis(&none, (script_extent){ 0, 1 });
+    const script_axis time = ss_script_axis(&t, ss_script_extent(r->time, signal->n));
+    const script_axis left = ss_script_axis(&rest, of_left);
+    const script_axis share = ss_script_axis(&explained, whole), law = ss_script_axis(&none, whole);
     stack.top -= SCRIPT_LEGEND;
     fputs("$loop << EOD\n", out);
     for (size_t i = 0, stride = 1 + signal->n / POINTS; i < signal->n; i += stride)

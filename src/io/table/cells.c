@@ -4,7 +4,6 @@
 #include <string.h>
 #include <strings.h>
 #include <stickslip/number.h>
-#include "base/list.h"
 #include "io/table/text.h"
 
 char *
@@ -38,16 +37,9 @@ unquote(char *p)
 size_t
 ss_text_split(struct text *x, const char *line, char separator)
 {
-    size_t n = 0, size = strlen(line) + 1;
-    char *p = ss_list_grow(x->copy, &x->copy_room, size, 1);
-    if (p == NULL)
-        return NONE;
-    memcpy(x->copy = p, line, size);
-    for (int more = 1; more; ) {
-        char **cell = ss_list_room(x->cell, &x->cell_room, n, sizeof *cell);
-        if (cell == NULL)
-            return NONE;
-        x->cell = cell;
+    size_t n = 0;
+    int more = 1;
+    for (char *p = strcpy(x->copy, line); more && n < MAX_CELLS; ) {
         p += separator == '\t' ? strspn(p, " ") : strspn(p, " \t");
         char *begin = p, *rest = *p == '"' ? unquote(p) : p;
         char *end = separator == ' ' ? rest + strcspn(rest, " \t") : strchr(rest, separator);
@@ -59,7 +51,7 @@ ss_text_split(struct text *x, const char *line, char separator)
         x->cell[n++] = ss_cell_trim(begin);
         p = end + more;
     }
-    while (n > 1 && n != x->t.n_columns && x->cell[n - 1][0] == '\0')
+    while (!more && n > 1 && n != x->t.n_columns && x->cell[n - 1][0] == '\0')
         n--;
     return n;
 }
@@ -143,17 +135,17 @@ ss_cell_is_grouped(const char *cell)
     return groups > 0 && p[strspn(p, "0123456789")] == '\0';
 }
 
-char *
+const char *
 ss_text_shape(struct text *x, const char *line, char separator, size_t *numbers)
 {
     double number;
     size_t n = ss_text_split(x, line, separator);
-    char *shape = n != NONE ? calloc(n + 1, 1) : NULL;
     *numbers = 0;
-    for (size_t i = 0; shape != NULL && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         enum cell_kind kind = ss_cell_read(x->cell[i], separator, &number);
-        shape[i] = x->cell[i][0] == '\0' ? 'e' : kind == CELL_TEXT ? 't' : 'n';
+        x->shape[i] = x->cell[i][0] == '\0' ? 'e' : kind == CELL_TEXT ? 't' : 'n';
         *numbers += kind == CELL_NUMBER;
     }
-    return shape;
+    x->shape[n] = '\0';
+    return x->shape;
 }

@@ -78,7 +78,7 @@ is_one_of(const char *cell, const char *const *word)
 /* --- lines above the data ------------------------------------------------------------------ */
 
 /* The kind of a row above the data, if it has as many cells as the data. */
-enum row_kind { ROW_OTHER, ROW_NAMES, ROW_UNITS, ROW_MIXED, ROW_NO_MEMORY };
+enum row_kind { ROW_OTHER, ROW_NAMES, ROW_UNITS, ROW_MIXED };
 
 static enum row_kind
 kind_of_row(struct text *x, const char *line)
@@ -86,8 +86,6 @@ kind_of_row(struct text *x, const char *line)
     size_t empty = 0, numbers = 0, units = 0, columns = x->t.n_columns;
     double number;
     size_t n = line != NULL ? ss_text_split(x, line, x->separator) : 0;
-    if (n == NONE)
-        return ROW_NO_MEMORY;
     if (n == columns + 1 && strcasecmp(x->cell[n - 1], "comment") == 0) {
         n--;                                    /* LabVIEW names a column of comments that few rows have */
         x->comments = 1;
@@ -115,20 +113,17 @@ bare_unit(char *cell)
     return ss_cell_trim(cell + 1);
 }
 
-/* Is a line of words one of units, since it has one of time below the name of a time, or a whole word for it?  *yes
- * becomes 1 if so. */
-static ss_status
-has_unit_of_time(struct text *x, const char *names, const char *units, int *yes)
+/* Is a line of words one of units, since it has one of time below the name of a time, or a whole word for it? */
+static int
+has_unit_of_time(struct text *x, const char *names, const char *units)
 {
     size_t n = ss_text_split(x, names, x->separator), at = 0;
-    while (n != NONE && at < n && !ss_is_called_time(x->cell[at]))
+    while (at < n && !ss_is_called_time(x->cell[at]))
         at++;
     const int is_named = at < n;
-    if (n == NONE || (n = ss_text_split(x, units, x->separator)) == NONE)
-        return SS_ENOMEM;
+    ss_text_split(x, units, x->separator);
     const char *unit = bare_unit(x->cell[is_named ? at : 0]);
-    *yes = ss_time_unit_find(unit) != NULL && (is_named || unit[1] != '\0');
-    return SS_OK;
+    return ss_time_unit_find(unit) != NULL && (is_named || unit[1] != '\0');
 }
 
 /* The unit at the end of "name, unit" or "name in unit", cut off; NULL: there is none. */
@@ -186,7 +181,9 @@ static ss_status
 name_columns(struct text *x, const char *names, const char *units)
 {
     char number[32];
-    ss_status st = names == NULL || ss_text_split(x, names, x->separator) != NONE ? SS_OK : SS_ENOMEM;
+    ss_status st = SS_OK;
+    if (names != NULL)
+        ss_text_split(x, names, x->separator);
     for (size_t i = 0; st == SS_OK && i < x->t.n_columns; i++) {
         char *name = "", *unit = "";
         snprintf(number, sizeof number, "ch%zu", i + 1);
@@ -195,8 +192,8 @@ name_columns(struct text *x, const char *names, const char *units)
         st = ss_header_add_column(x->t.names, *name != '\0' ? name : number,
                                   *unit != '\0' ? unit : ss_unit_of_name(name, NULL), NULL);
     }
-    if (st == SS_OK && units != NULL && ss_text_split(x, units, x->separator) == NONE)
-        st = SS_ENOMEM;
+    if (units != NULL)
+        ss_text_split(x, units, x->separator);
     for (size_t i = 0; st == SS_OK && units != NULL && i < x->t.n_columns; i++)
         st = set_unit(x, i, bare_unit(x->cell[i]));
     return st;
@@ -221,32 +218,30 @@ line_above(const struct text *x, size_t up)
 
 /* Rigol's oscilloscopes number the rows.  Behind the names of their columns they write Start and
  * Increment, and the two times in the line below.  Read the times and cut both lines before them. */
-static ss_status
+static void
 find_increment(struct text *x)
 {
     char *above = line_above(x, 1), *last = line_above(x, 0);
     size_t at_start = NONE, at_step = NONE;
     double start, step;
     size_t n = ss_text_split(x, above != NULL ? above : "", x->separator);
-    for (size_t i = x->t.n_columns; n != NONE && i < n; i++) {
+    for (size_t i = x->t.n_columns; i < n; i++) {
         at_start = strcasecmp(x->cell[i], "Start") == 0 ? i : at_start;
         at_step = strcasecmp(x->cell[i], "Increment") == 0 ? i : at_step;
     }
-    if (n != NONE && at_start != NONE && at_step != NONE) {
-        n = ss_text_split(x, last, x->separator);
-        if (n != NONE && at_start < n && at_step < n
-            && ss_cell_read(x->cell[at_start], x->separator, &start) == CELL_NUMBER
-            && ss_cell_read(x->cell[at_step], x->separator, &step) == CELL_NUMBER) {
-            cut(above, x->t.n_columns, x->separator);
-            cut(last, x->t.n_columns, x->separator);
-            if (step > 0) {
-                x->t.counted.origin = start;
-                x->t.counted.increment = step;
-                x->t.counted.numbered = 1;
-            }
-        }
+    if (at_start == NONE || at_step == NONE)
+        return;
+    n = ss_text_split(x, last, x->separator);
+    if (at_start >= n || at_step >= n || ss_cell_read(x->cell[at_start], x->separator, &start) != CELL_NUMBER
+        || ss_cell_read(x->cell[at_step], x->separator, &step) != CELL_NUMBER)
+        return;
+    cut(above, x->t.n_columns, x->separator);
+    cut(last, x->t.n_columns, x->separator);
+    if (step > 0) {
+        x->t.counted.origin = start;
+        x->t.counted.increment = step;
+        x->t.counted.numbered = 1;
     }
-    return n != NONE ? SS_OK : SS_ENOMEM;
 }
 
 /* Refuse the last line, which has numbers, if it is a row with a bad cell. */
@@ -256,8 +251,6 @@ check_mixed(struct text *x, enum row_kind before, ss_error *err)
     double number;
     const struct text_line *line = &x->head[x->n_head - 1];
     size_t n = ss_text_split(x, line->text, x->separator), bad = n;
-    if (n == NONE)
-        return SS_ENOMEM;
     int has_words = 0, begins = ss_cell_read(x->cell[0], x->separator, &number) != CELL_TEXT;
     for (size_t i = n; i-- > 0; )
         if (ss_cell_read(x->cell[i], x->separator, &number) == CELL_TEXT) {
@@ -276,21 +269,17 @@ static ss_status
 name_by_lines(struct text *x, ss_error *err)
 {
     char *last_line = line_above(x, 0), *above = line_above(x, 1);
-    ss_status st = find_increment(x);
-    if (st != SS_OK)
-        return st;
+    ss_status st = SS_OK;
+    find_increment(x);
     if (x->t.counted.increment > 0) {
         x->t.named = 1;
         return name_columns(x, above, last_line);
     }
     enum row_kind last = kind_of_row(x, last_line), before = kind_of_row(x, above);
-    if (last == ROW_NO_MEMORY || before == ROW_NO_MEMORY)
-        return SS_ENOMEM;
     if (last == ROW_MIXED && (st = check_mixed(x, before, err)) != SS_OK)
         return st;
-    int is_units = last == ROW_UNITS;
-    if (last == ROW_NAMES && before == ROW_NAMES && (st = has_unit_of_time(x, above, last_line, &is_units)) != SS_OK)
-        return st;
+    int is_units = last == ROW_UNITS
+        || (last == ROW_NAMES && before == ROW_NAMES && has_unit_of_time(x, above, last_line));
     x->t.named = last == ROW_NAMES || last == ROW_UNITS;
     return is_units && before == ROW_NAMES ? name_columns(x, above, last_line)
         : name_columns(x, x->t.named ? last_line : NULL, NULL);
@@ -299,7 +288,7 @@ name_by_lines(struct text *x, ss_error *err)
 /* --- lines that begin with a key ----------------------------------------------------------- */
 
 /* Find the last kept line that begins with one of these words.  Returns the number of cells behind the
- * word, which are in x->cell + 1; 0: there is no such line; NONE: no memory. */
+ * word, which are in x->cell + 1; 0: there is no such line. */
 static size_t
 find_line(struct text *x, const char *const *word)
 {
@@ -307,9 +296,8 @@ find_line(struct text *x, const char *const *word)
     x->t.n_columns = 0;                         /* then all empty cells at the end are dropped */
     for (size_t i = x->n_head; found == 0 && i-- > 0;) {
         size_t n = ss_text_split(x, x->head[i].text, x->separator);
-        if (n != NONE)
-            x->cell[0][strcspn(x->cell[0], ":")] = '\0';
-        found = n == NONE ? NONE : n > 1 && is_one_of(x->cell[0], word) ? n - 1 : 0;
+        x->cell[0][strcspn(x->cell[0], ":")] = '\0';
+        found = n > 1 && is_one_of(x->cell[0], word) ? n - 1 : 0;
     }
     x->t.n_columns = n_columns;
     return found;
@@ -322,7 +310,7 @@ read_same(struct text *x, const char *const *word, double *same, size_t *n, ss_e
 {
     size_t cells = find_line(x, word);
     *n = 0;
-    for (size_t i = 1; cells != NONE && i <= cells; i++) {
+    for (size_t i = 1; i <= cells; i++) {
         double value;
         if (ss_cell_read(x->cell[i], x->separator, &value) != CELL_NUMBER)
             continue;
@@ -332,19 +320,18 @@ read_same(struct text *x, const char *const *word, double *same, size_t *n, ss_e
         *same = value;
         ++*n;
     }
-    return cells != NONE ? SS_OK : SS_ENOMEM;
+    return SS_OK;
 }
 
-/* *found becomes the index of a line's second cell in the list of choices; it stays as it is if there is
- * no such line. */
-static ss_status
-read_choice(struct text *x, const char *const *word, const char *const *choice, int *found)
+/* The index of a line's second cell in the list of choices; or `otherwise`. */
+static int
+read_choice(struct text *x, const char *const *word, const char *const *choice, int otherwise)
 {
     size_t n = find_line(x, word);
-    for (int i = 0; n != NONE && n > 0 && choice[i] != NULL; i++)
+    for (int i = 0; n > 0 && choice[i] != NULL; i++)
         if (strcasecmp(x->cell[1], choice[i]) == 0)
-            *found = i;
-    return n != NONE ? SS_OK : SS_ENOMEM;
+            return i;
+    return otherwise;
 }
 
 /* If there is a line of names or units, give them to every step-th column from `first` on. */
@@ -353,7 +340,7 @@ label_columns(struct text *x, const char *const *word, size_t first, size_t step
 {
     size_t n = find_line(x, word);
     ss_header *head = NULL, *old = x->t.names;
-    ss_status st = n == NONE ? SS_ENOMEM : is_unit_row ? SS_OK : ss_header_new(&head, 0, 0, NULL);
+    ss_status st = is_unit_row ? SS_OK : ss_header_new(&head, 0, 0, NULL);
     for (size_t c = 0; st == SS_OK && c < x->t.n_columns; c++) {
         size_t i = (c - first) / step + 1;
         const char *cell = c >= first && (c - first) % step == 0 && i <= n ? x->cell[i] : "";
@@ -375,23 +362,16 @@ name_by_keys(struct text *x, ss_error *err)
     static const char *const dimension[] = { "Time", NULL };
     size_t n = 0, ignored;
     double step = 0, start = 0;
-    int is_time = -1, layout_found = (int)x->layout;
-    size_t named = find_line(x, name_keys);
-    if (named == NONE)
-        return SS_ENOMEM;
-    if (!x->labview && named == 0)
+    if (!x->labview && find_line(x, name_keys) == 0)
         return SS_OK;
     ss_status st = read_same(x, step_keys, &step, &n, err);
     if (st == SS_OK)
         st = read_same(x, start_keys, &start, &ignored, err);
-    if (st == SS_OK && x->labview)
-        st = read_choice(x, layout_keys, layout, &layout_found);
-    if (st == SS_OK && x->labview)
-        st = read_choice(x, dimension_keys, dimension, &is_time);
-    x->layout = layout_found;
+    if (x->labview)
+        x->layout = read_choice(x, layout_keys, layout, (int)x->layout);
     if (st != SS_OK || n == 0 || !(step > 0) || x->t.n_columns < n)
         return st;
-    if (x->labview && is_time < 0)
+    if (x->labview && read_choice(x, dimension_keys, dimension, -1) < 0)
         return ss_fail(err, SS_EDATA, "%s: the X_Dimension of its channels is not Time", x->t.name);
     size_t first = x->first_x = x->t.n_columns > n, every = x->labview && x->layout == LAYOUT_MULTI ? 2 : 1;
     st = label_columns(x, unit_keys, first, every, 1);

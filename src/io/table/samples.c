@@ -194,8 +194,8 @@ ss_sheet_free(struct sheet *t)
     free(t->column);
 }
 
-/* Keep all rows of a source, each with its number behind it, as a row of a table has; SS_EGAPS: a value is no number,
- * and gaps are refused. */
+/* Keep all rows of a source, each with its number behind it, as a row of a table has.  SS_EGAPS: a value is no
+ * number, and gaps are refused. */
 static ss_status
 keep_rows(struct kept *rows, ss_source *from, const char *folder, ss_gaps gaps, ss_error *err)
 {
@@ -228,7 +228,8 @@ ss_sheet_of_source(ss_source **s, const ss_read_opts *opts, int named, ss_progre
     struct sheet t = { .name = from->name, .opts = opts, .named = named, .n_columns = from->head->n_columns };
     *s = NULL;
     t.column = calloc(t.n_columns, sizeof *t.column);
-    ss_status st = t.column != NULL ? ss_header_select(&t.names, from->head, NULL, t.n_columns, 0, NULL) : SS_ENOMEM;
+    ss_status st = t.column == NULL ? SS_ENOMEM
+        : ss_header_select(&t.names, from->head, NULL, t.n_columns, 0, NULL);
     if (st == SS_OK)
         st = keep_rows(&t.rows, from, opts->folder, opts->gaps, err);
     if (st == SS_OK)

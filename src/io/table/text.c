@@ -28,6 +28,14 @@ first_of(const char *line)
     return *line;
 }
 
+static ss_status
+make_room(struct text *x, size_t length)
+{
+    char *copy = ss_list_grow(x->copy, &x->copy_room, length + 1, 1);
+    x->copy = copy != NULL ? copy : x->copy;
+    return copy != NULL ? SS_OK : SS_ENOMEM;
+}
+
 /* The next line that is not empty; comment is set if it is one.  NULL at the end. */
 static ss_status
 next_line(struct text *x, char **line, int *comment, ss_error *err)
@@ -45,7 +53,7 @@ next_line(struct text *x, char **line, int *comment, ss_error *err)
                            "makes them)", x->t.name, x->in->line);
     } while (first_of(*line) == '\0');
     *comment = **line == '#';
-    return SS_OK;
+    return make_room(x, length);
 }
 
 static ss_status
@@ -57,7 +65,7 @@ keep_line(struct text *x, const char *line, int comment)
     if (copy == NULL)
         return SS_ENOMEM;
     more[x->n_head++] = (struct text_line){ copy, x->in->line, comment };
-    return SS_OK;
+    return make_room(x, strlen(copy));
 }
 
 static void
@@ -88,18 +96,17 @@ count_cells(const struct text *x, const char *line, const char *shape, size_t nu
     return numbers > 0 && n > first && strcspn(shape + first, wrong) >= full - first ? n : 0;
 }
 
-/* *yes becomes 1 if this is the first line of data; then next_separator and next_columns are set.  Empty cells at
- * its end count if each has a name in the line above.  Blanks are separators of thousands, and not of cells, where
+/* Is this the first line of data?  Then next_separator and next_columns are set.  Empty cells at its end
+ * count if each has a name in the line above.  Blanks are separators of thousands, and not of cells, where
  * other separators leave as many cells as there are names. */
-static ss_status
-is_data(struct text *x, const char *line, int *yes)
+static int
+is_data(struct text *x, const char *line)
 {
     size_t columns = x->t.n_columns, last = x->n_head;
     while (last > 0 && x->head[last - 1].comment)
         last--;
     int grouped = 0;
-    *yes = 0;
-    for (size_t i = 0; !*yes && i < CANDIDATES; i++) {
+    for (size_t i = 0; i < CANDIDATES; i++) {
         char separator = candidate[i];
         size_t numbers, names = 0;
         if (separator == ' ' ? x->labview || grouped : strchr(line, separator) == NULL)
@@ -107,21 +114,18 @@ is_data(struct text *x, const char *line, int *yes)
         if (last > 0 && (ss_text_may_lack(x) || !x->labview))
             names = ss_text_split(x, x->head[last - 1].text, separator);
         x->t.n_columns = ss_text_may_lack(x) || !x->labview ? names : columns;
-        char *shape = names != NONE ? ss_text_shape(x, line, separator, &numbers) : NULL;
+        const char *shape = ss_text_shape(x, line, separator, &numbers);
         x->t.n_columns = columns;
-        if (shape == NULL)
-            return SS_ENOMEM;
         size_t n = count_cells(x, line, shape, numbers);
         for (size_t k = 0; strlen(shape) == names && k < names; k++)
             grouped |= strchr(x->cell[k], ' ') != NULL && ss_cell_is_grouped(x->cell[k]);
-        free(shape);
         if (n == 0 || (n == 1 && separator != ';' && separator != ' '))
             continue;
         x->next_separator = n > 1 || separator == ';' ? separator : '\0';
         x->next_columns = n;
-        *yes = 1;
+        return 1;
     }
-    return SS_OK;
+    return 0;
 }
 
 /* Keep the lines up to the first row of data; *found becomes 0 if there is none. */
@@ -136,10 +140,8 @@ keep_header(struct text *x, int *found, ss_error *err)
         if (st != SS_OK || line == NULL)
             return st;
         x->labview |= x->in->line == 1 && strncmp(line, "LabVIEW Measurement", 19) == 0;
-        if (!comment)
-            st = is_data(x, line, found);
-        if (st == SS_OK)
-            st = keep_line(x, line + (comment ? strspn(line, "# ") : 0), comment);
+        *found = !comment && is_data(x, line);
+        st = keep_line(x, line + (comment ? strspn(line, "# ") : 0), comment);
     }
     return st;
 }
@@ -187,7 +189,8 @@ find_mixed(struct text *x, size_t *found)
     *found = x->n_head;
     for (size_t i = 0; shape != NULL && st == SS_OK && *found == x->n_head && i < CANDIDATES; i++) {
         for (size_t k = 0; st == SS_OK && k < x->n_head; k++)
-            if (!x->head[k].comment && (shape[k] = ss_text_shape(x, x->head[k].text, candidate[i], &numbers)) == NULL)
+            if (!x->head[k].comment
+                && (shape[k] = strdup(ss_text_shape(x, x->head[k].text, candidate[i], &numbers))) == NULL)
                 st = SS_ENOMEM;
         if (st == SS_OK && (*found = find_like(x, shape)) < x->n_head) {
             x->next_separator = candidate[i];
@@ -271,8 +274,6 @@ append_row(struct text *x, const char *line, ss_error *err)
     x->first = x->t.rows.n == 0 ? x->in->line : x->first;
     x->row[columns] = (double)x->in->line;
     size_t n = ss_text_split(x, line, x->separator);
-    if (n == NONE)
-        return SS_ENOMEM;
     if (n != columns && !(n == columns + 1 && (x->comments || x->labview)))
         return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", x->t.name, x->in->line, columns,
                        PLURAL(columns), n);
@@ -291,10 +292,10 @@ static ss_status
 find_kinds(struct text *x, const char *row)
 {
     size_t numbers, n = x->t.n_columns;
-    char *shape = ss_text_shape(x, row, x->separator, &numbers);
+    const char *shape = ss_text_shape(x, row, x->separator, &numbers);
     struct sheet_column *column = x->t.column = calloc(n, sizeof *column);
     x->row = malloc((n + 1) * sizeof *x->row);
-    for (size_t i = 0; shape != NULL && column != NULL && i < n; i++) {
+    for (size_t i = 0; column != NULL && i < n; i++) {
         unsigned parts = ss_stamp_read(x->cell[i]).parts;
         int empty = shape[i] == 'e' && !ss_text_may_lack(x);
         int is_words = shape[i] == 't' || empty || (x->settings && i < 2);
@@ -302,9 +303,7 @@ find_kinds(struct text *x, const char *row)
         column[i].begins_empty = empty && !x->labview;
         column[i].stamps = ss_stamp_column(parts);
     }
-    ss_status st = shape != NULL && column != NULL && x->row != NULL ? SS_OK : SS_ENOMEM;
-    free(shape);
-    return st;
+    return column != NULL && x->row != NULL ? SS_OK : SS_ENOMEM;
 }
 
 /* Find the columns of a table, whose first row is the line behind the kept ones. */
@@ -323,8 +322,7 @@ begin_columns(struct text *x, ss_error *err)
         st = ss_sheet_mark_spare(t, err);
     if (st != SS_OK)
         return st;
-    if (ss_text_split(x, row, x->separator) == NONE)        /* the cells were those of the names */
-        return SS_ENOMEM;
+    ss_text_split(x, row, x->separator);        /* the cells were those of the names */
     for (size_t i = 0; i < t->n_columns; i++)
         if (t->column[i].kind == COLUMN_TEXT && t->opts->n_needed == 0 && ss_cell_is_grouped(x->cell[i]))
             return ss_fail(err, SS_EDATA, "%s:%lu: column %zu (\"%s\"): '%.40s' is not a number: it has separators "
@@ -359,19 +357,14 @@ begin_table(struct text *x, size_t first, ss_error *err)
     return st;
 }
 
-/* *yes becomes 1 if a line has a setting and its value in two cells that the last of the kept lines has empty, as
- * those of Tektronix's oscilloscopes have. */
-static ss_status
-has_settings(struct text *x, size_t line, int *yes)
+/* Has a line a setting and its value in two cells that the last of the kept lines has empty, as those of
+ * Tektronix's oscilloscopes have? */
+static int
+has_settings(struct text *x, size_t line)
 {
     size_t numbers;
-    char *shape = ss_text_shape(x, x->head[line].text, x->next_separator, &numbers);
-    char *last = ss_text_shape(x, x->head[x->n_head - 1].text, x->next_separator, &numbers);
-    const ss_status st = shape != NULL && last != NULL ? SS_OK : SS_ENOMEM;
-    *yes = st == SS_OK && strncmp(shape, "tn", 2) == 0 && strncmp(last, "ee", 2) == 0;
-    free(shape);
-    free(last);
-    return st;
+    return strncmp(ss_text_shape(x, x->head[line].text, x->next_separator, &numbers), "tn", 2) == 0
+        && strncmp(ss_text_shape(x, x->head[x->n_head - 1].text, x->next_separator, &numbers), "ee", 2) == 0;
 }
 
 /* Begin with the first row of numbers, which is the last of the kept lines.  If there is none, or a line of words
@@ -384,17 +377,12 @@ begin_first(struct text *x, int found, ss_error *err)
     x->t.n_columns = x->next_columns;
     ss_status st = SS_OK;
     if (found && row > 0 && !x->head[row - 1].comment) {
-        char *shape = ss_text_shape(x, x->head[row - 1].text, x->next_separator, &numbers);
-        st = shape != NULL ? has_settings(x, row - 1, &mixed) : SS_ENOMEM;
-        mixed |= st == SS_OK && shape[0] == 'n' && strpbrk(shape, "te") != NULL;
-        free(shape);
+        const char *shape = ss_text_shape(x, x->head[row - 1].text, x->next_separator, &numbers);
+        mixed = (shape[0] == 'n' && strpbrk(shape, "te") != NULL) || has_settings(x, row - 1);
     }
-    if (st == SS_OK && mixed)
-        st = find_mixed(x, &first);
-    if (st == SS_OK && first < x->n_head)
-        st = has_settings(x, first, &x->settings);
-    if (st != SS_OK)
+    if (mixed && (st = find_mixed(x, &first)) != SS_OK)
         return st;
+    x->settings = first < x->n_head && has_settings(x, first);
     if (first == x->n_head && !found)
         return ss_fail(err, SS_EDATA, "%s:%lu: no row of numbers up to here; a table has them "
                        "between commas, semicolons, tabs or blanks", x->t.name, x->in->line);
@@ -403,42 +391,35 @@ begin_first(struct text *x, int found, ss_error *err)
 
 /* --- several tables ------------------------------------------------------------------------ */
 
-/* *yes becomes 1 if this line may be a heading, and not a row. */
-static ss_status
-is_heading(struct text *x, const char *line, int *yes)
+/* May this line be a heading, and not a row? */
+static int
+is_heading(struct text *x, const char *line)
 {
     size_t numbers;
-    *yes = 0;
     if (strchr("0123456789-.+", first_of(line)) != NULL)
-        return SS_OK;
-    char *shape = ss_text_shape(x, line, x->separator, &numbers);
-    if (shape == NULL)
-        return SS_ENOMEM;
+        return 0;
+    if (x->labview && strncmp(line, "Channels", 8) == 0)
+        return 1;
+    const char *shape = ss_text_shape(x, line, x->separator, &numbers);
     size_t n = strlen(shape);
-    if (shape[0] == 't' && x->t.column[0].kind != COLUMN_TEXT)
-        *yes = n != x->t.n_columns || (n > 1 && strchr(shape, 'n') == NULL);
-    *yes |= x->labview && strncmp(line, "Channels", 8) == 0;
-    free(shape);
-    return SS_OK;
+    return shape[0] == 't' && x->t.column[0].kind != COLUMN_TEXT
+        && (n != x->t.n_columns || (n > 1 && strchr(shape, 'n') == NULL));
 }
 
 /* Are the lines from a heading to the end of the file nothing but words, in more or fewer cells than rows have? */
-static ss_status
-is_footer(struct text *x, int *yes)
+static int
+is_footer(struct text *x)
 {
     size_t numbers;
-    *yes = x->n_head < HEADER_LINES;
-    for (size_t i = 0; *yes && i < x->n_head; i++) {
-        char *shape = ss_text_shape(x, x->head[i].text, x->separator, &numbers);
-        if (shape == NULL)
-            return SS_ENOMEM;
+    for (size_t i = 0; i < x->n_head; i++) {
+        const char *shape = ss_text_shape(x, x->head[i].text, x->separator, &numbers);
         size_t filled = strlen(shape);
         while (filled > 0 && shape[filled - 1] == 'e')
             filled--;
-        *yes = filled != x->t.n_columns && strchr(shape, 'n') == NULL;
-        free(shape);
+        if (filled == x->t.n_columns || strchr(shape, 'n') != NULL)
+            return 0;
     }
-    return SS_OK;
+    return x->n_head < HEADER_LINES;
 }
 
 /* Keep the lines from a heading on, up to the first row of another table.  If none follows, the heading is a
@@ -447,7 +428,6 @@ static ss_status
 read_heading(struct text *x, const char *heading, ss_error *err)
 {
     unsigned long number = x->in->line;
-    int footer = 0;
     drop_lines(x);
     ss_status st = keep_line(x, heading, 0);
     if (st == SS_OK)
@@ -455,9 +435,7 @@ read_heading(struct text *x, const char *heading, ss_error *err)
     if (st != SS_OK || x->another)
         return st;
     x->in->line = number;
-    if ((st = is_footer(x, &footer)) != SS_OK)
-        return st;
-    if (!footer)
+    if (!is_footer(x))
         return append_row(x, x->head[0].text, err);
     ss_sheet_warn(&x->t, SS_OK, "%s:%lu: the rows end here; the words below them were skipped", x->t.name, number);
     return SS_OK;
@@ -473,8 +451,8 @@ read_line(struct text *x, ss_error *err)
     x->ended = st != SS_OK || line == NULL;
     if (x->ended || comment)
         return st;
-    st = is_heading(x, line, &x->ended);
-    return st != SS_OK ? st : x->ended ? read_heading(x, line, err) : append_row(x, line, err);
+    x->ended = is_heading(x, line);
+    return x->ended ? read_heading(x, line, err) : append_row(x, line, err);
 }
 
 /* Discard the columns of a table before the next one. */
@@ -599,7 +577,6 @@ free_text(struct sheet *t)
     drop_lines(x);
     free(x->head);
     free(x->row);
-    free(x->cell);
     free(x->copy);
     ss_sheet_free(t);
     free(x);

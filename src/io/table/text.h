@@ -3,6 +3,9 @@
 #define TEXT_H
 
 #include "io/table/sheet.h"
+#include "signal/header.h"
+
+enum { MAX_CELLS = MAX_COLUMNS + 2 };
 
 enum cell_kind { CELL_TEXT, CELL_NUMBER, CELL_NOT_FINITE, CELL_STAMP };
 
@@ -23,8 +26,10 @@ struct text {
     int ended, another;         /* has the table ended, and does another one begin there? */
     unsigned long first;        /* the line of the first row */
     double *row;                /* that is read */
-    char *copy, **cell;         /* of the line that was split last, and its cells */
-    size_t copy_room, cell_room;
+    char *copy;                 /* of the line that was split last; it has room for each that was read or kept */
+    size_t copy_room;
+    char *cell[MAX_CELLS];      /* its cells, and a letter for each */
+    char shape[MAX_CELLS + 1];
     struct text_line *head;     /* lines above the data */
     size_t n_head, head_room;
     int comments;               /* cells too many are comments, which LabVIEW writes behind its rows */
@@ -33,8 +38,6 @@ struct text {
     int first_x;                /* is the first column no channel? */
     int settings;               /* have the first rows a setting and its value before their numbers? */
 };
-
-/* The functions below return SS_ENOMEM without a text. */
 
 /* Cells (cells.c). */
 
@@ -49,17 +52,19 @@ int ss_is_value(double x);
 int ss_cell_is_grouped(const char *cell);
 /* May a cell of a row be empty? */
 int ss_text_may_lack(const struct text *x);
-/* Split a copy of a line into x->cell and return the number of cells, without surplus empty cells at the
- * end.  NONE: no memory. */
+/* Split a copy of a line that was read or kept into x->cell and return the number of cells, without surplus empty
+ * cells at the end; at most MAX_CELLS, which is more than any table has. */
 size_t ss_text_split(struct text *x, const char *line, char separator);
-/* A letter for each cell of a line, to be freed: n for a number, a stamp, or a word for a missing
- * number, e for an empty cell, t for text.  *numbers counts the finite numbers.  NULL: no memory. */
-char *ss_text_shape(struct text *x, const char *line, char separator, size_t *numbers);
+/* A letter for each cell of a line, valid until the next call: n for a number, a stamp, or a word for a missing
+ * number, e for an empty cell, t for text.  *numbers counts the finite numbers. */
+const char *ss_text_shape(struct text *x, const char *line, char separator, size_t *numbers);
 
 /* Names (names.c): find names, units and a clock in the lines above the data.
  *
  * A line with numbers in it is either a word about the record ("Rate;1000") or a row of data with
- * a bad cell: the latter if it begins with a number or stands below a row of names. */
+ * a bad cell: the latter if it begins with a number or stands below a row of names.
+ *
+ * SS_ENOMEM is returned without a text. */
 ss_status ss_text_read_names(struct text *x, ss_error *err);
 /* When all rows are there: check the columns of times that LabVIEW writes, of each channel and against the
  * header. */
