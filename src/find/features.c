@@ -135,12 +135,12 @@ find(search *s, double *x, size_t column, ss_error *err)
     ss_range flat = { 0, s->rate };             /* what a filter has changed is no contact */
     ss_header_flat(s->signal->head, &flat);
     opts.fmin = fmax(opts.fmin, flat.from);
-    ss_status st = ss_map_plan(&s->map, s->signal, column, &opts, s->part->plans, err);
+    ss_status st = ss_map_plan(&s->map, s->signal, column, s->n, s->rate, &opts, err);
     if (st == SS_OK && s->map->scale[s->map->n_scales - 1].f > flat.to) {
         ss_coefficients_free(s->map);
         s->map = NULL;
         opts.fmax = flat.to;
-        st = ss_map_plan(&s->map, s->signal, column, &opts, s->part->plans, err);
+        st = ss_map_plan(&s->map, s->signal, column, s->n, s->rate, &opts, err);
     }
     if (st != SS_OK)
         return st;
@@ -158,7 +158,6 @@ find(search *s, double *x, size_t column, ss_error *err)
         st = ss_ringing_places(s);
     if (st == SS_OK)
         st = ss_row_source_init(s->rows, s->x, s->n, s->rate, s->gap, s->n_gaps, NULL);
-    s->rows->plans = s->part->plans;
     if (known != NULL) {
         s->rows->known = known->head;
         s->rows->n_known = known->n_heads;

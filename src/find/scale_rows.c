@@ -272,8 +272,7 @@ open_octaves(row_source *source, double octave, ss_error *err)
     source->margin = (size_t)ceil(ROW_REACH * exp2(opts.m1) * source->rate);
     double *x = continued(source->x, source->n, source->margin);
     ss_status st = x == NULL ? SS_ENOMEM
-        : ss_map_of_samples(&source->rows, x, source->n + 2 * source->margin, source->rate, &opts,
-                            source->plans, err);
+        : ss_map_of_samples(&source->rows, x, source->n + 2 * source->margin, source->rate, &opts, err);
     free(x);
     return st;
 }

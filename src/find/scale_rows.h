@@ -39,7 +39,6 @@ typedef struct row_source {
     /* computes the rows of scales from 2^octave s up to 2^end s, from x with margin samples before it; NULL
      * before the first scale_row */
     ss_coefficients *rows;
-    map_plans *plans;           /* for them; may be NULL */
     double octave, end;
     size_t margin;
     double *level;              /* room for so many of a scale_row */

@@ -107,7 +107,6 @@ typedef struct stream_lesson {
 typedef struct stream_part {
     double period;              /* [s] of the cycles of the longer one, or NaN if it does not repeat itself: of the
                                    part only the transitions are found; 0: not known */
-    map_plans *plans;           /* for parts of the same length; may be NULL */
     int is_contact;             /* what rings in the longer one is the contact's */
     const stream_lesson *known; /* only what rings so is sought, where it swells; NULL: nothing is known */
     double from, until;         /* [s] from the first sample: what swells at other times only is not wanted */

@@ -47,7 +47,6 @@ struct ss_features_stream {
     int is_changed;             /* 1: a part since then was not as it taught */
     stream_lesson lesson;       /* of it */
     stream_part known;          /* to searches of a part */
-    map_plans plans;
     uint64_t seen, searched;    /* samples so far, and at the last search of a whole window */
     double written;             /* [s] the end of the last transition, on the source's clock */
     ss_features *before;        /* what the last search found, in a part from before_start [s] on */
@@ -81,7 +80,6 @@ ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t c
     if (st == SS_OK) {
         s->column = column;
         s->written = -INFINITY;
-        s->known.plans = &s->plans;
         s->behind = (size_t)ceil(BEHIND * period);
         s->hop = (size_t)(2 * period + DELAY * head->rate) - s->behind;
         s->first = (size_t)(FIRST * period);
@@ -105,7 +103,6 @@ ss_features_stream_free(ss_features_stream *s)
         return;
     ss_header_free(s->head);
     ss_features_free(s->before);
-    ss_map_plans_free(&s->plans);
     free(s->x);
     free(s);
 }
@@ -225,7 +222,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     int whole = last || s->seen - s->searched >= apart;
     size_t n = whole || s->part > all ? all : s->part;
     int finds_all = whole || s->known.period == 0;
-    const stream_part afresh = { .plans = &s->plans, .learnt = whole ? &s->lesson : NULL };
+    const stream_part afresh = { .learnt = whole ? &s->lesson : NULL };
     ss_status st = find_last(s, n, whole ? &afresh : &s->known, &f, &start, err);
     if ((st == SS_OK || st == SS_ESCALE) && !whole && s->known.known != NULL && is_new(s, f, n)) {
         stream_part part = s->known;

@@ -1,6 +1,5 @@
 /* map.c -- see map.h: maps in memory, and maps that are computed where they are read. */
 #include <stdlib.h>
-#include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
 #include "map/map.h"
@@ -51,7 +50,6 @@ ss_coefficients_max(const ss_coefficients *map)
 typedef struct computed {
     ss_map_source source;               /* must be the first member */
     ss_morlet *plan;
-    size_t *users;                      /* of the plan; NULL: it is its own */
     transformed of;
 } computed;
 
@@ -67,59 +65,20 @@ computed_free(ss_map_source *source)
 {
     computed *c = (computed *)source;
     ss_morlet_end(&c->of);
-    if (c->users != NULL)
-        --*c->users;
-    else
-        ss_morlet_free(c->plan);
+    ss_morlet_free(c->plan);
     free(c);
 }
 
-void
-ss_map_plans_free(map_plans *plans)
-{
-    for (size_t i = 0; i < MAP_PLANS; i++)
-        ss_morlet_free(plans->place[i].plan);
-}
-
-/* Take the plan from those that are there, or make it, and keep it in place of one that nobody uses. */
-static ss_status
-plan_for(computed *c, size_t n, double rate, const ss_morlet_opts *opts, map_plans *plans, ss_error *err)
-{
-    struct map_place *place = NULL;
-    ss_morlet_opts key = *opts;
-    memset(&key.progress, 0, sizeof key.progress);
-    for (size_t i = 0; plans != NULL && i < MAP_PLANS; i++) {
-        struct map_place *p = &plans->place[i];
-        if (p->plan != NULL && p->plan->n == n && p->plan->rate == rate && memcmp(&p->opts, &key, sizeof key) == 0)
-            place = p;
-    }
-    if (place == NULL) {
-        ss_status st = ss_morlet_new(&c->plan, n, rate, opts, err);
-        if (st != SS_OK || plans == NULL || plans->place[plans->next].users > 0)
-            return st;
-        place = &plans->place[plans->next];
-        plans->next = (plans->next + 1) % MAP_PLANS;
-        ss_morlet_free(place->plan);
-        *place = (struct map_place){ c->plan, key, 0 };
-    }
-    c->plan = place->plan;
-    c->plan->opts.progress = opts->progress;
-    c->users = &place->users;
-    ++*c->users;
-    return SS_OK;
-}
-
-/* Make a map of this plan, with the header of a column or without one. */
-static ss_status
-map_of(ss_coefficients **out, const ss_signal *signal, size_t column, size_t n, double rate,
-       const ss_morlet_opts *opts, map_plans *plans, ss_error *err)
+ss_status
+ss_map_plan(ss_coefficients **out, const ss_signal *signal, size_t column, size_t n, double rate,
+            const ss_morlet_opts *opts, ss_error *err)
 {
     computed *c = calloc(1, sizeof *c);
     ss_coefficients *map = NULL;
     if (c == NULL)
         return SS_ENOMEM;
     c->source = (ss_map_source){ compute, computed_free };
-    ss_status st = plan_for(c, n, rate, opts, plans, err);
+    ss_status st = ss_morlet_new(&c->plan, n, rate, opts, err);
     if (st == SS_OK)
         st = ss_morlet_grid_of(&map, signal, column, c->plan, opts);
     if (st == SS_OK) {
@@ -133,13 +92,6 @@ map_of(ss_coefficients **out, const ss_signal *signal, size_t column, size_t n, 
 }
 
 ss_status
-ss_map_plan(ss_coefficients **out, const ss_signal *signal, size_t column, const ss_morlet_opts *opts,
-            map_plans *plans, ss_error *err)
-{
-    return map_of(out, signal, column, signal->n, signal->head->rate, opts, plans, err);
-}
-
-ss_status
 ss_map_begin(ss_coefficients *map, const double *x, ss_error *err)
 {
     computed *c = (computed *)map->source;
@@ -148,9 +100,9 @@ ss_map_begin(ss_coefficients *map, const double *x, ss_error *err)
 
 ss_status
 ss_map_of_samples(ss_coefficients **out, const double *x, size_t n, double rate,
-                  const ss_morlet_opts *opts, map_plans *plans, ss_error *err)
+                  const ss_morlet_opts *opts, ss_error *err)
 {
-    ss_status st = map_of(out, NULL, 0, n, rate, opts, plans, err);
+    ss_status st = ss_map_plan(out, NULL, 0, n, rate, opts, err);
     if (st != SS_OK || (st = ss_map_begin(*out, x, err)) == SS_OK)
         return st;
     ss_coefficients_free(*out);

@@ -28,27 +28,16 @@ magnitude_of(const double w[2])
 /* For sources: fill in n coefficients w of a part, from its translation first + at on. */
 void ss_map_give(const ss_map_part *part, size_t at, size_t n, const double *w);
 
-/* Plans for records of a few lengths, which come again and again; {0} has none.  It outlives the maps that use it. */
-enum { MAP_PLANS = 8 };
-typedef struct map_plans {
-    struct map_place {
-        ss_morlet *plan;
-        ss_morlet_opts opts;        /* as they were given */
-        size_t users;
-    } place[MAP_PLANS];
-    size_t next;                    /* to be replaced, if nobody uses it */
-} map_plans;
-void ss_map_plans_free(map_plans *plans);
-
-/* The grid of a column's transform, with a source that computes what is read, on the threads that opts name,
- * once ss_map_begin has been called.  plans may be NULL.  SS_ESCALE as ss_morlet_new. */
-ss_status ss_map_plan(ss_coefficients **out, const ss_signal *signal, size_t column,
-                      const ss_morlet_opts *opts, map_plans *plans, ss_error *err);
+/* The grid of the transform of n samples, with the header of a signal's column, or without one if signal is NULL,
+ * and with a source that computes what is read, on the threads that opts name, once ss_map_begin has been
+ * called.  SS_ESCALE as ss_morlet_new. */
+ss_status ss_map_plan(ss_coefficients **out, const ss_signal *signal, size_t column, size_t n, double rate,
+                      const ss_morlet_opts *opts, ss_error *err);
 /* The samples of the column, with those of gaps replaced. */
 ss_status ss_map_begin(ss_coefficients *map, const double *x, ss_error *err);
 /* Both for n samples that have no header: the map's head is NULL. */
 ss_status ss_map_of_samples(ss_coefficients **out, const double *x, size_t n, double rate,
-                            const ss_morlet_opts *opts, map_plans *plans, ss_error *err);
+                            const ss_morlet_opts *opts, ss_error *err);
 /* Report the part of the work on a map that is done, 0 to 1, to the progress function of its options, if it
  * is computed; SS_STOP if that stops the work. */
 ss_status ss_map_progress(const ss_coefficients *map, double done);
