@@ -17,44 +17,30 @@ typedef struct table_reader {
     size_t notes, columns, cells;       /* the room of each list */
 } table_reader;
 
-static ss_status
-add_column(table_reader *r, char *label, ss_error *err)
-{
-    ss_table *t = r->table;
-    char *name, *unit;
-    if (t->n_columns == MAX_COLUMNS)
-        return ss_fail(err, SS_EDATA, "%s:%lu: more than %d columns", r->in.name, r->in.line,
-                       MAX_COLUMNS);
-    ss_column *more = ss_list_room(t->column, &r->columns, t->n_columns, sizeof *more);
-    if (more == NULL)
-        return ss_fail_memory(err, r->in.name);
-    t->column = more;
-    ss_split_label(label, &name, &unit);
-    more[t->n_columns] = (ss_column){ strdup(name), strdup(unit) };
-    t->n_columns++;
-    return more[t->n_columns - 1].name != NULL && more[t->n_columns - 1].unit != NULL ? SS_OK
-        : ss_fail_memory(err, r->in.name);
-}
-
-/* Read the labels of the columns, which blanks separate.  A blank in brackets belongs to a unit. */
+/* Read the labels of the columns, which blanks separate. */
 static ss_status
 read_columns(table_reader *r, char *text, ss_error *err)
 {
-    ss_status st = SS_OK;
+    ss_table *t = r->table;
+    char *name, *unit;
     if (r->columns_text != NULL)
         return strcmp(text, r->columns_text) == 0 ? SS_OK
             : ss_fail(err, SS_EDATA, "%s:%lu: other columns than before", r->in.name, r->in.line);
     if ((r->columns_text = strdup(text)) == NULL)
         return ss_fail_memory(err, r->in.name);
-    while (st == SS_OK && *(text += strspn(text, " ")) != '\0') {
-        char *label = text;
-        for (int depth = 0; *text != '\0' && (depth > 0 || *text != ' '); text++)
-            depth += (*text == '(') - (*text == ')');
-        if (*text != '\0')
-            *text++ = '\0';
-        st = add_column(r, label, err);
+    while (ss_next_label(&text, &name, &unit)) {
+        if (t->n_columns == MAX_COLUMNS)
+            return ss_fail(err, SS_EDATA, "%s:%lu: more than %d columns", r->in.name, r->in.line, MAX_COLUMNS);
+        ss_column *more = ss_list_room(t->column, &r->columns, t->n_columns, sizeof *more);
+        if (more == NULL)
+            return ss_fail_memory(err, r->in.name);
+        t->column = more;
+        more += t->n_columns++;
+        *more = (ss_column){ strdup(name), strdup(unit) };
+        if (more->name == NULL || more->unit == NULL)
+            return ss_fail_memory(err, r->in.name);
     }
-    return st;
+    return SS_OK;
 }
 
 /* Read a row.  Its cells lie in a copy of the line, which begins with the first of them. */

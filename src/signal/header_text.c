@@ -67,21 +67,25 @@ ss_split_label(char *label, char **name, char **unit)
     *unit = slash + 1;
 }
 
+int
+ss_next_label(char **list, char **name, char **unit)
+{
+    char *label = *list + strspn(*list, " \t"), *p = label + strcspn(label, "/ \t");
+    p += *p == '/';
+    for (int depth = 0; *p != '\0' && (depth > 0 || (*p != ' ' && *p != '\t')); p++)
+        depth += (*p == '(') - (*p == ')' && depth > 0);
+    *list = p + (*p != '\0');
+    *p = '\0';
+    ss_split_label(label, name, unit);
+    return **name != '\0' || *unit > label;
+}
+
 static ss_status
 read_columns(ss_header *head, char *p, const char **reason)
 {
+    char *name, *unit;
     head->has_time = 0;
-    for (int first = 1; *(p += strspn(p, " \t")) != '\0'; first = 0) {
-        char *label = p, *name, *unit;
-        int depth = 0, more;
-        p += strcspn(p, "/ \t");
-        p += *p == '/';
-        for (; *p != '\0' && (depth > 0 || (*p != ' ' && *p != '\t')); p++)
-            depth += (*p == '(') - (*p == ')' && depth > 0);
-        more = *p != '\0';
-        *p = '\0';
-        p += more;
-        ss_split_label(label, &name, &unit);
+    for (int first = 1; ss_next_label(&p, &name, &unit); first = 0) {
         if (first && strcmp(name, "t") == 0 && strcmp(unit, "s") == 0) {
             head->has_time = 1;
             continue;

@@ -94,37 +94,20 @@ access_of(const h5_dataset *v, int rank, const hsize_t dims[])
     return plist;
 }
 
-/* The values in memory as a dataspace: every stride-th number of an array. */
-static hid_t
-memory_space(const h5_dataset *v, hsize_t values)
-{
-    hsize_t start = v->start, stride = v->stride > 0 ? v->stride : 1, count = values;
-    hsize_t length = start + values * stride;
-    hid_t space = H5Screate_simple(1, &length, NULL);
-    if (values == 0)
-        H5Sselect_none(space);
-    else
-        H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, &stride, &count, NULL);
-    return space;
-}
-
 hid_t
 ss_h5_new_dataset(hid_t group, const h5_dataset *v, int rank, const hsize_t dims[],
                   const char *const scales[])
 {
-    hsize_t values = rank == 2 ? dims[0] * dims[1] : dims[0], most[2] = { dims[0], dims[rank - 1] };
+    hsize_t most[2] = { dims[0], dims[rank - 1] };
     most[rank - 1] = v->chunk > 0 ? H5S_UNLIMITED : dims[rank - 1];
     hid_t how = layout(v, rank, dims), access = access_of(v, rank, dims);
     hid_t space = H5Screate_simple(rank, dims, most);
     hid_t id = H5Dcreate2(group, v->name, v->file_type, space, H5P_DEFAULT, how, access);
     int good = id >= 0 && ss_h5_write_text(id, "units", v->unit)
                && ss_h5_write_text(id, "long_name", v->long_name);
-    if (good && v->values != NULL) {
-        hid_t memory = memory_space(v, values);
-        good = H5Dwrite(id, v->memory_type, memory, values > 0 ? H5S_ALL : space, H5P_DEFAULT,
-                        v->values) >= 0;
-        H5Sclose(memory);
-    }
+    if (good && v->values != NULL && dims[0] > 0)
+        good = H5Dwrite(id, H5Tget_class(v->file_type) == H5T_STRING ? v->file_type : H5T_NATIVE_DOUBLE, H5S_ALL,
+                        H5S_ALL, H5P_DEFAULT, v->values) >= 0;
     if (good && scales == NULL)
         good = H5DSset_scale(id, v->name) >= 0;
     for (int i = 0; good && scales != NULL && i < rank && scales[i] != NULL; i++) {
@@ -142,16 +125,26 @@ ss_h5_new_dataset(hid_t group, const h5_dataset *v, int rank, const hsize_t dims
 }
 
 ss_status
-ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n, size_t length)
+ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n, size_t length, size_t apart)
 {
     const char *const scales[] = { v[0].name };
     hsize_t dims = length;
-    for (size_t i = 0; i < n; i++) {
-        hid_t id = ss_h5_new_dataset(group, &v[i], 1, &dims, i > 0 ? scales : NULL);
+    double *x = malloc((length + 1) * sizeof *x);
+    ss_status st = x != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        h5_dataset list = v[i];
+        H5T_class_t class = H5Tget_class(list.file_type);
+        for (size_t k = 0; class != H5T_STRING && k < length; k++) {
+            const void *at = (const char *)list.values + k * apart;
+            x[k] = class == H5T_INTEGER ? *(const int *)at : *(const double *)at;
+        }
+        list.values = class == H5T_STRING ? list.values : x;
+        hid_t id = ss_h5_new_dataset(group, &list, 1, &dims, i > 0 ? scales : NULL);
         if (id < 0 || H5Dclose(id) < 0)
-            return ss_h5_fail_write(file, group, v[i].name);
+            st = ss_h5_fail_write(file, group, list.name);
     }
-    return SS_OK;
+    free(x);
+    return st;
 }
 
 int

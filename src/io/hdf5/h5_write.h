@@ -9,9 +9,8 @@
 /* One dataset to be written. */
 typedef struct h5_dataset {
     const char *name, *unit, *long_name;
-    hid_t file_type, memory_type;
-    const void *values;         /* NULL: they are written later */
-    size_t start, stride;       /* value i is values[start + i * stride]; stride 0 is 1 */
+    hid_t file_type;
+    const void *values;         /* doubles, or texts as in the file; NULL: they are written later */
     hsize_t chunk;              /* 0: as its size says; else its last dimension grows, and it is
                                    kept in chunks of so many values of a row */
     int in_rows;                /* 1: it is written row by row, and each has chunks of its own */
@@ -30,9 +29,9 @@ hid_t ss_h5_new_group(hid_t parent, const char *name);
  * write its values if it has any; < 0 if HDF5 fails. */
 hid_t ss_h5_new_dataset(hid_t group, const h5_dataset *v, int rank, const hsize_t dims[],
                         const char *const scales[]);
-/* Write n lists of one length; the first is the scale of the others. */
-ss_status ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n,
-                            size_t length);
+/* Write n lists of one length; the first is the scale of the others.  values of each are doubles, ints or texts as its
+ * type in the file says; of numbers they point to the first, and the next is so many bytes apart. */
+ss_status ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n, size_t length, size_t apart);
 /* n values of a row, from its at-th on; at[0] is the row, if there are several.  A dataset that is too
  * short grows. */
 int ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type,

@@ -186,12 +186,6 @@ append_rows(h5_writer *w, double *const column[], size_t n)
 
 /* --- /events ------------------------------------------------------------------------------- */
 
-/* Numbers of a list of structs: where one stands in them, and their size. */
-#define NUMBERS(list, type, member, number) \
-    .values = (list), .start = offsetof(type, member) / sizeof(number), .stride = sizeof(type) / sizeof(number)
-#define DOUBLES(list, type, member) \
-    .file_type = H5T_IEEE_F64LE, .memory_type = H5T_NATIVE_DOUBLE, NUMBERS(list, type, member, double)
-
 static ss_status
 write_all_events(h5_writer *w)
 {
@@ -204,16 +198,16 @@ write_all_events(h5_writer *w)
     for (size_t i = 0; kind != NULL && i < w->n_events; i++)
         snprintf(kind + i * KIND_LENGTH, KIND_LENGTH, "%s", ss_event_kind_name(event[i].kind));
     const h5_dataset v[] = {
-        { .name = "t", .unit = "s", .long_name = "time", DOUBLES(event, ss_event, t) },
+        { .name = "t", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE, .values = &event->t },
         { .name = "kind", .unit = "", .long_name = "what begins: stick, slip, or slip the other way",
-          .file_type = text, .memory_type = text, .values = kind },
-        { .name = "x", .unit = "m", .long_name = "displacement", DOUBLES(event, ss_event, x) },
-        { .name = "v", .unit = "m/s", .long_name = "velocity", DOUBLES(event, ss_event, v) },
+          .file_type = text, .values = kind },
+        { .name = "x", .unit = "m", .long_name = "displacement", .file_type = H5T_IEEE_F64LE, .values = &event->x },
+        { .name = "v", .unit = "m/s", .long_name = "velocity", .file_type = H5T_IEEE_F64LE, .values = &event->v },
         { .name = "direction", .unit = "1", .long_name = "sign of the slip that begins, or ended at a stick",
-          .file_type = H5T_STD_I8LE, .memory_type = H5T_NATIVE_INT, NUMBERS(event, ss_event, direction, int) },
+          .file_type = H5T_STD_I8LE, .values = &event->direction },
     };
     ss_status st = kind == NULL ? SS_ENOMEM : group < 0 ? fail(w, 0, "/events")
-        : ss_h5_write_lists(&w->output.file, group, v, sizeof v / sizeof *v, w->n_events);
+        : ss_h5_write_lists(&w->output.file, group, v, sizeof v / sizeof *v, w->n_events, sizeof *event);
     H5Tclose(text);
     H5Gclose(group);
     free(kind);
@@ -273,14 +267,17 @@ begin_wavelet(h5_writer *w, const ss_coefficients *grid)
         || !ss_h5_write_number(w->group, "scales", H5T_STD_I32LE, (double)w->n_scales))
         return fail(w, 0, "/wavelet");
     const h5_dataset v[] = {
-        { .name = "scale", .unit = "s", .long_name = "scale a", DOUBLES(w->scale, ss_scale, a) },
+        { .name = "scale", .unit = "s", .long_name = "scale a", .file_type = H5T_IEEE_F64LE,
+          .values = &w->scale->a },
         { .name = "frequency", .unit = "Hz", .long_name = "frequency label omega_c / (2 pi a)",
-          DOUBLES(w->scale, ss_scale, f) },
-        { .name = "m", .unit = "1", .long_name = "log2 of the scale in seconds", DOUBLES(w->scale, ss_scale, m) },
+          .file_type = H5T_IEEE_F64LE, .values = &w->scale->f },
+        { .name = "m", .unit = "1", .long_name = "log2 of the scale in seconds", .file_type = H5T_IEEE_F64LE,
+          .values = &w->scale->m },
         { .name = "j", .unit = "1", .long_name = "number of the scale, a = 2^(j/voices) s",
-          .file_type = H5T_STD_I32LE, .memory_type = H5T_NATIVE_INT, NUMBERS(w->scale, ss_scale, j, int) },
+          .file_type = H5T_STD_I32LE, .values = &w->scale->j },
     };
-    st = ss_h5_write_lists(&w->output.file, w->group, v, sizeof v / sizeof *v, w->n_scales);
+    st = ss_h5_write_lists(&w->output.file, w->group, v, sizeof v / sizeof *v, w->n_scales,
+                                     sizeof *w->scale);
     if (st == SS_OK && w->dense && !write_lattice(w->group, &w->scale[0]))
         return fail(w, 0, "/wavelet");
     for (size_t i = 0; st == SS_OK && !w->dense && i < w->n_scales; i++) {

@@ -156,22 +156,27 @@ is_like(const char *shape, const char *row)
     return *row == '\0' && strchr(shape, 'n') == NULL;
 }
 
-/* The first line with numbers and words that has two lines like it below, or one if there are no more; shape is
- * NULL for a comment. */
+/* The first of the kept lines with numbers and words, below one without numbers, that has two lines like it below,
+ * or one if there are no more; else n_head. */
 static size_t
-find_like(const struct text *x, char *const *shape)
+find_like(struct text *x, char separator)
 {
-    for (size_t i = 0; i < x->n_head; i++) {
-        if (shape[i] == NULL || strchr(shape[i], 'n') == NULL || strpbrk(shape[i], "te") == NULL)
+    size_t numbers;
+    for (size_t i = 0, below, had = 0, has, alike = 0; i < x->n_head; i++, had = has, alike = 0) {
+        has = 0;
+        if (x->head[i].comment)
             continue;
-        if (i > 0 && shape[i - 1] != NULL && strchr(shape[i - 1], 'n') != NULL)
+        strcpy(x->like, ss_text_shape(x, x->head[i].text, separator, &numbers));
+        has = strchr(x->like, 'n') != NULL;
+        if (!has || had || strpbrk(x->like, "te") == NULL)
             continue;
-        size_t alike = 0, below = i + 1;
-        for (; below < x->n_head && alike < 2; below++)
-            if (shape[below] != NULL && !is_like(shape[i], shape[below]))
-                break;
+        for (below = i + 1; below < x->n_head && alike < 2; below++)
+            if (x->head[below].comment)
+                continue;
+            else if (is_like(x->like, ss_text_shape(x, x->head[below].text, separator, &numbers)))
+                alike++;
             else
-                alike += shape[below] != NULL;
+                break;
         if (alike == 2 || (below == x->n_head && i > 0))
             return i;
     }
@@ -180,30 +185,16 @@ find_like(const struct text *x, char *const *shape)
 
 /* Find the first of the kept lines that is a row of data with words in it, as the lines below it are too, or
  * n_head; then next_separator and next_columns are set. */
-static ss_status
-find_mixed(struct text *x, size_t *found)
+static size_t
+find_mixed(struct text *x)
 {
-    size_t numbers;
-    ss_status st = SS_OK;
-    char **shape = calloc(x->n_head + 1, sizeof *shape);
-    *found = x->n_head;
-    for (size_t i = 0; shape != NULL && st == SS_OK && *found == x->n_head && i < CANDIDATES; i++) {
-        for (size_t k = 0; st == SS_OK && k < x->n_head; k++)
-            if (!x->head[k].comment
-                && (shape[k] = strdup(ss_text_shape(x, x->head[k].text, candidate[i], &numbers))) == NULL)
-                st = SS_ENOMEM;
-        if (st == SS_OK && (*found = find_like(x, shape)) < x->n_head) {
+    size_t found = x->n_head;
+    for (size_t i = 0; found == x->n_head && i < CANDIDATES; i++)
+        if ((found = find_like(x, candidate[i])) < x->n_head) {
             x->next_separator = candidate[i];
-            x->next_columns = strlen(shape[*found]);
+            x->next_columns = strlen(x->like);
         }
-        for (size_t k = 0; k < x->n_head; k++) {
-            free(shape[k]);
-            shape[k] = NULL;
-        }
-    }
-    st = shape != NULL ? st : SS_ENOMEM;
-    free(shape);
-    return st;
+    return found;
 }
 
 /* --- rows ---------------------------------------------------------------------------------- */
@@ -375,13 +366,12 @@ begin_first(struct text *x, int found, ss_error *err)
     size_t row = x->n_head - (found != 0), first = row, numbers;
     int mixed = !found;
     x->t.n_columns = x->next_columns;
-    ss_status st = SS_OK;
     if (found && row > 0 && !x->head[row - 1].comment) {
         const char *shape = ss_text_shape(x, x->head[row - 1].text, x->next_separator, &numbers);
         mixed = (shape[0] == 'n' && strpbrk(shape, "te") != NULL) || has_settings(x, row - 1);
     }
-    if (mixed && (st = find_mixed(x, &first)) != SS_OK)
-        return st;
+    if (mixed)
+        first = find_mixed(x);
     x->settings = first < x->n_head && has_settings(x, first);
     if (first == x->n_head && !found)
         return ss_fail(err, SS_EDATA, "%s:%lu: no row of numbers up to here; a table has them "
