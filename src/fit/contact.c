@@ -312,7 +312,6 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
         st = ss_forced_check(start, err);
     if (st != SS_OK)
         return st;
-    const ss_stretch at_once = { opts->progress, 0, 0 };    /* the fit takes longer */
     char *missing = NULL;
     fitting *w = malloc(sizeof *w);
     *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN, .noise = NAN };
@@ -324,7 +323,7 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     w->missing = missing;
     if (st == SS_OK)
         st = ss_cycle_find(&w->goal, fit->why, sizeof fit->why, w->x, missing, w->n, w->rate,
-                           opts->forcing_frequency, &at_once);
+                           opts->forcing_frequency);
     if (st == SS_OK && w->goal.period > 0)
         st = fit_signal(fit, w, signal, column, opts, err);
     if (!fit->conclusive) {             /* then it gives no number */

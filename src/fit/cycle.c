@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include "base/error.h"
+#include "base/number.h"
 #include "find/period.h"
 
 enum { GRID = 64 };             /* steps to either side in the search of the period */
@@ -43,22 +43,17 @@ gather(double *sum, double *count, size_t bins, const double *x, const char *mis
     return squares;
 }
 
-ss_status
-ss_cycle_fold(cycle *c, const double *x, const char *missing, size_t n, double rate, double period,
-              ss_error *err)
+/* Fold n samples at a period of so many.  `why` becomes the reason if they show no cycle. */
+static void
+fold(cycle *c, char *why, size_t size, const double *x, const char *missing, size_t n, double samples)
 {
-    double count[CYCLE_MOST], samples = period * rate, mean = 0, within = 0, all = 0;
-    if (!(samples >= CYCLE_LEAST))
-        return ss_fail(err, SS_EDATA, "%.3g samples a cycle: %d are needed", samples, CYCLE_LEAST);
-    if (!(samples <= (double)n))
-        return ss_fail(err, SS_EDATA, "the record holds less than one cycle of %.3g s", period);
-    c->period = period;
+    double count[CYCLE_MOST], mean = 0, all = 0;
     c->n = bins_of(samples);
-    within = gather(c->y, count, c->n, x, missing, n, 1 / samples);
+    double within = gather(c->y, count, c->n, x, missing, n, 1 / samples);
     for (size_t i = 0; i < c->n; i++) {
         all += count[i];
         if (missing != NULL && count[i] == 0)
-            return ss_fail(err, SS_EDATA, "gaps leave out a part of every cycle of %.3g s", period);
+            ss_print_to(why, size, "gaps leave out a part of every cycle of %.3g s", c->period);
         within -= count[i] > 0 ? c->y[i] * c->y[i] / count[i] : 0;
         c->y[i] /= fmax(count[i], 1);
         mean += c->y[i] / (double)c->n;
@@ -70,7 +65,8 @@ ss_cycle_fold(cycle *c, const double *x, const char *missing, size_t n, double r
     }
     double bins = (double)c->n;
     c->noise = all > bins ? fmax(within, 0) / (all - bins) * bins / all : 0;
-    return SS_OK;
+    if (why[0] == '\0' && !(c->power > c->noise))
+        snprintf(why, size, "what repeats is no more than the noise");
 }
 
 /* The power of the mean cycle, about its mean. */
@@ -88,8 +84,9 @@ repeating(const double *x, const char *missing, size_t n, double samples)
     return power - all * all / fmax(counted, 1);
 }
 
-double
-ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period)
+/* The period within 1 % of the given one at which most power repeats. */
+static double
+refine(const double *x, const char *missing, size_t n, double period)
 {
     double best = period;
     /* jumps repeat within a bin or two: the first steps are no wider than that over 8 cycles */
@@ -97,7 +94,7 @@ ss_cycle_period(const double *x, const char *missing, size_t n, double rate, dou
         double middle = best, most = -1;
         for (int i = -GRID; i <= GRID; i++) {
             double p = middle * (1 + width * i / GRID);
-            double power = repeating(x, missing, n, p * rate);
+            double power = repeating(x, missing, n, p);
             if (power > most)
                 most = power, best = p;
         }
@@ -105,48 +102,26 @@ ss_cycle_period(const double *x, const char *missing, size_t n, double rate, dou
     return best;
 }
 
-/* A signal that repeats after a period also repeats after two or three periods.  So if a half or a third of
- * the period found keeps nearly all of the power, this part is the period.  (Half a cycle of a model keeps
- * none.) */
-static double
-shortest(const double *x, const char *missing, size_t n, double rate, double period)
-{
-    for (int part = 3; part >= 2; part--)
-        while (period / part * rate >= CYCLE_LEAST
-               && repeating(x, missing, n, period / part * rate)
-                  > 0.9 * repeating(x, missing, n, period * rate))
-            period /= part;
-    return period;
-}
-
 ss_status
 ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing, size_t n,
-              double rate, double frequency, const ss_stretch *progress)
+              double rate, double frequency)
 {
     ss_value samples = { rate / frequency, 0 };
-    ss_error err = { 0 };
-    ss_status st = ss_stretch_at(progress, 0);
-    if (st == SS_OK && !(frequency > 0))
-        st = ss_period_find(x, n, &samples);
-    if (st == SS_OK)
-        st = ss_stretch_at(progress, 0.3);
+    ss_status st = frequency > 0 ? SS_OK : ss_period_find(x, n, &samples);
     if (st != SS_OK)
         return st;
-    c->period = 0;
-    if (isnan(samples.value)) {
+    if (!(frequency > 0) && !isnan(samples.value))
+        samples.value = refine(x, missing, n, samples.value);
+    c->period = samples.value / rate;
+    if (isnan(samples.value))
         snprintf(why, size, "nothing repeats in the record");
-        return SS_OK;
-    }
-    double period = samples.value / rate;
-    if (!(frequency > 0))
-        period = shortest(x, missing, n, rate, ss_cycle_period(x, missing, n, rate, period));
-    if (ss_cycle_fold(c, x, missing, n, rate, period, &err) != SS_OK) {
-        snprintf(why, size, "%s", err.text);
-        c->period = 0;
-    } else if (!(c->power > c->noise)) {
-        snprintf(why, size, "what repeats is no more than the noise");
-        c->period = 0;
-    }
+    else if (!(samples.value >= CYCLE_LEAST))
+        ss_print_to(why, size, "%.3g samples a cycle: %d are needed", samples.value, CYCLE_LEAST);
+    else if (!(samples.value <= (double)n))
+        ss_print_to(why, size, "the record holds less than one cycle of %.3g s", c->period);
+    else
+        fold(c, why, size, x, missing, n, samples.value);
+    c->period = why[0] == '\0' ? c->period : 0;
     return SS_OK;
 }
 

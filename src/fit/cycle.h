@@ -5,7 +5,6 @@
 #include <stddef.h>
 #include <stickslip/status.h>
 #include "base/fft.h"
-#include "base/progress.h"
 
 enum { CYCLE_LEAST = 64, CYCLE_MOST = 1024 };
 
@@ -18,19 +17,11 @@ typedef struct cycle {
                                    includes motion that does not repeat */
 } cycle;
 
-/* Fold n samples at rate [Hz] at the period, of which the record must hold one at least, with
- * CYCLE_LEAST samples or more in it.  missing, here and below, is 1 for each sample that stands in a
- * gap and is left out; NULL: none does. */
-ss_status ss_cycle_fold(cycle *c, const double *x, const char *missing, size_t n, double rate,
-                        double period, ss_error *err);
-/* The period within 1 % of the given one at which most power repeats. */
-double ss_cycle_period(const double *x, const char *missing, size_t n, double rate, double period);
-
-/* The cycle of a signal whose values are finite, at the given frequency [Hz], or at the one found
- * if that is 0.  If no cycle is significant, c->period is 0 and why (of the given size) states the
- * reason.  SS_STOP if progress asks for it. */
-ss_status ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing,
-                        size_t n, double rate, double frequency, const ss_stretch *progress);
+/* The cycle of a signal whose values are finite, at the given frequency [Hz], or at the one found if that is 0.
+ * If no cycle is significant, c->period is 0 and why (of the given size), which is empty, states the reason.
+ * missing is 1 for each sample that stands in a gap and is left out; NULL: none does.  SS_ENOMEM. */
+ss_status ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing, size_t n,
+                        double rate, double frequency);
 
 /* A cycle that others are compared with. */
 typedef struct cycle_goal {

@@ -307,7 +307,7 @@ rank_window(ss_ranking *r, comparison *w, const ss_signal *signal, const char *m
             ss_error *err)
 {
     const ss_stretch whole = { w->opts->progress, 0, 1 };
-    const double rate = signal->head->rate, most = WINDOW * w->goal.period * rate, scenes = (double)r->n + 1;
+    const double rate = signal->head->rate, most = WINDOW * w->goal.period * rate, scenes = (double)r->n;
     const size_t n = most < (double)signal->n ? (size_t)most : signal->n, first = (signal->n - n) / 2;
     ss_signal *window = NULL;
     found *f = calloc(r->n, sizeof *f);
@@ -328,7 +328,7 @@ rank_window(ss_ranking *r, comparison *w, const ss_signal *signal, const char *m
     else
         st = ss_observation_of(&w->observation, window, w->column, w->goal.period, err);
     for (size_t i = 0; st == SS_OK && i < r->n; i++) {
-        ss_stretch part = ss_stretch_part(&whole, (double)(i + 1) / scenes, (double)(i + 2) / scenes);
+        ss_stretch part = ss_stretch_part(&whole, (double)i / scenes, (double)(i + 1) / scenes);
         st = rank_scene(&r->row[i], &f[i], w, &scene[i], &part, err);
     }
     if (st == SS_OK)
@@ -344,7 +344,6 @@ ss_status
 ss_forced_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
                   const ss_rank_opts *opts, ss_error *err)
 {
-    const ss_stretch reading = { opts->progress, 0, 1 / ((double)r->n + 1) };
     char *missing = NULL;
     comparison *w = calloc(1, sizeof *w);
     if (w == NULL)
@@ -353,8 +352,7 @@ ss_forced_compare(ss_ranking *r, const ss_signal *signal, size_t column, const s
     ss_status st = ss_gaps_missing(&missing, signal);
     if (st == SS_OK)
         st = ss_cycle_find(&w->goal, r->why, sizeof r->why, signal->values + column * signal->n,
-                           missing, signal->n, signal->head->rate, opts->forcing_frequency,
-                           &reading);
+                           missing, signal->n, signal->head->rate, opts->forcing_frequency);
     if (st == SS_OK && w->goal.period > 0) {
         r->forcing_frequency = 1 / w->goal.period;
         st = rank_window(r, w, signal, missing, scene, err);
