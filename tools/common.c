@@ -54,8 +54,8 @@ clear_progress(void)
     progress_shown = 0;
 }
 
-static double
-seconds_now(void)
+double
+tool_seconds(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -90,7 +90,7 @@ tool_progress(double done, void *user)
     int terminal = here && tool_verbosity >= 0 && (user != NULL || files_writing() || !data);
     done = begun_at + (1 - begun_at) * done;
     if (terminal && !tool_stopping()) {
-        double now = seconds_now();
+        double now = tool_seconds();
         if (began == 0)
             began = now;
         if (now - began > 1 && now - shown > 0.2) {
@@ -237,6 +237,14 @@ tool_check(ss_status status, const ss_error *err)
                  tool_hint(status, err));
 }
 
+void
+tool_check_input(ss_status status, const ss_error *err, const char *path)
+{
+    if (status != SS_OK)
+        tool_die("%s: %s%s", tool_input_name(path), err->text[0] != '\0' ? err->text : ss_strerror(status),
+                 tool_hint(status, err));
+}
+
 void *
 tool_room(void *list, size_t n, size_t size)
 {
@@ -247,9 +255,9 @@ tool_room(void *list, size_t n, size_t size)
 }
 
 void
-tool_show(tool_text text)
+tool_show(int help)
 {
-    if (text == TOOL_HELP)
+    if (help)
         fputs(usage_text, stdout);
     else
         printf("%s (libstickslip) %s\n", tool_name, ss_version());

@@ -28,6 +28,8 @@ void tool_leave(int status) TOOL_NORETURN;
 void tool_warn(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, unless -q */
 void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, only with -v */
 void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */
+/* Dies unless SS_OK, with the name of the input. */
+void tool_check_input(ss_status status, const ss_error *err, const char *path);
 const char *tool_s(size_t n);                   /* the ending of a noun of which there are n: "" or "s" */
 /* The same for the file of a base; the hint names no option, as the file is read without options. */
 void tool_check_base(ss_status status, const ss_error *err);
@@ -37,9 +39,9 @@ void *tool_room(void *list, size_t n, size_t size);
 /* A hint how to remedy a failure, "; text", or "". */
 const char *tool_hint(ss_status status, const ss_error *err);
 
-/* Write the text of --help or --version and exit. */
-typedef enum tool_text { TOOL_HELP, TOOL_VERSION } tool_text;
-void tool_show(tool_text text) TOOL_NORETURN;
+/* Write the text of --help, or the version, and exit. */
+void tool_show(int help) TOOL_NORETURN;
+double tool_seconds(void);      /* on a clock that goes evenly */
 
 extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
 
@@ -53,8 +55,11 @@ typedef struct tool_texts {
 
 /* The one FILE argument: argv[optind], or "-" if there is none; more are wrong usage. */
 const char *tool_input(int argc, char *argv[], int optind);
-/* The name of a path in messages: "<stdin>" for "-". */
+/* The name of a path in messages: "<stdin>" for "-"; and in outputs, without folders unless it is a dataset's. */
 const char *tool_input_name(const char *path);
+const char *tool_file_name(const char *path);
+/* Wrong usage if more than one of n paths, which may be NULL, is "-". */
+void tool_one_stdin(const char *const path[], size_t n);
 /* Call with each path that an option or argument names as a file to read, before or after output
  * is opened.  Dies if the output is the same file, by whatever name.  Returns path.  The functions
  * below call it. */
@@ -76,13 +81,11 @@ ss_signal *tool_read_signal(const char *path, const ss_read_opts *opts);
 ss_coefficients *tool_read_coefficients(const char *path);
 /* Read features or events, as kind says, from "-" or a file, or die; NULL if path is NULL. */
 ss_overlay *tool_read_overlay(const char *path, ss_kind kind);
-/* Read a scene from a path, the name of a shipped scene, or "-"; then settings "key=value" replace
- * its values.  Dies if that fails; a wrong setting is wrong usage. */
-ss_scene tool_read_scene(const char *path, const tool_texts *settings);
-/* The same with settings by these options, for messages: "--set or --vary". */
-ss_scene tool_read_scene_by(const char *path, const tool_texts *settings, const char *options);
-/* The name of a scene without directories, and the settings that change its physics, in one line;
- * to be freed. */
+/* Read a scene from a path, the name of a shipped scene, or "-"; then settings "key=value" by these options, such
+ * as "--set", replace its values.  Dies if that fails; a wrong setting is wrong usage. */
+ss_scene tool_read_scene(const char *path, const tool_texts *settings, const char *options);
+/* The name of a scene, or of a signal, as above, and the settings that change its physics (NULL: none), in one
+ * line; to be freed. */
 char *tool_name_scene(const char *path, const tool_texts *settings);
 /* Append a word to a list of at least 8 bytes for a message: "a, b", and " ..." where no more fits. */
 void tool_list(char *list, size_t size, const char *word);

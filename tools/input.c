@@ -24,6 +24,13 @@ tool_input_name(const char *path)
     return strcmp(path, "-") == 0 ? "<stdin>" : path;
 }
 
+const char *
+tool_file_name(const char *path)
+{
+    const char *slash = strstr(path, ":/") == NULL ? strrchr(path, '/') : NULL;
+    return slash != NULL && slash[1] != '\0' ? slash + 1 : tool_input_name(path);
+}
+
 /* 1 if a path that is read now stands for standard input. */
 static int
 is_stdin(const char *path)
@@ -34,6 +41,14 @@ is_stdin(const char *path)
     if (used)
         tool_usage("standard input can be read only once");
     return used = 1;
+}
+
+void
+tool_one_stdin(const char *const path[], size_t n)
+{
+    for (size_t i = 0, standard = 0; i < n; i++)
+        if (path[i] != NULL && strcmp(path[i], "-") == 0 && standard++ > 0)
+            tool_usage("standard input can be read only once");
 }
 
 FILE *
@@ -150,7 +165,7 @@ read_base(ss_scene *scene, const char *path)
 }
 
 ss_scene
-tool_read_scene_by(const char *path, const tool_texts *settings, const char *options)
+tool_read_scene(const char *path, const tool_texts *settings, const char *options)
 {
     ss_scene scene;
     ss_error err = { 0 };
@@ -165,22 +180,15 @@ tool_read_scene_by(const char *path, const tool_texts *settings, const char *opt
     return scene;
 }
 
-ss_scene
-tool_read_scene(const char *path, const tool_texts *settings)
-{
-    return tool_read_scene_by(path, settings, "--set");
-}
-
 char *
 tool_name_scene(const char *path, const tool_texts *settings)
 {
     static const char *const of_record[] = { "settle", "duration", "rate" };
-    const char *slash = strrchr(path, '/'), *own = slash != NULL ? slash + 1 : tool_input_name(path);
-    size_t size = strlen(own) + 1;
-    for (size_t i = 0; i < settings->n; i++)
+    size_t size = strlen(tool_file_name(path)) + 1;
+    for (size_t i = 0; settings != NULL && i < settings->n; i++)
         size += strlen(settings->text[i]) + 2;
-    char *name = tool_room(NULL, size, 1), *end = stpcpy(name, own);
-    for (size_t i = 0; i < settings->n; i++) {
+    char *name = tool_room(NULL, size, 1), *end = stpcpy(name, tool_file_name(path));
+    for (size_t i = 0; settings != NULL && i < settings->n; i++) {
         int physical = 1;
         for (size_t k = 0; k < sizeof of_record / sizeof *of_record; k++)
             physical &= strncmp(settings->text[i], of_record[k], strlen(of_record[k])) != 0;

@@ -67,7 +67,7 @@ tool_pair(const char *option, const char *text, const char *form, double lo, dou
 int
 tool_choice(const char *option, const char *text, const char *const choice[])
 {
-    char list[256] = "";
+    char list[512] = "";
     for (int i = 0; choice[i] != NULL; i++) {
         if (strcmp(text, choice[i]) == 0)
             return i;
@@ -147,31 +147,12 @@ tool_set_name(const tool_option *o, char *text)
 }
 
 static void
-set_quiet(const tool_option *o, char *text)
+set_common(const tool_option *o, char *text)
 {
-    (void)o, (void)text;
-    tool_verbosity = -1;
-}
-
-static void
-set_verbose(const tool_option *o, char *text)
-{
-    (void)o, (void)text;
-    tool_verbosity = 1;
-}
-
-static void
-show_help(const tool_option *o, char *text)
-{
-    (void)o, (void)text;
-    tool_show(TOOL_HELP);
-}
-
-static void
-show_version(const tool_option *o, char *text)
-{
-    (void)o, (void)text;
-    tool_show(TOOL_VERSION);
+    (void)text;
+    if (o->letter != 'q' && o->letter != 'v')
+        tool_show(o->letter == 'h');
+    tool_verbosity = o->letter == 'q' ? -1 : 1;
 }
 
 /* --- the command line ---------------------------------------------------------------------- */
@@ -221,18 +202,6 @@ append(option_rows *t, const tool_option option[], size_t n)
     }
 }
 
-/* The row of the option that getopt_long has found; NULL: it has written an error. */
-static const tool_option *
-find_row(const option_rows *t, int c)
-{
-    if (c >= LONG)
-        return &t->row[c - LONG];
-    for (size_t i = 0; i < t->n; i++)
-        if (t->row[i].letter == c)
-            return &t->row[i];
-    return NULL;
-}
-
 /* Refuse control characters in long options, since getopt prints an unknown option as it is.  Names of
  * files may look like options. */
 static void
@@ -251,8 +220,8 @@ int
 tool_parse(int argc, char *argv[], const tool_option option[], size_t n, tool_reading *reading)
 {
     static const tool_option common[] = {
-        TOOL_CALL('q', "quiet", set_quiet, NULL), TOOL_CALL('v', "verbose", set_verbose, NULL),
-        TOOL_CALL('h', "help", show_help, NULL), TOOL_CALL(0, "version", show_version, NULL) };
+        TOOL_CALL('q', "quiet", set_common, NULL), TOOL_CALL('v', "verbose", set_common, NULL),
+        TOOL_CALL('h', "help", set_common, NULL), TOOL_CALL(0, "version", set_common, NULL) };
     tool_option of_reading[TOOL_READING_OPTIONS];
     option_rows t = { .n = 0 };
     append(&t, option, n);
@@ -263,9 +232,12 @@ tool_parse(int argc, char *argv[], const tool_option option[], size_t n, tool_re
     append(&t, common, sizeof common / sizeof *common);
     refuse_control(argv);
     for (int c; (c = getopt_long(argc, argv, t.letters, t.names, NULL)) != -1;) {
-        const tool_option *o = find_row(&t, c);
-        if (o == NULL)
+        size_t i = c >= LONG ? (size_t)(c - LONG) : 0;
+        while (c < LONG && i < t.n && t.row[i].letter != c)
+            i++;
+        if (i == t.n)                   /* it has written an error */
             tool_usage(NULL);
+        const tool_option *o = &t.row[i];
         if (!tool_given(o->name))
             given[n_given++] = o->name;
         o->set(o, optarg);

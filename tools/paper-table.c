@@ -6,13 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One contour spacing.  A local maximum less prominent than this may have no closed contour, and what is
- * less prominent along the shortest scale is not counted as a spike. */
-#define PROMINENCE (80.0 / 18)
-#define LOWEST (-40.0)          /* local maxima below this are noise [dB] */
-#define LOW 20.0                /* local maxima below belong to the base and its harmonics [Hz] */
+#define PROMINENCE (80.0 / 18)  /* one contour spacing: what is less prominent is not counted as a spike */
 #define RANGE 20.0              /* spikes this much below the highest one do not count [dB] */
-#define LISTED 60               /* more spikes than this are noise too, and counted only */
+#define LISTED 60               /* more spikes than this are noise, and counted only */
 
 static const struct { const char *figure, *words; } paper[] = {
     { "figure2", "a spike at each onset of sticking; no local maximum" },
@@ -26,8 +22,7 @@ static const struct { const char *figure, *words; } paper[] = {
 static void
 name_figure(char name[64], const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    snprintf(name, 64, "%s", slash != NULL ? slash + 1 : path);
+    snprintf(name, 64, "%s", tool_file_name(path));
     name[strcspn(name, ".")] = '\0';
 }
 
@@ -40,65 +35,19 @@ find_words(const char *name)
     return "-";
 }
 
+static double
+note_number(const ss_header *head, const char *key)
+{
+    const char *text = ss_header_find_note(head, key);
+    return text != NULL ? ss_number_parse(text, NULL) : NAN;
+}
+
 /* Half a period of the base, which has one transition; 0 if it is not known. */
 static double
 half_cycle(const ss_header *head)
 {
-    const char *frequency = ss_header_find_note(head, "base_frequency");
-    char *end;
-    double f = frequency != NULL ? ss_number_parse(frequency, &end) : 0;
+    double f = note_number(head, "base_frequency");
     return f > 0 ? 1 / (2 * f) : 0;
-}
-
-/* Keep the maxima with a level of at least `lowest`, and return their number. */
-static size_t
-keep(ss_maximum *maximum, size_t n, double lowest)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < n; i++)
-        if (maximum[i].level >= lowest)
-            maximum[kept++] = maximum[i];
-    return kept;
-}
-
-/* Print number, frequencies and prominences of the maxima above the harmonics of the base. */
-static void
-print_ranges(const ss_maximum *maximum, size_t n)
-{
-    double f[2] = { INFINITY, 0 }, prominence[2] = { INFINITY, 0 };
-    size_t high = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (maximum[i].f < LOW)
-            continue;
-        high++;
-        f[0] = fmin(f[0], maximum[i].f);
-        f[1] = fmax(f[1], maximum[i].f);
-        prominence[0] = fmin(prominence[0], maximum[i].prominence);
-        prominence[1] = fmax(prominence[1], maximum[i].prominence);
-    }
-    printf("; above %g Hz: %zu", LOW, high);
-    if (high > 0)
-        printf(", at %.1f to %.1f Hz, prominence %.1f to %.1f dB", f[0], f[1], prominence[0],
-               prominence[1]);
-    printf("\n");
-}
-
-static void
-print_maxima(const ss_coefficients *c)
-{
-    ss_maximum *maximum = NULL;
-    size_t n = 0;
-    ss_error err = { 0 };
-    tool_check(ss_maxima_find(&maximum, &n, c, PROMINENCE, &err), &err);
-    n = keep(maximum, n, LOWEST);
-    printf("  local maxima: %zu", n);
-    print_ranges(maximum, n);
-    if (n > 0)
-        printf("    %8s %9s %9s %14s\n", "t/s", "f/Hz", "level/dB", "prominence/dB");
-    for (size_t i = 0; i < n; i++)
-        printf("    %8.4f %9.3f %9.2f %14.2f\n", c->head->start + maximum[i].t, maximum[i].f,
-               maximum[i].level, maximum[i].prominence);
-    free(maximum);
 }
 
 static void
@@ -126,21 +75,13 @@ print_spikes(const ss_coefficients *c)
         print_counts(spike, n, half, (double)c->n / c->head->rate);
     printf("\n");
     if (n > 0 && n <= LISTED)
-        printf("    %8s %9s %9s\n", "t/s", "", "level/dB");
+        printf("    %8s %9s\n", "t/s", "level/dB");
     for (size_t i = 0; i < n && n <= LISTED; i++)
-        printf("    %8.4f %9s %9.2f\n", c->head->start + spike[i].t, "", spike[i].level);
+        printf("    %8.4f %9.2f\n", c->head->start + spike[i].t, spike[i].level);
     free(spike);
 }
 
 /* --- the contact --------------------------------------------------------------------------- */
-
-static double
-note_number(const ss_header *head, const char *key)
-{
-    const char *text = ss_header_find_note(head, key);
-    char *end;
-    return text != NULL ? ss_number_parse(text, &end) : NAN;
-}
 
 static void
 print_value(const char *format, double x)
@@ -209,7 +150,6 @@ print_figure(const char *path)
     tool_check(ss_coefficients_read(&c, NULL, path, &err), &err);
     name_figure(name, path);
     printf("\n%s\n  the paper: %s\n", name, find_words(name));
-    print_maxima(c);
     print_spikes(c);
     print_contact(path, name, c->head->column[0].name);
     ss_coefficients_free(c);
@@ -219,9 +159,9 @@ int
 main(int argc, char *argv[])
 {
     tool_begin(argv, "paper-table", "usage: paper-table FIGURE.h5 ...\n");
-    printf("Levels in dB re the largest |W| outside the cone of influence.  Local maxima and spikes are\n"
-           "at least %.1f dB prominent (one contour spacing); local maxima from %.0f dB up, spikes\n"
-           "within %.0f dB of the highest.\n", PROMINENCE, LOWEST, RANGE);
+    printf("Spikes are at least %.1f dB prominent (one contour spacing) and within %.0f dB of the highest.\n"
+           "The features of each figure, FIGURE-features.tsv, have the local maxima.\n",
+           PROMINENCE, RANGE);
     for (int i = 1; i < argc; i++)
         print_figure(argv[i]);
     tool_end();

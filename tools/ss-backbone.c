@@ -81,8 +81,7 @@ main(int argc, char *argv[])
     ss_status st = ss_backbone_find(&found, signal, column, &opts, &err);
     if (st == SS_OK && fits)
         st = ss_backbone_scene(&scene, found, signal, column, opts.mass, &err);
-    if (st != SS_OK)
-        tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
+    tool_check_input(st, &err, path);
     if (found->why != NULL)
         tool_note("no decay: %s", found->why);
     if (fits)

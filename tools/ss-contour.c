@@ -241,12 +241,6 @@ follow(drawing *d, ss_plot_opts *plot)
 
 /* --- the whole ----------------------------------------------------------------------------- */
 
-static int
-is_stdin(const char *path)
-{
-    return path != NULL && strcmp(path, "-") == 0;
-}
-
 static const char *const detrends[] = { "none", "mean", "linear", NULL };
 
 static void
@@ -287,8 +281,7 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         tool_script_to(d->output);
     tool_reading_end(&d->reading, d->column);
     tool_reading_needs(&d->reading, &d->column, d->column != NULL);
-    if (is_stdin(d->path) + is_stdin(d->signal_path) + is_stdin(d->events) + is_stdin(d->features) > 1)
-        tool_usage("standard input can be read only once");
+    tool_one_stdin((const char *const[]){ d->path, d->signal_path, d->events, d->features }, 4);
 }
 
 static void

@@ -82,9 +82,7 @@ find_features(const request *req, const char *path)
     f.column = tool_column(head, path, req->column);
     f.opts.displacement = find_column(head, path, req->displacement, usual_displacement);
     f.opts.force = find_column(head, path, req->force, usual_force);
-    ss_status st = ss_features_find(&f.features, f.signal, f.column, &f.opts, &err);
-    if (st != SS_OK)
-        tool_die("%s: %s%s", tool_input_name(path), err.text, tool_hint(st, &err));
+    tool_check_input(ss_features_find(&f.features, f.signal, f.column, &f.opts, &err), &err, path);
     refer_to_load(head, f.column);
     const size_t motion = (size_t)f.opts.displacement;
     if (req->displacement != NULL && motion != f.column && isfinite(f.features->number[SS_FRICTION].value))
@@ -99,20 +97,14 @@ find_features(const request *req, const char *path)
 }
 
 static void
-free_features(found *f)
-{
-    ss_features_free(f->features);
-    ss_signal_free(f->signal);
-}
-
-static void
 write_one(const request *req, const char *path, tool_kind kind)
 {
     found f = find_features(req, path);
     ss_error err = { 0 };
     tool_check(ss_features_write(f.features, f.signal, f.column, &f.opts, tool_output(req->output),
                                  tool_stream(kind), &err), &err);
-    free_features(&f);
+    ss_features_free(f.features);
+    ss_signal_free(f.signal);
 }
 
 /* Write each row when nothing behind it can change it, and the numbers at the end or when the user stops. */
@@ -180,11 +172,9 @@ write_table(const request *req, char *const path[], size_t n, tool_kind kind)
     ss_error err = { 0 };
     if (t.rows == NULL)
         tool_die("%s", strerror(errno));
-    for (size_t i = 0, standard = 0; i < n; i++) {
-        standard += strcmp(tool_reads(path[i]), "-") == 0;
-        if (standard > 1)
-            tool_usage("standard input can be read only once");
-    }
+    for (size_t i = 0; i < n; i++)
+        tool_reads(path[i]);
+    tool_one_stdin((const char *const *)path, n);
     tool_jobs(path, n, req->jobs, find_one, add_row, &t);
     rewind(t.rows);
     tool_check(ss_table_read(&all, t.rows, "summaries", SS_KIND_SUMMARIES, &err), &err);

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include "options.h"
 
 static const char usage[] =
@@ -106,23 +105,6 @@ check_request(request *req)
     opts->rounded = req->kind == TOOL_H5 && !req->exact_bits && !req->inverse;
 }
 
-/* Report a library call's failure with the input's name. */
-static void
-check(ss_status status, const ss_error *err, const char *path)
-{
-    if (status != SS_OK)
-        tool_die("%s: %s%s", tool_input_name(path),
-                 err->text[0] != '\0' ? err->text : ss_strerror(status), tool_hint(status, err));
-}
-
-static double
-now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* --- output as it comes ----------------------------------------------------------------------- */
 
 typedef struct flow {
@@ -139,12 +121,12 @@ static int
 write_coefficients(const ss_scale *scale, size_t first, size_t n, const double *w, size_t samples, void *user)
 {
     flow *f = user;
-    double begin = now();
+    double begin = tool_seconds();
     ss_status st = ss_writer_coefficients(f->writer, scale, first, n, w, samples, &f->error);
     if (f->w != NULL)
         memcpy(f->w + 2 * f->coefficients, w, 2 * n * sizeof *w);
     f->coefficients += n;
-    f->seconds += now() - begin;
+    f->seconds += tool_seconds() - begin;
     return st != SS_OK;
 }
 
@@ -168,7 +150,7 @@ check_flow(const flow *f, ss_status status, const ss_error *err, const char *pat
         tool_check(SS_EIO, &f->error);
     if (status != SS_OK)
         fflush(NULL);
-    check(status, err, path);
+    tool_check_input(status, err, path);
 }
 
 /* --- a record that is there --------------------------------------------------------------------- */
@@ -179,7 +161,7 @@ compare(const ss_morlet *plan, const double *x, const double *w, const char *pat
     enum { EACH = 20 };                 /* coefficients of a scale */
     ss_error err = { 0 };
     double difference;
-    check(ss_morlet_compare(plan, x, w, EACH, &difference, &err), &err, path);
+    tool_check_input(ss_morlet_compare(plan, x, w, EACH, &difference, &err), &err, path);
     tool_warn("differs from the other method by at most %.2g of the largest |W| of a scale, "
               "at %d coefficients of each", difference, (int)EACH);
 }
@@ -209,8 +191,8 @@ transform_whole(const request *req, const char *path)
     const double *x = signal->values + column * signal->n;
     ss_morlet_opts opts = req->opts;
     opts.progress.function = tool_progress;
-    double begin = now();
-    check(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err), &err, path);
+    double begin = tool_seconds();
+    tool_check_input(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err), &err, path);
     if (req->check)
         f.w = tool_room(NULL, 2 * ss_morlet_grid(plan)->total, sizeof *f.w);
     open_output(&f, req, signal->head, column, signal->n, ss_morlet_grid(plan));
@@ -220,7 +202,7 @@ transform_whole(const request *req, const char *path)
     tool_check(ss_writer_rows(f.writer, all, signal->n, &err), &err);
     free(all);
     check_flow(&f, ss_morlet_each(plan, x, write_coefficients, &f, &err), &err, path);
-    say_what_was_done(plan, signal->n, now() - begin - f.seconds);
+    say_what_was_done(plan, signal->n, tool_seconds() - begin - f.seconds);
     if (req->check)
         compare(plan, x, f.w, path);
     tool_write_end(f.writer, signal->n);
@@ -238,7 +220,7 @@ invert(const request *req, const char *path)
     ss_error err = { 0 };
     double error, accuracy = tool_given("accuracy") ? req->opts.accuracy : 1e-3;
     const ss_progress progress = { tool_progress, &error };
-    check(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, progress, &err), &err,
+    tool_check_input(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, progress, &err), &err,
           path);
     const char *norm = ss_header_find_note(coef->head, "norm");
     tool_note("%zu samples from coefficients of the norm %s, error about %.2g between %.4g and %.4g Hz", signal->n,
@@ -316,7 +298,7 @@ transform_stream(const request *req, const char *path)
     const ss_header *head = ss_reader_header(reader);
     size_t column = tool_column(head, path, req->column);
     tool_end_at_rows(req->output);
-    check(ss_stream_new(&f.stream, head->rate, &req->opts, write_coefficients, &f, &err), &err, path);
+    tool_check_input(ss_stream_new(&f.stream, head->rate, &req->opts, write_coefficients, &f, &err), &err, path);
     const ss_scale *scale = ss_stream_grid(f.stream)->scale;
     size_t last = ss_stream_grid(f.stream)->n_scales - 1;
     tool_note("coefficients come at most %.3g s (of %.4g Hz) to %.3g s (of %.4g Hz) behind b",

@@ -35,11 +35,9 @@ static int seed = 1, bits;
 static double *
 choose_columns(const ss_header *head)
 {
-    double *chosen = calloc(head->n_columns, sizeof *chosen);
-    if (chosen == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    for (size_t c = 0; c < head->n_columns && wanted.n == 0; c++)
-        chosen[c] = 1;
+    double *chosen = tool_room(NULL, head->n_columns, sizeof *chosen);
+    for (size_t c = 0; c < head->n_columns; c++)
+        chosen[c] = wanted.n == 0;
     for (size_t i = 0; i < wanted.n; i++)
         chosen[tool_column(head, path, wanted.text[i])] = 1;
     return chosen;

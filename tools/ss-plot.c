@@ -91,30 +91,24 @@ typedef struct map_drawing {
     size_t column[MAP_COLUMNS], n;
 } map_drawing;
 
-static size_t
-find_column(const ss_table *t, const char *path, const char *name, size_t length)
-{
-    char list[512] = "";
-    for (size_t i = 0; i < t->n_columns; i++) {
-        const char *known = t->column[i].name;
-        if (strlen(known) == length && strncmp(known, name, length) == 0)
-            return i;
-        tool_list(list, sizeof list, known);
-    }
-    tool_die("%s: no column '%.*s', there are %s", tool_input_name(path), (int)length, name, list);
-}
-
 /* Find the columns that are named, and return their number. */
 static size_t
 find_columns(const ss_table *t, const char *path, const char *names, size_t column[], size_t most)
 {
     size_t n = 0;
-    for (; *names != '\0'; n++) {
-        size_t length = strcspn(names, ",");
+    for (size_t length; *names != '\0'; n++, names += length + (names[length] == ',')) {
+        char list[512] = "";
+        length = strcspn(names, ",");
         if (n == most)
             tool_usage("--map: more than %zu columns", most);
-        column[n] = find_column(t, path, names, length);
-        names += length + (names[length] == ',');
+        for (column[n] = 0; column[n] < t->n_columns; column[n]++) {
+            const char *known = t->column[column[n]].name;
+            if (strlen(known) == length && strncmp(known, names, length) == 0)
+                break;
+            tool_list(list, sizeof list, known);
+        }
+        if (column[n] == t->n_columns)
+            tool_die("%s: no column '%.*s', there are %s", tool_input_name(path), (int)length, names, list);
     }
     return n;
 }
@@ -203,14 +197,6 @@ choose_columns(drawing *d, const char *path, const tool_texts *name)
         d->column[i] = name->n > 0 ? find_signal_column(d->xy, head, path, name->text[i]) : i;
 }
 
-/* For the legend: without folders. */
-static const char *
-file_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash != NULL && slash[1] != '\0' ? slash + 1 : tool_input_name(path);
-}
-
 /* Warn if a column is drawn over one of another unit. */
 static void
 compare_units(const ss_column *under, const ss_header *over, int column, const char *path)
@@ -242,7 +228,7 @@ static void
 draw_signal(const char *path, const tool_texts *name, drawing d, char *const over[], size_t n, const char *features,
             const char *output, ss_read_opts *reading, ss_plot_opts *opts)
 {
-    const char *names[SS_PLOT_OVER + 1] = { file_name(path) };
+    const char *names[SS_PLOT_OVER + 1] = { tool_file_name(path) };
     ss_reader *others[SS_PLOT_OVER];
     ss_error err = { 0 };
     ss_read_opts plainly, *as = opts->alike ? reading : &plainly;
@@ -254,7 +240,7 @@ draw_signal(const char *path, const tool_texts *name, drawing d, char *const ove
     const ss_header *head = ss_reader_header(d.reader);
     for (size_t k = 0; k < n; k++) {
         others[k] = tool_read_rows(over[k], as);
-        names[k + 1] = file_name(over[k]);
+        names[k + 1] = tool_file_name(over[k]);
         compare_all_units(&d, ss_reader_header(others[k]), opts->alike, over[k]);
     }
     opts->over = others;
@@ -332,8 +318,7 @@ main(int argc, char *argv[])
     d.xy = xy.n > 0;
     if (features != NULL && (map != NULL || d.xy || d.spectrum))
         tool_usage("--features is over time; it excludes --map, --xy and --spectrum");
-    if (features != NULL && strcmp(features, "-") == 0 && strcmp(path, "-") == 0)
-        tool_usage("standard input can be read only once");
+    tool_one_stdin((const char *const[]){ path, features }, 2);
     opts.alike = n_others > 0;
     if (over != NULL) {
         others = &over;

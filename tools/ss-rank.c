@@ -44,17 +44,6 @@ typedef struct job {
     ss_motion_opts motion_opts;
 } job;
 
-/* The name of the signal in outputs, one line that does not depend on the file's directory; to be freed. */
-static char *
-signal_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    char *name = strdup(slash != NULL && strstr(path, ":/") == NULL ? slash + 1 : tool_input_name(path));
-    if (name == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    return ss_printable(name);
-}
-
 /* Draw under the signal's name. */
 static void
 draw(const job *j, tool_script *script, void *user)
@@ -164,14 +153,12 @@ note_work(const ss_ranking *r, char *const name[], const ss_rank_opts *opts)
 static void
 rank(const job *j, const ss_signal *signal, size_t column)
 {
-    ss_scene *scene = calloc(j->n_scenes + 1, sizeof *scene);
-    char **name = calloc(j->n_scenes + 1, sizeof *name);
+    ss_scene *scene = tool_room(NULL, j->n_scenes, sizeof *scene);
+    char **name = tool_room(NULL, j->n_scenes, sizeof *name);
     ss_ranking *r = NULL;
     ss_error err = { 0 };
-    if (scene == NULL || name == NULL)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
     for (size_t i = 0; i < j->n_scenes; i++) {
-        scene[i] = tool_read_scene(j->scenes[i], &j->settings);
+        scene[i] = tool_read_scene(j->scenes[i], &j->settings, "--set");
         name[i] = tool_name_scene(j->scenes[i], &j->settings);
     }
     tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, &j->opts, &err), &err);
@@ -223,10 +210,10 @@ write_median(FILE *out, const char *what, ss_number m, const char *unit, double 
 }
 
 static void
-warn_of_rig(const char *what, ss_number m, double given, double spread)
+warn_of_rig(const char *what, double found, double given, double spread)
 {
-    if (fabs(m.value / given - 1) > spread)
-        tool_warn("%s of the slips is %.2g times that of the given scene", what, m.value / given);
+    if (fabs(found / given - 1) > spread)
+        tool_warn("%s of the slips is %.2g times that of the given scene", what, found / given);
 }
 
 static void
@@ -282,13 +269,11 @@ static void
 warn_of_pull(const ss_pull *p, double k_over_m, double loading, double spread)
 {
     if (p->n_keys == 0) {
-        warn_of_rig("k/m", p->features->number[SS_K_OVER_M], k_over_m, spread);
-        warn_of_rig("loading", p->features->number[SS_LOADING_SLOPE], loading, spread);
+        warn_of_rig("k/m", p->features->number[SS_K_OVER_M].value, k_over_m, spread);
+        warn_of_rig("loading", p->features->number[SS_LOADING_SLOPE].value, loading, spread);
     }
     for (size_t i = 0; i < p->n_keys; i++)
-        if (fabs(p->key[i].found.value / p->key[i].given - 1) > spread)
-            tool_warn("%s of the slips is %.2g times that of the given scene", p->key[i].name,
-                      p->key[i].found.value / p->key[i].given);
+        warn_of_rig(p->key[i].name, p->key[i].found.value, p->key[i].given, spread);
     const ss_number *damping = &p->features->number[SS_SLIP_DAMPING];
     if (p->n_keys == 0 && damping->value > 3 * damping->error)
         tool_warn("the slips show a damping ratio of %.3g +- %.2g: the scene has none", damping->value, damping->error);
@@ -330,7 +315,7 @@ fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *s
 static void
 fit(const job *j, const ss_signal *signal, size_t column)
 {
-    ss_scene start = tool_read_scene(j->scenes[0], &j->settings);
+    ss_scene start = tool_read_scene(j->scenes[0], &j->settings, "--set");
     (ss_scene_is_pulled(&start) ? fit_pull : fit_contact)(j, signal, column, &start);
 }
 
@@ -629,7 +614,7 @@ main(int argc, char *argv[])
     ss_rank_opts_init(&j.opts, sizeof j.opts);
     ss_motion_opts_init(&j.motion_opts, sizeof j.motion_opts);
     parse(&j, argc, argv);
-    j.signal_name = signal_name(j.signal_path);
+    j.signal_name = tool_name_scene(j.signal_path, NULL);
     j.reading.opts.progress = (ss_progress){ tool_reading_progress, &j };
     if (j.motion != NULL)
         rank_motion(&j);

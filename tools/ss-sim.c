@@ -164,11 +164,6 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         opts->method = ss_sim_method_for(scene, &why);
         tool_note("method %s: %s", opts->method, why);
     }
-    if (opts->tol == 0) {
-        ss_sim_opts usual;
-        ss_sim_opts_init(&usual, sizeof usual);
-        opts->tol = usual.tol;
-    }
 }
 
 /* A mistyped rate must not fill the disk, or the memory, without a warning. */
@@ -208,7 +203,6 @@ parse(request *req, int argc, char *argv[])
 {
     ss_sim_opts *opts = &req->opts;
     ss_sim_opts_init(opts, sizeof *opts);
-    opts->tol = 0;                      /* not given */
     opts->progress.function = tool_progress;
     const tool_option options[] = {
         TOOL_TEXTS('s', "set", &req->settings), TOOL_TEXT('b', "base", &req->base),
@@ -231,7 +225,7 @@ parse(request *req, int argc, char *argv[])
         ;
     if (req->events && !form.has_words)
         tool_usage("--events are text, and this --format holds numbers only");
-    if (req->accuracy > 0 && opts->tol > 0)
+    if (req->accuracy > 0 && tool_given("tol"))
         tool_usage("--accuracy and --tol exclude each other");
 }
 
@@ -267,7 +261,7 @@ main(int argc, char *argv[])
     tool_begin(argv, "ss-sim", usage);
     ss_sim_columns_parse(&req.columns, "t,x,v,a,f", NULL);
     parse(&req, argc, argv);
-    ss_scene scene = tool_read_scene(req.scene_path, &req.settings);
+    ss_scene scene = tool_read_scene(req.scene_path, &req.settings, "--set");
     if (req.list) {
         write_scene(&req, &scene);
         free(req.settings.text);

@@ -45,36 +45,27 @@ typedef struct request {
 /* --- options ------------------------------------------------------------------------------- */
 
 static void
-pick_measure(request *req, const char *name, size_t length)
+pick_measure(request *req, ss_measure m)
 {
-    for (ss_measure m = 0; m < SS_MEASURES; m++) {
-        const char *known = ss_measure_label(m)->name;
-        if (strlen(known) != length || strncmp(known, name, length) != 0)
-            continue;
-        if (req->steady.measures & 1u << m)
-            tool_usage("--measure: '%s' is repeated", known);
-        req->steady.measures |= 1u << m;
-        req->pick[req->n_picks++] = m;
-        return;
-    }
-    char list[512] = "";
-    for (ss_measure m = 0; m < SS_MEASURES; m++)
-        tool_list(list, sizeof list, ss_measure_label(m)->name);
-    tool_usage("--measure: '%.*s' is none of %s", (int)length, name, list);
+    if (req->steady.measures & 1u << m)
+        tool_usage("--measure: '%s' is repeated", ss_measure_label(m)->name);
+    req->steady.measures |= 1u << m;
+    req->pick[req->n_picks++] = m;
 }
 
 static void
 set_measures(const tool_option *o, char *names)
 {
     request *req = o->to;
+    const char *known[SS_MEASURES + 1] = { NULL };
+    for (ss_measure m = 0; m < SS_MEASURES; m++)
+        known[m] = ss_measure_label(m)->name;
     req->steady.measures = 0;
     req->n_picks = 0;
-    for (const char *name = names;; name++) {
-        size_t length = strcspn(name, ",");
-        pick_measure(req, name, length);
-        name += length;
-        if (*name == '\0')
-            return;
+    for (char *comma; names != NULL; names = comma) {
+        if ((comma = strchr(names, ',')) != NULL)
+            *comma++ = '\0';
+        pick_measure(req, (ss_measure)tool_choice("--measure", names, known));
     }
 }
 
@@ -89,7 +80,7 @@ pick_usual(request *req, const ss_scene *scene)
         ss_steady_opts_init(&has, sizeof has);
         has.measures = 1u << usual[i];
         if (ss_steady_check(&has, scene, NULL) == SS_OK)
-            pick_measure(req, ss_measure_label(usual[i])->name, strlen(ss_measure_label(usual[i])->name));
+            pick_measure(req, usual[i]);
     }
 }
 
@@ -117,17 +108,10 @@ add_axis(const tool_option *o, char *text)
 }
 
 static void
-simulate(const tool_option *o, char *text)
+set_search(const tool_option *o, char *text)
 {
     (void)text;
-    *(ss_search *)o->to = SS_SEARCH_SIMULATE;
-}
-
-static void
-shoot(const tool_option *o, char *text)
-{
-    (void)text;
-    *(ss_search *)o->to = SS_SEARCH_SHOOT;
+    *(ss_search *)o->to = strcmp(o->name, "shoot") == 0 ? SS_SEARCH_SHOOT : SS_SEARCH_SIMULATE;
 }
 
 static void
@@ -137,8 +121,8 @@ parse(request *req, int argc, char *argv[])
     ss_steady_opts *steady = &req->steady;
     const tool_option options[] = {
         TOOL_VALUE('y', "vary", add_axis, req), TOOL_VALUE('m', "measure", set_measures, req),
-        TOOL_TEXTS('s', "set", &req->settings), TOOL_CALL(0, "simulate", simulate, &steady->search),
-        TOOL_CALL(0, "shoot", shoot, &steady->search),
+        TOOL_TEXTS('s', "set", &req->settings), TOOL_CALL(0, "simulate", set_search, &steady->search),
+        TOOL_CALL(0, "shoot", set_search, &steady->search),
         TOOL_NUMBER('t', "tol", &steady->tol, ss_steady_tolerances),
         TOOL_WHOLE(0, "max-period", &steady->max_period, periods),
         TOOL_WHOLE(0, "strobe", &steady->strobe, strobes),
@@ -198,8 +182,8 @@ read_scene(const request *req)
         snprintf(first[i], LONGEST, "%s=%.17g", req->axis[i].key, req->axis[i].from);
         all.text[all.n++] = first[i];
     }
-    const ss_scene scene = tool_read_scene_by(req->scene_path, &all,
-                                              all.n > req->settings.n ? "--set or --vary" : "--set");
+    const ss_scene scene = tool_read_scene(req->scene_path, &all,
+                                           all.n > req->settings.n ? "--set or --vary" : "--set");
     free(first);
     free(all.text);
     return scene;

@@ -1,6 +1,5 @@
 /* ss-trade -- what accuracy costs on a scene, or in the transform of a signal, method by method, and
  * what a simpler scene costs in accuracy, measured on this machine. */
-#include <ctype.h>
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,20 +86,12 @@ keep_input(void)
 static int
 reads_as_scene(FILE *in)
 {
-    char line[4096];
-    const char *p;
+    char line[4096], first[2], equals[2];
     while (fgets(line, sizeof line, in) != NULL) {
         if (strncmp(line, "# stickslip signal", 18) == 0)
             return 0;
-        for (p = line; isspace((unsigned char)*p); p++)
-            ;
-        if (*p == '#' || *p == '\0')
-            continue;
-        for (; isalnum((unsigned char)*p) || *p == '_'; p++)
-            ;
-        while (*p == ' ' || *p == '\t')
-            p++;
-        return *p == '=';
+        if (sscanf(line, " %1[^#]", first) == 1)
+            return sscanf(line, " %*[A-Za-z0-9_] %1[=]", equals) == 1;
     }
     return 1;       /* the reader of scenes has the best message for an empty file */
 }
@@ -131,7 +122,7 @@ measure_scene(request *req)
     ss_error err = { 0 };
     if (req->column != NULL || req->dense || req->reading.given)
         tool_usage("--column, --dense and options of reading are for a signal, and %s is a scene", req->path);
-    ss_scene scene = tool_read_scene(req->path, &req->settings);
+    ss_scene scene = tool_read_scene(req->path, &req->settings, "--set");
     req->name = tool_name_scene(req->path, &req->settings);
     tool_check(ss_trade_measure(&trade, &scene, &req->opts, &err), &err);
     tool_note("%zu row%s against %s, whose x is known within %.2g of its maximum", trade->n,
@@ -150,7 +141,7 @@ measure_signal(request *req)
         tool_usage("--set is for a scene, and %s is a signal", tool_input_name(req->path));
     ss_signal *signal = tool_read_signal(req->path, &req->reading.opts);
     size_t column = tool_column(signal->head, req->path, req->column);
-    req->name = tool_name_scene(req->path, &(tool_texts){ NULL, 0 });
+    req->name = tool_name_scene(req->path, NULL);
     grid.dense = req->dense;
     tool_check(ss_trade_transform(&trade, signal->values + column * signal->n, signal->n,
                                   signal->head->rate, &grid, &req->opts, &err), &err);
@@ -195,7 +186,7 @@ compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
     ss_models_opts opts;
     ss_models_opts_init(&opts, sizeof opts);
     ss_error err = { 0 };
-    ss_scene scene = tool_read_scene(req->path, &req->settings);
+    ss_scene scene = tool_read_scene(req->path, &req->settings, "--set");
     req->name = tool_name_scene(req->path, &req->settings);
     plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
     opts.progress = (ss_progress){ tool_progress, req };
