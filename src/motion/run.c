@@ -13,8 +13,9 @@
 #include "base/options.h"
 #include "base/progress.h"
 #include "base/range.h"
-#include "motion/method.h"
 #include "motion/kind.h"
+#include "motion/method.h"
+#include "motion/walk.h"
 
 const ss_range ss_sim_tolerances = { 1e-14, 0.1 };
 static const ss_sim_opts usual = { .size = sizeof usual, .method = NULL, .tol = 1e-12 };
@@ -42,7 +43,6 @@ typedef struct sampler {
     instant end;                        /* of the record, from the start of settling */
     size_t n, i;                        /* all samples, 0 if no one wants any; the next sample */
     double interval;                    /* between samples */
-    double cap;                         /* the longest step in the present mode */
     double work;                        /* the right-hand sides allowed if there is no max_steps */
     turn base, base_further;            /* the base's phase at sample i - 1, its change in an interval */
     size_t filled;
@@ -94,17 +94,17 @@ until_sample(const sampler *r, const motion *m, size_t i)
 
 /* Fill in the next sample, which is s from now. */
 static void
-fill_sample(ss_sample *sample, sampler *r, engine *e, int still, double s)
+fill_sample(ss_sample *sample, sampler *r, const walk *w, double s)
 {
-    const motion *m = e->m;
+    const motion *m = &w->m;
     double q[MAX_DIM], dqdt[MAX_DIM] = { 0 };
     int renew = r->i % RENEWAL == 0;
     r->base = renew ? ss_motion_base(m, instant_of_sample(r, r->i))
         : turn_further(r->base, r->base_further);
-    if (still)
+    if (w->still)
         memcpy(q, m->now.q, sizeof q);
     else
-        e->type->at(e, renew ? FIRST_SAMPLE : NEXT_SAMPLE, s > 0 ? s : 0, r->base, q, dqdt);
+        w->e->type->at(w->e, renew ? FIRST_SAMPLE : NEXT_SAMPLE, s > 0 ? s : 0, r->base, q, dqdt);
     motion_sample(m, r->base, m->now.u + s, q, dqdt, sample);
     sample->t = (double)r->i / r->scene->rate;
 }
@@ -132,15 +132,15 @@ check_sample(const sampler *r, const ss_sample *s, ss_error *err)
     return check_each(r, s, err);
 }
 
-/* Write all samples before h from now. */
+/* Write all samples of a leg. */
 static ss_status
-write_samples(sampler *r, engine *e, int still, double h, ss_error *err)
+write_samples(sampler *r, const walk *w, ss_error *err)
 {
     ss_status st = SS_OK;
     if (r->i == r->n)
         return SS_OK;
-    double first = until_sample(r, e->m, r->i), s = first;
-    for (double n = 1; r->i < r->n && s < h; r->i++, s = first + n++ * r->interval) {
+    double first = until_sample(r, &w->m, r->i), s = first;
+    for (double n = 1; r->i < r->n && s < w->h; r->i++, s = first + n++ * r->interval) {
         if (r->filled == BUFFERED) {
             st = flush(r);
             if (st == SS_OK)
@@ -149,7 +149,7 @@ write_samples(sampler *r, engine *e, int still, double h, ss_error *err)
                 return st;
         }
         ss_sample *sample = &r->buffer[r->filled++];
-        fill_sample(sample, r, e, still, s);
+        fill_sample(sample, r, w, s);
         st = check_sample(r, sample, err);
         if (st != SS_OK)
             return st;
@@ -173,25 +173,6 @@ write_event(sampler *r, const motion *m, ss_event *e)
 }
 
 /* --- from event to event ------------------------------------------------------------------- */
-
-static void
-begin_mode(sampler *r, engine *e)
-{
-    r->cap = ss_step_cap(&e->m->now);
-    ss_engine_begin(e);
-}
-
-static ss_status
-change_mode(sampler *r, engine *e, int still, double s)
-{
-    ss_event event;
-    ss_status st = SS_OK;
-    if (ss_engine_next_mode(e, still, s, &event))
-        st = write_event(r, e->m, &event);
-    if (st == SS_OK)
-        begin_mode(r, e);
-    return st;
-}
 
 /* No machine takes so many steps in useful time: a scene that needs more is refused at once. */
 #define TOO_MANY_STEPS 1e12
@@ -265,79 +246,37 @@ check_length(const sampler *r, const state *m, int exact, ss_error *err)
                    slow < own ? what : m->omega >= slow ? "the base" : "the spring", most);
 }
 
-/* Make a step, at most up to the next knot of a measured base.  *h becomes its length, or the time to the
- * end of the mode if that comes first. */
+/* Walk leg by leg, at most up to the next knot of a measured base. */
 static ss_status
-step(const sampler *r, engine *e, double knot, double *h, int *ends, ss_error *err)
+run(sampler *r, walk *w, ss_error *err)
 {
-    const motion *m = e->m;
-    double cap = fmin(r->cap, knot);
-    if (!has_budget(r, e))
-        return over_budget(r, e, cap, err);
-    if (e->lands_on_samples && r->i < r->n) {
-        double s = until_sample(r, m, r->i);
-        cap = fmin(cap, s > 0 ? s : until_sample(r, m, r->i + 1));
-    }
-    ss_status st = ss_engine_step(e, cap, err);
-    if (st == SS_OK && e->steps % REPORT_STEPS == 0)
-        st = report(r, m->origin.hi + m->now.u);
-    if (st != SS_OK)
-        return st;
-    *h = e->h;
-    return ss_engine_ends_within(e, ends, h, err);
-}
-
-static ss_status
-run(sampler *r, engine *e, ss_error *err)
-{
-    motion *m = e->m;
+    const motion *m = &w->m;
     const state *now = &m->now;
-    const ss_model *model = now->model;
-    double lasted = 0;                      /* duration of the present mode */
-    int in_a_row = 0;
-
+    const engine *e = w->e;
     for (;;) {
-        double h, knot = r->scene->base != NULL ? now->u_knot - now->u : INFINITY;
-        int still = model->still != NULL && model->still(now, &h), ends = still && isfinite(h);
-        ss_status st = SS_OK;
-        if (still) {
-            h = ends ? h - now->u : knot;
-            ss_engine_rest(e, h);
-        } else
-            st = step(r, e, knot, &h, &ends, err);
-        if (st == SS_OK)
-            st = write_samples(r, e, still, h, err);
-        if (st != SS_OK)
-            return st;
-        if (instant_diff(r->end, m->origin) - now->u <= h)
-            return flush(r);
-        lasted += h;
-        if (!ends) {
-            ss_engine_accept(e);
-            continue;
+        ss_event event;
+        int is_event, steps = now->mode != 0 || now->model->still == NULL;
+        double longest = r->scene->base != NULL ? now->u_knot - now->u : INFINITY;
+        if (steps && !has_budget(r, e))
+            return over_budget(r, e, fmin(w->cap, longest), err);
+        if (steps && e->lands_on_samples && r->i < r->n) {
+            double s = until_sample(r, m, r->i);
+            longest = fmin(longest, s > 0 ? s : until_sample(r, m, r->i + 1));
         }
-        st = change_mode(r, e, still, h);
+        ss_status st = ss_walk_leg(w, longest, err);
+        if (st == SS_OK && steps && e->steps % REPORT_STEPS == 0)
+            st = report(r, m->origin.hi + now->u);
         if (st == SS_OK)
-            st = ss_motion_chatters(m, lasted, &in_a_row, err);
+            st = write_samples(r, w, err);
         if (st != SS_OK)
             return st;
-        lasted = 0;
+        if (instant_diff(r->end, m->origin) - now->u <= w->h)
+            return flush(r);
+        st = ss_walk_on(w, &is_event, &event, err);
+        ss_status written = is_event ? write_event(r, m, &event) : SS_OK;
+        if (st != SS_OK || written != SS_OK)
+            return st != SS_OK ? st : written;
     }
-}
-
-/* A start in slip is an event at t = 0. */
-static ss_status
-begin(sampler *r, engine *e, int slips)
-{
-    ss_event event = { .kind = SS_SLIP, .direction = e->m->now.mode };
-    ss_status st = SS_OK;
-    if (slips) {
-        e->events++;
-        st = write_event(r, e->m, &event);
-    }
-    if (st == SS_OK)
-        begin_mode(r, e);
-    return st;
 }
 
 ss_status
@@ -358,7 +297,6 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *given, ss_sim_stats *stats,
 {
     if (scene == NULL)
         return SS_FAIL_NULL(err);
-    const struct method *how = NULL;
     ss_sim_opts own;
     const ss_sim_opts *opts = &own;
     ss_status st = ss_sim_opts_take(&own, given, err);
@@ -366,8 +304,6 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *given, ss_sim_stats *stats,
         st = ss_record_check(scene, err);
     if (st == SS_OK)
         st = ss_range_check(opts->tol, ss_sim_tolerances, "tolerance", err);
-    if (st == SS_OK)
-        st = ss_method_named(&how, opts->method, scene, err);
     if (st != SS_OK)
         return st;
     ss_sample buffer[BUFFERED];
@@ -376,22 +312,22 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *given, ss_sim_stats *stats,
                  .end = instant_sum(scene->settle, scene->duration),
                  .interval = 1 / scene->rate, .work = work_allowed(scene),
                  .base_further = base_turns(scene) };
-    int exact = how->kind == CLOSED_FORM;
-    motion m = ss_motion_of(scene, exact, opts->tol);
-    engine *e = NULL;
-    int slips = ss_motion_start(&m);
-    st = check_length(&r, &m.now, exact, err);
-    if (st != SS_OK)
-        return st;
-    st = ss_engine_new(&e, &m, how, opts->tol, err);
+    walk w;
+    st = ss_walk_begin(&w, scene, opts, err);
+    w.by_steps = 1;
     if (st == SS_OK)
-        st = begin(&r, e, slips);
+        st = check_length(&r, &w.m.now, w.how->kind == CLOSED_FORM, err);
+    if (st == SS_OK && w.slips) {       /* a start in slip is an event at t = 0 */
+        ss_event event = { .kind = SS_SLIP, .direction = w.m.now.mode };
+        w.e->events++;
+        st = write_event(&r, &w.m, &event);
+    }
     if (st == SS_OK)
-        st = run(&r, e, err);
-    unsigned long unresolved = ss_motion_unresolved(&m);
-    if (stats != NULL && e != NULL)
-        *stats = (ss_sim_stats){ e->steps, e->rhs, e->events,
-                                 unresolved > 0 ? unresolved : (unsigned long)ss_motion_fades(&m) };
-    ss_engine_free(e);
+        st = run(&r, &w, err);
+    unsigned long unresolved = ss_motion_unresolved(&w.m);
+    if (stats != NULL && w.e != NULL)
+        *stats = (ss_sim_stats){ w.e->steps, w.e->rhs, w.e->events,
+                                 unresolved > 0 ? unresolved : (unsigned long)ss_motion_fades(&w.m) };
+    ss_walk_end(&w);
     return st;
 }

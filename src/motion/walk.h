@@ -1,4 +1,4 @@
-/* walk.h -- a motion from event to event, for callers that need no samples.
+/* walk.h -- a motion from event to event.
  *
  * A walk is a sequence of legs without an event inside.  ss_walk_leg finds a leg, ss_walk_at gives
  * the state within it, and ss_walk_on goes to its end. */
@@ -14,6 +14,10 @@ enum { RHS_PER_STEP = 20 };
 typedef struct walk {
     motion m;                       /* at the start of the leg; engines point at it: do not copy */
     engine *e;
+    const struct method *how;
+    int slips;                      /* 1: it started in slip */
+    int by_steps;                   /* 1: events are sought in steps, even if the engine can look ahead */
+    double cap;                     /* the longest step in the present mode [s] */
     unsigned long max_steps;        /* 0: no limit */
     double lasted;                  /* duration of the present mode before the leg [s] */
     int in_a_row;                   /* events that follow each other at once */
@@ -22,11 +26,12 @@ typedef struct walk {
     int ends;                       /* 1: an event ends it */
 } walk;
 
-/* Begin at the start of a scene, which the caller keeps.  Of opts, method, tol and max_steps count. */
+/* Begin at the start of a scene, which the caller keeps.  Of opts, method and tol count. */
 ss_status ss_walk_begin(walk *w, const ss_scene *scene, const ss_sim_opts *opts, ss_error *err);
 /* Begin at the state of a motion with the same scene; its time becomes t = 0. */
 void ss_walk_begin_at(walk *w, const motion *from);
-/* Find the next leg.  It lasts until the next event, but at most `longest` seconds. */
+/* Find the next leg.  It lasts until the next event, but at most `longest` seconds; a stick may be
+ * without end. */
 ss_status ss_walk_leg(walk *w, double longest, ss_error *err);
 /* The state and its rate of change at s after the start of the leg, 0 <= s <= h. */
 void ss_walk_at(walk *w, double s, double q[], double dqdt[]);

@@ -59,11 +59,11 @@ tolerance_of_walks(const cycles *c)
 void
 ss_cycles_begin(cycles *c)
 {
-    const ss_sim_opts sim = { .size = sizeof(ss_sim_opts), .method = c->how->name, .tol = tolerance_of_walks(c),
-                              .max_steps = c->opts->max_steps };
+    const ss_sim_opts sim = { .method = c->how->name, .tol = tolerance_of_walks(c) };
     const state *m = &c->w.m.now;
     c->n = 0;
     c->status = ss_walk_begin(&c->w, c->scene, &sim, c->err);
+    c->w.max_steps = c->opts->max_steps;
     double scale[MAX_DIM] = { m->x_scale, m->x_scale * fmax(m->omega, own_frequency(m->scene)), 1 };
     memory_of(m, &scale[2]);
     if (m->model->scales != NULL)
@@ -187,6 +187,9 @@ go_leg(cycles *c, double longest, meter *r, tangent *t)
     double q[MAX_DIM], rates[MAX_DIM];
     int is_event = 0, mode = w->m.now.mode;
     c->status = ss_walk_leg(w, longest, c->err);
+    if (c->status == SS_OK && isinf(w->h))
+        c->status = ss_fail(c->err, SS_EDATA, "the stick at t = %.9g s is without end: no slip comes within a "
+                            "time that a double holds", w->m.origin.hi + w->m.now.u);
     if (c->status != SS_OK)
         return 0;
     int crosses = c->from_pull && crosses_pull(c);
