@@ -61,13 +61,6 @@ ss_format_table(ss_format of)
 }
 
 int
-ss_format_has_words(ss_format of)
-{
-    const struct format *table = ss_format_table(of);
-    return table != NULL && table->separator != '\0';
-}
-
-int
 ss_format_at(ss_format_info *out, size_t i)
 {
     for (size_t k = 0; out != NULL && k < FORMATS; k++)

@@ -81,7 +81,6 @@ _Static_assert((int)SS_TSV == FORMAT_tsv && (int)SS_AU == FORMAT_au && (int)SS_C
 
 /* The table of a format in which streams are written, or NULL. */
 const struct format *ss_format_table(ss_format of);
-int ss_format_has_words(ss_format of);
 /* Open a stream in the format that its first bytes show. */
 ss_status ss_format_open(ss_source **out, const struct opening *o, ss_error *err);
 /* The format of a file that only its path opens; NULL: it is a stream, or there is none. */

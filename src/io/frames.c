@@ -90,18 +90,6 @@ skip_chunks(struct frames *f, ss_error *err)
     }
 }
 
-/* SS_EDATA if bytes other than chunks follow the data: then either they or the length that the header gives
- * is wrong. */
-static ss_status
-refuse_more(struct frames *f, ss_error *err)
-{
-    struct input *in = f->in;
-    if (f->is_chunk)
-        return skip_chunks(f, err);
-    ss_status st = ss_input_need(in, 1, err);
-    return st == SS_OK && in->hi > in->lo ? refuse_rest(f, err) : st;
-}
-
 static ss_status
 give_frames(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
@@ -126,7 +114,13 @@ give_frames(ss_source *s, double *const column[], size_t max, size_t *n, ss_erro
         if (f->bytes_left != UINT64_MAX)
             f->bytes_left -= frame;
     }
-    return *n == 0 && f->bytes_left == 0 && f->end > 0 ? refuse_more(f, err) : SS_OK;
+    if (*n > 0 || f->bytes_left > 0 || f->end == 0)
+        return SS_OK;
+    if (f->is_chunk)
+        return skip_chunks(f, err);
+    /* if bytes follow the data, either they or the length that the header gives is wrong */
+    ss_status st = ss_input_need(in, 1, err);
+    return st == SS_OK && in->hi > in->lo ? refuse_rest(f, err) : st;
 }
 
 struct frames *

@@ -79,16 +79,6 @@ read_line(overlay_reader *r, ss_kind kind, const char *line, ss_error *err)
     return r->no_memory ? ss_fail_memory(err, r->in.name) : SS_OK;
 }
 
-static ss_status
-read_lines(overlay_reader *r, ss_kind kind, ss_error *err)
-{
-    char *line;
-    ss_status st = ss_input_begin(&r->in, kind, err);
-    while (st == SS_OK && (st = ss_input_row(&r->in, &line, err)) == SS_OK && line != NULL)
-        st = read_line(r, kind, line, err);
-    return st;
-}
-
 ss_status
 ss_overlay_read(ss_overlay **out, FILE *in, const char *name, ss_kind kind, ss_error *err)
 {
@@ -97,12 +87,15 @@ ss_overlay_read(ss_overlay **out, FILE *in, const char *name, ss_kind kind, ss_e
     if (kind != SS_KIND_EVENTS && kind != SS_KIND_FEATURES)
         return ss_fail(err, SS_EINVAL, "an overlay is a list of features or of events");
     overlay_reader r = { .overlay = calloc(1, sizeof *r.overlay) };
+    char *line;
     *out = NULL;
     ss_status st = ss_input_open(&r.in, in, name, err);
     if (st == SS_OK && r.overlay == NULL)
         st = ss_fail_memory(err, name);
     if (st == SS_OK)
-        st = read_lines(&r, kind, err);
+        st = ss_input_begin(&r.in, kind, err);
+    while (st == SS_OK && (st = ss_input_row(&r.in, &line, err)) == SS_OK && line != NULL)
+        st = read_line(&r, kind, line, err);
     ss_input_close(&r.in);
     if (st == SS_OK)
         *out = r.overlay;

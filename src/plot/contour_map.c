@@ -61,22 +61,12 @@ survey(filling *f, size_t i, const double *level)
     return 1;
 }
 
-static void
-fill_row(double *row, const contour_map *map, const filling *f, size_t s,
-         const double *level)
-{
-    double width = (map->to - map->from) / CONTOUR_COLUMNS;
-    for (size_t i = 0; i <= CONTOUR_COLUMNS; i++) {
-        double t = map->from - f->c->head->start + (double)i * width;
-        row[i] = in_column(&f->c->scale[s], level, t - width / 2, t + width / 2);
-    }
-}
-
 /* Fill the rows with |W|, and survey all scales. */
 static ss_status
 fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
 {
     const ss_coefficients *c = f->c;
+    double width = (map->to - map->from) / CONTOUR_COLUMNS;
     for (size_t s = 0; s < c->n_scales; s++) {
         ss_status st = ss_map_read(c, &(ss_map_part){ s, 0, c->scale[s].n, NULL, level }, 1, err);
         if (st != SS_OK)
@@ -84,8 +74,11 @@ fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
         if (!survey(f, s, level))
             return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite",
                            c->scale[s].f);
-        if (s >= f->first && s - f->first < map->rows)
-            fill_row(map->level + (s - f->first) * (CONTOUR_COLUMNS + 1), map, f, s, level);
+        for (size_t i = 0; s >= f->first && s - f->first < map->rows && i <= CONTOUR_COLUMNS; i++) {
+            double t = map->from - c->head->start + (double)i * width;
+            map->level[(s - f->first) * (CONTOUR_COLUMNS + 1) + i]
+                = in_column(&c->scale[s], level, t - width / 2, t + width / 2);
+        }
         if (ss_progress_at(&f->contour->progress, (double)(s + 1) / (double)c->n_scales) != SS_OK)
             return SS_STOP;
     }

@@ -39,14 +39,6 @@ ss_series_begin(series *s, ss_reader *reader, const size_t column[], size_t n, d
     return ss_header_gaps(&s->gap, &s->n_gaps, head, err);
 }
 
-/* A quarter of an interval after the sample: times of gaps are rounded. */
-static int
-is_missing(const series *s, size_t row)
-{
-    double t = s->head->start + ((double)row + 0.25) / s->head->rate;
-    return s->n_gaps > 0 && ss_gaps_near(s->gap, s->n_gaps, t, 0);
-}
-
 ss_status
 ss_series_next(series *s, size_t *n, ss_error *err)
 {
@@ -63,8 +55,9 @@ ss_series_next(series *s, size_t *n, ss_error *err)
     for (size_t c = s->n_columns; c-- > 0;) {           /* a column that is drawn twice is read once */
         double *x = s->value + c * s->piece;
         memmove(x, s->wanted[s->column[c]] + from, *n * sizeof *x);
-        for (size_t i = 0; i < *n; i++)
-            if (is_missing(s, s->rows - got + from + i))
+        for (size_t i = 0; i < *n; i++)         /* a quarter of an interval later: times of gaps are rounded */
+            if (s->n_gaps > 0 && ss_gaps_near(s->gap, s->n_gaps, s->head->start
+                                              + ((double)(s->rows - got + from + i) + 0.25) / s->head->rate, 0))
                 x[i] = NAN;
             else if (!isfinite(x[i]))
                 return ss_fail(err, SS_EINVAL, "%s cannot be drawn: a value is not finite",

@@ -19,15 +19,6 @@ between(double left, double right, size_t k, size_t i, size_t j)
     return (1 - part) * left + part * right;
 }
 
-/* Replace the missing values [i, j) of the n values x.  At an end of x the only neighbour serves as both. */
-static void
-fill_run(double *x, size_t i, size_t j, size_t n)
-{
-    double left = i > 0 ? x[i - 1] : j < n ? x[j] : 0, right = j < n ? x[j] : left;
-    for (size_t k = i; k < j; k++)
-        x[k] = between(left, right, k, i, j);
-}
-
 /* --- rows that are read twice -------------------------------------------------------------- */
 
 /* The rows [first, end) of one column have no value; left and right are the values beside them. */
@@ -318,7 +309,10 @@ ss_gaps_bridge(double *x, size_t n, double rate, const ss_span *gap, size_t n_ga
     for (size_t g = 0; g < n_gaps; g++) {
         size_t first, end;
         ss_gap_rows(&gap[g], rate, &first, &end);
-        fill_run(x, first, end < n ? end : n, n);
+        end = end < n ? end : n;
+        double left = first > 0 ? x[first - 1] : end < n ? x[end] : 0, right = end < n ? x[end] : left;
+        for (size_t k = first; k < end; k++)
+            x[k] = between(left, right, k, first, end);
     }
 }
 

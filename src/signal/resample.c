@@ -35,55 +35,47 @@ struct resampled {
     double **sample;            /* of each column */
 };
 
-/* Samples of one column: sample first + i, at from + (first + i) / rate, goes to x[i]. */
-struct target {
-    double from, rate, first;
-    double *x;
-    size_t n;
-};
-
 /* Fill in the samples between the first and the last of n values.  SS_ERANGE: one of them is not finite,
  * since differences of values or of stamps overflow. */
 static ss_status
-fill_piece(const struct target *to, const double *t, const double *value, size_t n)
+fill_piece(const struct resampled *r, double *x, const double *t, const double *value, size_t n)
 {
-    double first = ceil((t[0] - to->from) * to->rate - AT_END);
-    double last = floor((t[n - 1] - to->from) * to->rate + AT_END);
+    const double rate = r->base.head->rate;
+    double first = ceil((t[0] - r->first) * rate - AT_END), last = floor((t[n - 1] - r->first) * rate + AT_END);
     gsl_interp *spline = n > 1 ? gsl_interp_alloc(n > 2 ? gsl_interp_cspline : gsl_interp_linear, n)
                                : NULL;
     gsl_interp_accel at = { 0, 0, 0 };
     if (n > 1 && spline == NULL)
         return SS_ENOMEM;
     int good = n == 1 || gsl_interp_init(spline, t, value, n) == GSL_SUCCESS;
-    for (double i = fmax(first, to->first); good && i <= last && i < to->first + (double)to->n; i++) {
-        double s = fmin(fmax(to->from + i / to->rate, t[0]), t[n - 1]);
-        double x = n > 1 ? gsl_interp_eval(spline, t, value, s, &at) : value[0];
-        to->x[(size_t)(i - to->first)] = x;
-        good = isfinite(x);
+    for (double i = fmax(first, r->at); good && i <= last && i < r->at + (double)r->base.held; i++) {
+        double s = fmin(fmax(r->first + i / rate, t[0]), t[n - 1]), *to = x + (size_t)(i - r->at);
+        *to = n > 1 ? gsl_interp_eval(spline, t, value, s, &at) : value[0];
+        good = isfinite(*to);
     }
     gsl_interp_free(spline);
     return good ? SS_OK : SS_ERANGE;
 }
 
-/* Fill in one column: by a spline through each piece without a gap, and NaN between the pieces. */
+/* Fill in the next samples of one column: by a spline through each piece without a gap, and NaN between the pieces. */
 static ss_status
-fill_column(const struct resampled *r, const struct target *to, const double *value)
+fill_column(const struct resampled *r, double *x, const double *value)
 {
     size_t k = 0;
     ss_status st = SS_OK;
-    for (size_t i = 0; i < to->n; i++)
-        to->x[i] = NAN;
+    for (size_t i = 0; i < r->base.held; i++)
+        x[i] = NAN;
     for (size_t i = 0; st == SS_OK && i < r->n; i++) {
         int there = !isnan(value[i]);
         if (k > 0 && (!there || r->stamp[i] - r->kept_stamp[k - 1] > r->longest)) {
-            st = fill_piece(to, r->kept_stamp, r->kept, k);
+            st = fill_piece(r, x, r->kept_stamp, r->kept, k);
             k = 0;
         }
         r->kept_stamp[k] = r->stamp[i];
         r->kept[k] = value[i];
         k += (size_t)there;
     }
-    return st == SS_OK && k > 0 ? fill_piece(to, r->kept_stamp, r->kept, k) : st;
+    return st == SS_OK && k > 0 ? fill_piece(r, x, r->kept_stamp, r->kept, k) : st;
 }
 
 /* Discard the rows that the next sample does not need, and read as many further ones. */
@@ -141,8 +133,7 @@ make_samples(ss_source *s, double *const column[], size_t max, size_t *n, ss_err
         s->held = st == SS_OK ? count_ready(r) : 0;
     } while (st == SS_OK && s->held == 0 && !r->ended);
     for (size_t c = 0; st == SS_OK && s->held > 0 && c < r->columns; c++) {
-        const struct target to = { r->first, s->head->rate, r->at, r->sample[c], s->held };
-        st = fill_column(r, &to, r->value[c]);
+        st = fill_column(r, r->sample[c], r->value[c]);
         if (st == SS_ENOMEM)
             ss_fail_memory(err, s->name);
         else if (st == SS_ERANGE)

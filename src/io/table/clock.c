@@ -79,12 +79,6 @@ struct line {
     double period, at_0;
 };
 
-static double
-distance(struct line l, double sample, double stamp)
-{
-    return fabs(stamp - l.at_0 - l.period * sample);
-}
-
 static struct line
 fit_line(struct stamps s, struct clock *c)
 {
@@ -116,7 +110,7 @@ farthest_from(struct line l, struct stamps s, double usual)
     struct sample_count count = { .usual = usual };
     struct off worst = { .by = 0 };
     while (ss_stamps_next(&s)) {
-        double off = distance(l, (double)ss_clock_sample(&count, s.stamp), s.stamp);
+        double off = fabs(s.stamp - l.at_0 - l.period * (double)ss_clock_sample(&count, s.stamp));
         if (!(off <= worst.by * (1 + 1e-9)))    /* NaN, too */
             worst = (struct off){ off, s.stamp - s.before, s.line };
     }

@@ -396,18 +396,6 @@ ss_text_read_names(struct text *x, ss_error *err)
 #define MOST_APART 0.1          /* a time may be off by so many sample periods, as on any clock */
 #define MOST_ROUNDING 5.1e-7    /* [s] LabVIEW writes six decimals */
 
-/* Column 0 becomes the column of times, in seconds. */
-static ss_status
-name_first_time(struct text *x)
-{
-    char *name = strdup("X_Value");
-    if (name == NULL)
-        return SS_ENOMEM;
-    free(x->t.names->column[0].name);
-    x->t.names->column[0].name = name;
-    return set_unit(x, 0, "s");
-}
-
 /* The first column may repeat the times that the header gives, or hold the rows' numbers.  Where each channel has
  * a column of times, they must be equal; all but the first are left out. */
 ss_status
@@ -439,9 +427,14 @@ ss_text_check_times(struct text *x, ss_error *err)
         return st;
     if (from_times <= fmax(MOST_APART * step, MOST_ROUNDING)) {
         t->counted.origin = first;
-    } else if (from_numbers > 1e-6) {           /* nor does it number the rows */
+    } else if (from_numbers > 1e-6) {           /* nor does it number the rows: it has the times */
+        char *name = strdup("X_Value");
+        if (name == NULL)
+            return SS_ENOMEM;
+        free(t->names->column[0].name);
+        t->names->column[0].name = name;
         t->counted.increment = 0;
-        return name_first_time(x);
+        return set_unit(x, 0, "s");
     }
     t->column[0].kind = COLUMN_TEXT;
     return SS_OK;

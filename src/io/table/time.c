@@ -204,22 +204,13 @@ read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
 
 /* --- dates and times of day ---------------------------------------------------------------- */
 
-static ss_status
-note_date(struct sheet *t, double day)
-{
-    char text[80];
-    time_t seconds = (time_t)(day * SECONDS_A_DAY);
-    struct tm date;
-    gmtime_r(&seconds, &date);
-    snprintf(text, sizeof text, "%04d-%02d-%02d", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
-    return ss_header_note(t->names, "date", text, NULL);
-}
-
 /* Find the clock of a column of dates, times of day or both. */
 static ss_status
 read_stamp_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
 {
     double rate, day = NAN, own = ss_stamp_day(&t->column[column].stamps);
+    char text[80];
+    struct tm date;
     if (t->opts->time_unit != NULL)
         return ss_fail(err, SS_EDATA, "%s: column %s holds times of day or dates, so it has no unit to choose",
                        t->name, t->names->column[column].name);
@@ -229,9 +220,12 @@ read_stamp_clock(struct sheet *t, size_t column, struct timing *timing, ss_error
     day = isnan(own) ? day : own;
     timing->time = (struct time_column){ column, t->counted.origin, 0, 1, 1 };
     ss_status st = read_stamps(t, timing, 0, &rate, err);
-    if (st == SS_OK && !isnan(day) && note_date(t, day) != SS_OK)
-        st = ss_fail_memory(err, t->name);
-    return st;
+    if (st != SS_OK || isnan(day))
+        return st;
+    time_t seconds = (time_t)(day * SECONDS_A_DAY);
+    gmtime_r(&seconds, &date);
+    snprintf(text, sizeof text, "%04d-%02d-%02d", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
+    return ss_header_note(t->names, "date", text, NULL) == SS_OK ? SS_OK : ss_fail_memory(err, t->name);
 }
 
 /* The first column of dates with times, or else of times, or else of dates; NONE if there is none. */

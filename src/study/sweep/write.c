@@ -108,7 +108,8 @@ take(own_text *own, const ss_sweep_text *given, ss_error *err)
     for (size_t i = 0; st == SS_OK && i < own->opts.n_axes; i++)
         if (ss_scene_unit(given->scene, own->opts.axis[i].key) == NULL)
             st = ss_fail(err, SS_EINVAL, "the scene has no number '%s'", own->opts.axis[i].key);
-    if (st == SS_OK && !ss_format_has_words(given->format))
+    const struct format *table = ss_format_table(given->format);
+    if (st == SS_OK && (table == NULL || table->separator == '\0'))
         st = ss_fail(err, SS_EINVAL, "this format holds numbers only");
     return st;
 }
