@@ -16,11 +16,10 @@ typedef struct drawing {
     FILE *out;
     const ss_plot_opts *opts;
     const script_span *span;
-    trace *t;
-    size_t n;
-    layer layer[SS_PLOT_OVER];          /* other signals: their columns over some panels, */
-    trace *over[SS_PLOT_OVER];
-    trace left[SS_PLOT_OVER];           /* and what the first panel's column has beyond them; of none: no column */
+    size_t n;                           /* panels of columns */
+    layer layer[LAYERS];
+    trace *of[LAYERS];                  /* the columns of each, */
+    trace left[LAYERS];                 /* and what the first panel's column has beyond it; of none: no column */
     ss_column difference;
     trace of_left;                      /* the column, the extent and the scale that these share */
     size_t bands;                       /* of features */
@@ -31,17 +30,14 @@ static void
 write_data(drawing *d)
 {
     char name[40];
-    for (size_t i = 0; i < d->n; i++) {
-        snprintf(name, sizeof name, "$panel%zu", i + 1);
-        ss_trace_write(d->out, name, &d->t[i]);
-    }
-    for (size_t k = 0; k < d->opts->n_over; k++)
+    for (size_t k = 0; k <= d->opts->n_over; k++)
         for (size_t m = 0; m < d->layer[k].n; m++) {
-            trace *over = &d->over[k][m], *t = &d->t[d->layer[k].panel[m]];
-            over->y.scale = t->y.scale;
-            ss_layer_name(name, k, d->layer[k].panel[m], 1);
-            ss_trace_write(d->out, name, over);
-            ss_script_widen(&t->y.extent, over->y.extent);
+            size_t panel = d->layer[k].panel[m];
+            trace *t = &d->of[k][m], *first = &d->of[0][panel];
+            t->y.scale = first->y.scale;
+            ss_layer_name(name, k, panel, 1);
+            ss_trace_write(d->out, name, t);
+            ss_script_widen(&first->y.extent, t->y.extent);
         }
 }
 
@@ -50,18 +46,18 @@ static ss_status
 write_differences(drawing *d, ss_error *err)
 {
     trace *all = &d->of_left;
-    d->difference = (ss_column){ (char *)"difference", d->t[0].y.column->unit };
+    d->difference = (ss_column){ (char *)"difference", d->of[0]->y.column->unit };
     *all = (trace){ .y = { &d->difference, SCRIPT_NO_EXTENT, ss_script_power(0) } };
-    for (size_t k = 0; k < d->opts->n_over; k++)
+    for (size_t k = 1; k <= d->opts->n_over; k++)
         if (d->left[k].y.column != NULL)
             ss_script_widen(&all->y.extent, d->left[k].y.extent);
     if (!(all->y.extent.lo <= all->y.extent.hi))
         return ss_fail(err, SS_EINVAL, "no difference can be drawn: no other column lies over the first panel");
     all->y.scale = ss_script_scale(all->y.extent);
-    for (size_t k = 0; k < d->opts->n_over; k++) {
+    for (size_t k = 1; k <= d->opts->n_over; k++) {
         char block[24];
         d->left[k].y.scale = all->y.scale;
-        snprintf(block, sizeof block, "$difference%s", ss_script_number[k]);
+        snprintf(block, sizeof block, "$difference%s", ss_script_number[k - 1]);
         if (d->left[k].y.column != NULL)
             ss_trace_write(d->out, block, &d->left[k]);
     }
@@ -72,10 +68,10 @@ static void
 plot_differences(const drawing *d)
 {
     const char *before = "plot ";
-    for (size_t k = 0; k < d->opts->n_over; k++)
+    for (size_t k = 1; k <= d->opts->n_over; k++)
         if (d->left[k].y.column != NULL) {
-            ss_print(d->out, "%s$difference%s using 1:2 with lines lw 1 lc rgb over%s", before, ss_script_number[k],
-                     ss_script_number[k]);
+            const char *number = ss_script_number[k - 1];
+            ss_print(d->out, "%s$difference%s using 1:2 with lines lw 1 lc rgb over%s", before, number, number);
             before = ", ";
         }
     putc('\n', d->out);
@@ -86,7 +82,7 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
 {
     FILE *out = d->out;
     const ss_plot_opts *opts = d->opts;
-    const ss_column *first[SS_PLOT_OVER + 1] = { d->t[0].y.column };
+    const ss_column *first[LAYERS];
     size_t panels = d->n + (opts->difference != 0);
     script_stack stack;
     ss_status st = ss_script_begin_stack(&stack, out, opts, head, TIME + PANEL * (double)panels, err);
@@ -102,14 +98,14 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     ss_script_write_frame(out, 0.175, letters < 5 ? 0.965 : 1 - 0.0095 * letters);
     fputs("set xrange [from:to]; set offsets 0,0,graph 0.06,graph 0.06; set autoscale yfix\n"
           "set xtics tics; set xtics format ''\n", out);
-    for (size_t k = 0; k < opts->n_over; k++)
-        first[k + 1] = d->over[k][0].y.column;
+    for (size_t k = 0; k <= opts->n_over; k++)
+        first[k] = d->of[k]->y.column;
     if (opts->n_over > 0)
         ss_script_write_legend(out, opts, first);
     for (size_t i = 0; i < panels; i++) {
         int is_left = opts->difference && i == 1;
         size_t column = i > 1 && opts->difference ? i - 1 : i;
-        const trace *t = is_left ? &d->of_left : &d->t[column];
+        const trace *t = is_left ? &d->of_left : &d->of[0][column];
         double gap = i + 1 < panels ? 0.1 * PANEL : 0;
         if (i + 1 == panels)
             ss_script_write_time_labels(out, d->span);
@@ -188,18 +184,19 @@ read_difference(trace *t, ss_reader *reader, size_t x, ss_reader *over, size_t y
     return st;
 }
 
-/* Read what signal k has over the panels, and what the first panel has beyond it. */
+/* Read layer k, and what the first panel has beyond it. */
 static ss_status
-read_layer(drawing *d, size_t k, ss_reader *reader, const size_t column[], ss_error *err)
+read_layer(drawing *d, size_t k, ss_reader *reader, script_span *first, ss_error *err)
 {
     const layer *l = &d->layer[k];
-    ss_reader *over = d->opts->over[k];
-    script_span span;
-    d->over[k] = calloc(l->n, sizeof *d->over[k]);
-    ss_status st = d->over[k] == NULL ? ss_fail_memory(err, NULL)
-        : ss_traces_read(d->over[k], &span, over, l->column, l->n, ss_reader_header(reader)->start, d->opts, err);
-    return st == SS_OK && d->opts->difference && l->panel[0] == 0
-        ? read_difference(&d->left[k], reader, column[0], over, l->column[0], d->opts, err) : st;
+    ss_reader *of = k == 0 ? reader : d->opts->over[k - 1];
+    script_span span, *drawn = k == 0 ? first : &span;
+    double start = k == 0 ? NAN : ss_reader_header(reader)->start;
+    d->of[k] = calloc(l->n, sizeof *d->of[k]);
+    ss_status st = d->of[k] == NULL ? ss_fail_memory(err, NULL)
+        : ss_traces_read(d->of[k], drawn, of, l->column, l->n, start, d->opts, err);
+    return st == SS_OK && k > 0 && d->opts->difference && l->panel[0] == 0
+        ? read_difference(&d->left[k], reader, *d->layer->column, of, *l->column, d->opts, err) : st;
 }
 
 ss_status
@@ -217,27 +214,16 @@ ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n, co
     drawing d = { .out = out, .opts = &own, .span = &span, .n = n > 0 ? n : head->n_columns };
     if (d.n == 0)
         return ss_fail(err, SS_EINVAL, "no columns to draw");
-    d.t = calloc(d.n, sizeof *d.t);
-    size_t *index = malloc(d.n * sizeof *index);
-    st = d.t != NULL && index != NULL ? SS_OK : ss_fail_memory(err, NULL);
-    for (size_t i = 0; st == SS_OK && i < d.n; i++)
-        index[i] = n > 0 ? column[i] : i;
-    if (st == SS_OK)
-        st = ss_traces_read(d.t, &span, reader, index, d.n, NAN, &own, err);
-    if (st == SS_OK)
-        st = ss_layers_find(d.layer, head, index, d.n, &own, err);
-    for (size_t k = 0; st == SS_OK && k < own.n_over; k++)
-        st = read_layer(&d, k, reader, index, err);
+    st = ss_layers_find(d.layer, head, n > 0 ? column : NULL, d.n, &own, err);
+    for (size_t k = 0; st == SS_OK && k <= own.n_over; k++)
+        st = read_layer(&d, k, reader, &span, err);
     if (st == SS_OK)
         st = write_panels(&d, head, err);
-    for (size_t k = 0; k < SS_PLOT_OVER; k++) {
-        ss_traces_free(d.over[k], d.over[k] != NULL ? d.layer[k].n : 0);
+    for (size_t k = 0; k < LAYERS; k++) {
+        ss_traces_free(d.of[k], d.of[k] != NULL ? d.layer[k].n : 0);
         ss_traces_free(&d.left[k], 1);
-        free(d.over[k]);
+        free(d.of[k]);
     }
     ss_layers_free(d.layer);
-    ss_traces_free(d.t, d.t != NULL ? d.n : 0);
-    free(d.t);
-    free(index);
     return st;
 }

@@ -92,17 +92,19 @@ ss_series_free(series *s)
 /* --- layers --------------------------------------------------------------------------------- */
 
 ss_status
-ss_layers_find(layer l[SS_PLOT_OVER], const ss_header *head, const size_t drawn[], size_t n,
-               const ss_plot_opts *opts, ss_error *err)
+ss_layers_find(layer l[LAYERS], const ss_header *head, const size_t drawn[], size_t n, const ss_plot_opts *opts,
+               ss_error *err)
 {
-    for (size_t k = 0; k < opts->n_over; k++, l++) {
-        const ss_header *over = ss_reader_header(opts->over[k]);
+    for (size_t k = 0; k <= opts->n_over; k++, l++) {
         l->column = calloc(n, sizeof *l->column);
         l->panel = calloc(n, sizeof *l->panel);
         if (l->column == NULL || l->panel == NULL)
             return ss_fail_memory(err, NULL);
-        for (size_t i = 0; i < n && opts->alike; i++) {
-            int same = ss_header_column(over, head->column[drawn[i]].name);
+        for (size_t i = 0; i < n && (k == 0 || opts->alike); i++) {
+            size_t c = drawn != NULL ? drawn[i] : i;
+            if (c >= head->n_columns)
+                return ss_fail_column(err, c, head->n_columns);
+            int same = k == 0 ? (int)c : ss_header_column(ss_reader_header(opts->over[k - 1]), head->column[c].name);
             if (same >= 0) {
                 l->column[l->n] = (size_t)same;
                 l->panel[l->n++] = i;
@@ -114,9 +116,9 @@ ss_layers_find(layer l[SS_PLOT_OVER], const ss_header *head, const size_t drawn[
 }
 
 void
-ss_layers_free(layer l[SS_PLOT_OVER])
+ss_layers_free(layer l[LAYERS])
 {
-    for (size_t k = 0; k < SS_PLOT_OVER; k++) {
+    for (size_t k = 0; k < LAYERS; k++) {
         free(l[k].column);
         free(l[k].panel);
     }
@@ -125,8 +127,9 @@ ss_layers_free(layer l[SS_PLOT_OVER])
 void
 ss_layer_name(char name[40], size_t k, size_t panel, int first)
 {
-    int n = snprintf(name, 40, "$over%s", ss_script_number[k]);
-    if (panel >= (size_t)first)
+    int n = k == 0 ? snprintf(name, 40, "$panel%zu", panel + 1)
+        : snprintf(name, 40, "$over%s", ss_script_number[k - 1]);
+    if (k > 0 && panel >= (size_t)first)
         snprintf(name + n, 40 - (size_t)n, "_panel%zu", panel + 1);
 }
 
@@ -137,7 +140,7 @@ ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t pane
     int titled = panel == 0 && opts->n_over > 0;
     ss_print(out, "plot %s$panel%zu using 1:2 with %s lw 1 lc rgb colour%s", before, panel + 1, by,
              titled ? " title name" : "");
-    for (size_t k = 0; k < opts->n_over; k++) {
+    for (size_t k = 1; k <= opts->n_over; k++) {
         char name[60] = "NaN";                          /* an entry of the legend */
         for (size_t m = 0; m < l[k].n; m++)
             if (l[k].panel[m] == panel) {
@@ -145,7 +148,7 @@ ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t pane
                 strcat(name, " using 1:2");
             }
         if (titled || name[0] == '$')
-            ss_script_write_over(out, k, name, titled);
+            ss_script_write_over(out, k - 1, name, titled);
     }
     fputs(titled ? "\nunset key\n" : "\n", out);
 }

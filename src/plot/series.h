@@ -34,15 +34,19 @@ ss_status ss_series_check(const ss_column *column, script_extent of_values, cons
 ss_status ss_series_rewind(series *s, ss_error *err);
 void ss_series_free(series *s);
 
-/* Another signal over n panels, as ss_plot_opts.alike says: its column[i] lies over panel[i]. */
+/* A signal in n panels: its column[i] lies in panel[i].  The first has all panels, and those over it what
+ * ss_plot_opts.alike says. */
 typedef struct layer {
     size_t *column, *panel, n;  /* n: 1 or more */
 } layer;
-/* Find those of all signals of opts->over, for these columns of a signal; to be freed even after a failure. */
-ss_status ss_layers_find(layer l[SS_PLOT_OVER], const ss_header *head, const size_t drawn[], size_t n,
+enum { LAYERS = SS_PLOT_OVER + 1 };
+/* Find those of a signal, for these columns (NULL: the first n), and of opts->over; to be freed even after a
+ * failure. */
+ss_status ss_layers_find(layer l[LAYERS], const ss_header *head, const size_t drawn[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
-void ss_layers_free(layer l[SS_PLOT_OVER]);
-/* The name of the block with the data of signal k over a panel, with the panel's number from this one on. */
+void ss_layers_free(layer l[LAYERS]);
+/* The name of the block with the data of layer k in a panel, of those over the first with the panel's number from this
+ * one on. */
 void ss_layer_name(char name[40], size_t k, size_t panel, int first);
 /* Plot the data of a panel, as lines or points, and all over it; the first panel has the legend.  before: what
  * lies below them in the plot command, with a comma. */

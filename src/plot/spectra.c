@@ -103,9 +103,9 @@ extent_of(const ss_spectrum *s)
     return e;
 }
 
-/* The spectrum of a signal over a panel; NULL: none. */
+/* The spectrum of a layer in a panel; NULL: none. */
 static const ss_spectrum *
-over_panel(const layer *l, ss_spectrum *const spectrum[], size_t panel)
+in_panel(const layer *l, ss_spectrum *const spectrum[], size_t panel)
 {
     for (size_t m = 0; m < l->n; m++)
         if (l->panel[m] == panel)
@@ -114,46 +114,42 @@ over_panel(const layer *l, ss_spectrum *const spectrum[], size_t panel)
 }
 
 static ss_status
-write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, ss_spectrum *const spectrum[],
-             const layer layers[], ss_spectrum **const over_them[], const ss_plot_opts *opts, ss_error *err)
+write_panels(FILE *out, const ss_header *head, size_t n, const layer layers[], ss_spectrum *const *const of[],
+             const ss_plot_opts *opts, ss_error *err)
 {
-    double from = spectrum[0]->step, to = 0;
+    double from = INFINITY, to = 0;
     char name[40], unit[DENSITY_UNIT];
     script_stack stack;
-    const ss_column *first[SS_PLOT_OVER + 1] = { &head->column[column[0]] };
-    const ss_spectrum *s = spectrum[0], *over;
+    const ss_column *first[LAYERS];
+    const ss_spectrum *s;
     ss_status st = ss_script_begin_stack(&stack, out, opts, head, BELOW + PANEL * (double)n, err);
     if (st != SS_OK)
         return st;
-    to = (double)(s->n - 1) * s->step;
-    for (size_t k = 0; k < opts->n_over; k++) {
-        over = over_them[k][0];
-        from = fmin(from, over->step);
-        to = fmax(to, (double)(over->n - 1) * over->step);
-        first[k + 1] = &ss_reader_header(opts->over[k])->column[layers[k].column[0]];
+    for (size_t k = 0; k <= opts->n_over; k++) {
+        s = of[k][0];
+        from = fmin(from, s->step);
+        to = fmax(to, (double)(s->n - 1) * s->step);
+        first[k] = &(k == 0 ? head : ss_reader_header(opts->over[k - 1]))->column[layers[k].column[0]];
     }
     ss_print(out, "from = %.7g         # Hz\nto = %.7g           # Hz\nresolution = %.6g    # Hz, %zu segments\n",
-             from, to, s->resolution, s->segments);
+             from, to, of[0][0]->resolution, of[0][0]->segments);
     ss_script_write_colours(out, opts);
-    for (size_t i = 0; i < n; i++) {
-        snprintf(name, sizeof name, "$panel%zu", i + 1);
-        write_densities(out, name, spectrum[i], opts->decibels);
-        for (size_t k = 0; k < opts->n_over; k++) {
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k <= opts->n_over; k++) {
             ss_layer_name(name, k, i, 0);
-            if ((over = over_panel(&layers[k], over_them[k], i)) != NULL)
-                write_densities(out, name, over, opts->decibels);
+            if ((s = in_panel(&layers[k], of[k], i)) != NULL)
+                write_densities(out, name, s, opts->decibels);
         }
-    }
     ss_script_write_frame(out, 0.2, 0.95);
     if (opts->n_over > 0)
         ss_script_write_legend(out, opts, first);
     ss_print(out, "set logscale %s; set xrange [from:to]; set format x ''\n", opts->decibels ? "x" : "xy");
     for (size_t i = 0; i < n; i++) {
-        script_extent e = extent_of(spectrum[i]);
+        script_extent e = SCRIPT_NO_EXTENT;
         double gap = i + 1 < n ? 0.12 * PANEL : 0;
-        for (size_t k = 0; k < opts->n_over; k++)
-            if ((over = over_panel(&layers[k], over_them[k], i)) != NULL)
-                ss_script_widen(&e, extent_of(over));
+        for (size_t k = 0; k <= opts->n_over; k++)
+            if ((s = in_panel(&layers[k], of[k], i)) != NULL)
+                ss_script_widen(&e, extent_of(s));
         if (!opts->decibels)
             ss_script_write_decade_range(out, e.lo, e.hi);
         if (i + 1 == n) {
@@ -161,9 +157,9 @@ write_panels(FILE *out, const ss_header *head, const size_t column[], size_t n, 
                   "noenhanced offset 0,0.5\n", out);
             ss_script_write_decades(out, "x", from, to);
         }
-        const ss_column *of = &head->column[column[i]];
-        ss_density_unit(unit, of->unit, opts->decibels);
-        const script_axis y = { &(ss_column){ of->name, unit }, e, ss_script_power(0) };
+        const ss_column *column = &head->column[layers->column[i]];
+        ss_density_unit(unit, column->unit, opts->decibels);
+        const script_axis y = { &(ss_column){ column->name, unit }, e, ss_script_power(0) };
         ss_script_write_panel(&stack, PANEL - gap, gap, &y, ROOM, 0);
         if (e.lo <= e.hi)
             ss_layers_plot(out, layers, opts, i, 0, "", "lines");
@@ -179,8 +175,9 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
                  const ss_plot_opts *given, ss_error *err)
 {
     ss_plot_opts own;
-    layer layers[SS_PLOT_OVER] = { { .n = 0 } };
-    ss_spectrum **over[SS_PLOT_OVER] = { NULL };
+    layer layers[LAYERS] = { { .n = 0 } };
+    ss_spectrum **over[LAYERS] = { NULL };
+    ss_spectrum *const *of[LAYERS] = { spectrum };
     if (out == NULL || head == NULL || column == NULL || spectrum == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_script_take(&own, given, err);
@@ -188,14 +185,14 @@ ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t
         st = ss_fail(err, SS_EINVAL, "no columns to draw");
     if (st == SS_OK)
         st = ss_layers_find(layers, head, column, n, &own, err);
-    for (size_t k = 0; st == SS_OK && k < own.n_over; k++) {
-        over[k] = calloc(layers[k].n, sizeof *over[k]);
+    for (size_t k = 1; st == SS_OK && k <= own.n_over; k++) {
+        of[k] = over[k] = calloc(layers[k].n, sizeof *over[k]);
         st = over[k] == NULL ? ss_fail_memory(err, NULL)
-            : ss_plot_spectra(over[k], own.over[k], layers[k].column, layers[k].n, &own, err);
+            : ss_plot_spectra(over[k], own.over[k - 1], layers[k].column, layers[k].n, &own, err);
     }
     if (st == SS_OK)
-        st = write_panels(out, head, column, n, spectrum, layers, over, &own, err);
-    for (size_t k = 0; k < SS_PLOT_OVER; k++) {
+        st = write_panels(out, head, n, layers, of, &own, err);
+    for (size_t k = 1; k < LAYERS; k++) {
         for (size_t i = 0; over[k] != NULL && i < layers[k].n; i++)
             ss_spectrum_free(over[k][i]);
         free(over[k]);
