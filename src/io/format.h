@@ -40,7 +40,8 @@ struct format {
 
     /* To write numbers: begin a file with a header whose first line is magic; NULL: no stream is written. */
     ss_status (*begin)(FILE *out, const ss_header *head, const char *magic, ss_error *err);
-    /* Write a cell of at most SS_NUMBER_MAX bytes; last: 1 if it ends its row.  Returns its length. */
+    /* Write a cell of at most SS_NUMBER_MAX bytes; last: 1 if it ends its row.  Returns its length.  NULL: it is
+     * text, with the separator or a newline behind it. */
     size_t (*number)(char *to, double x, int last);
     /* Complete what begin has written, behind the last of the rows; NULL: it is complete. */
     ss_status (*end)(FILE *out, double rate, size_t columns, size_t rows, ss_error *err);

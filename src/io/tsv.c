@@ -151,21 +151,12 @@ begin_text(FILE *out, const ss_header *head, const char *magic, ss_error *err)
     return ferror(out) ? SS_EIO : SS_OK;
 }
 
-static size_t
-format_number(char *to, double x, int last)
-{
-    size_t n = ss_number_format(to, x);
-    to[n] = last ? '\n' : '\t';
-    return n + 1;
-}
-
 FORMAT(tsv) = {
     .name = "tsv",
     .magic = "# stickslip",
     .has_header = 1,
     .open = open_text,
     .begin = begin_text,
-    .number = format_number,
     .has_time = 1,
     .has_notes = 1,
     .separator = '\t',

@@ -44,6 +44,17 @@ drain(struct piece *p)
     p->used = 0;
 }
 
+/* Write a cell of numbers.  Returns its length. */
+static size_t
+format_cell(const struct format *format, char *to, double x, int last)
+{
+    if (format->number != NULL)
+        return format->number(to, x, last);
+    size_t n = ss_number_format(to, x);
+    to[n] = last ? '\n' : format->separator;
+    return n + 1;
+}
+
 /* Let there be room for a cell, and write the name before it if it has its own. */
 static void
 begin_cell(struct piece *p, const char *name, int first)
@@ -73,7 +84,7 @@ write_samples(ss_writer *w, double *const column[], size_t n, ss_error *err)
         for (size_t k = 0, cells = head->n_columns + s->time; k < cells; k++) {
             double x = k < s->time ? head->start + (double)s->row / head->rate : column[k - s->time][i];
             begin_cell(&p, k < s->time ? "t" : head->column[k - s->time].name, k == 0);
-            p.used += s->format->number(p.text + p.used, x, k + 1 == cells);
+            p.used += format_cell(s->format, p.text + p.used, x, k + 1 == cells);
         }
     return end_piece(&p, err);
 }
@@ -93,7 +104,7 @@ write_coefficients(ss_writer *w, const ss_scale *scale, size_t first, size_t n, 
     p.used = 0;
     for (int k = 0; k < COEFFICIENT_COLUMNS; k++)
         if (k != 2 && k < 4)
-            shared[k].length = s->format->number(shared[k].text, row[k], 0);
+            shared[k].length = format_cell(s->format, shared[k].text, row[k], 0);
     for (size_t i = 0; s->holds == COEFFICIENTS && i < n; i++) {
         row[2] = ss_scale_b(scale, first + i);
         row[4] = c[2 * i];
@@ -104,7 +115,7 @@ write_coefficients(ss_writer *w, const ss_scale *scale, size_t first, size_t n, 
             if (shared[k].length > 0)           /* its constant size lets compilers avoid a call */
                 memcpy(p.text + p.used, shared[k].text, sizeof shared[k].text);
             p.used += shared[k].length > 0 ? shared[k].length
-                : s->format->number(p.text + p.used, row[k], k + 1 == COEFFICIENT_COLUMNS);
+                : format_cell(s->format, p.text + p.used, row[k], k + 1 == COEFFICIENT_COLUMNS);
         }
     }
     return end_piece(&p, err);
@@ -152,7 +163,7 @@ end_stream(ss_writer *w, size_t samples, ss_error *err)
     for (int i = 0; s->open_end && s->format->separator == '\0' && i < COEFFICIENT_COLUMNS; i++) {
         char cell[SS_NUMBER_MAX];
         double x = i == 2 ? (double)(samples - 1) / s->head->rate : 0;
-        fwrite(cell, 1, s->format->number(cell, x, i + 1 == COEFFICIENT_COLUMNS), s->file);
+        fwrite(cell, 1, format_cell(s->format, cell, x, i + 1 == COEFFICIENT_COLUMNS), s->file);
     }
     if (s->format->end != NULL)
         st = s->format->end(s->file, s->head->rate, s->head->n_columns, s->row, err);

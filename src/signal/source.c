@@ -61,7 +61,7 @@ ss_status
 ss_source_rows(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     *n = 0;
-    ss_status st = s->given == s->held ? s->calls->next(s, column, max, n, err) : SS_OK;
+    ss_status st = s->given < s->held || s->calls->next == NULL ? SS_OK : s->calls->next(s, column, max, n, err);
     size_t left = s->held - s->given;
     if (st != SS_OK || s->held == 0)
         return st;
@@ -158,14 +158,6 @@ ss_source_all(ss_signal **out, ss_source *s, ss_error *err)
 
 /* --- of a signal in memory ----------------------------------------------------------------- */
 
-/* All its rows are there from the beginning. */
-static ss_status
-end_of_held(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
-{
-    (void)s, (void)column, (void)max, (void)n, (void)err;
-    return SS_OK;
-}
-
 static ss_status
 hold_all(ss_source *s, ss_error *err)
 {
@@ -177,7 +169,7 @@ hold_all(ss_source *s, ss_error *err)
 ss_source *
 ss_source_of_signal(const ss_signal *signal, const char *name, ss_error *err)
 {
-    static const struct source_calls calls = { .next = end_of_held, .rewind = hold_all };
+    static const struct source_calls calls = { .rewind = hold_all };
     ss_source *s = make(sizeof *s, &calls, name, signal->head, err);
     if (s == NULL)
         return NULL;

@@ -13,7 +13,7 @@ typedef struct source ss_source;
 
 struct source_calls {
     /* At most max rows, as ss_reader_rows gives them; *n is 0 before the call.  Or make rows that are given from
-     * here on: set held, and given to the first of them. */
+     * here on: set held, and given to the first of them.  NULL: all are there when it begins. */
     ss_status (*next)(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err);
     /* Back to the first row; NULL: as the inner source goes back, or, if there is none, it cannot. */
     ss_status (*rewind)(ss_source *s, ss_error *err);

@@ -658,19 +658,10 @@ begin_csv(FILE *out, const ss_header *head, const char *magic, ss_error *err)
     return ferror(out) ? SS_EIO : SS_OK;
 }
 
-static size_t
-write_number(char *to, double x, int last)
-{
-    size_t n = ss_number_format(to, x);
-    to[n] = last ? '\n' : ',';
-    return n + 1;
-}
-
 FORMAT(delimited) = {
     .name = "csv",
     .open = open_text,
     .begin = begin_csv,
-    .number = write_number,
     .has_time = 1,
     .separator = ',',
     .word = write_word,
