@@ -104,7 +104,8 @@ ss_layers_find(layer l[LAYERS], const ss_header *head, const size_t drawn[], siz
             size_t c = drawn != NULL ? drawn[i] : i;
             if (c >= head->n_columns)
                 return ss_fail_column(err, c, head->n_columns);
-            int same = k == 0 ? (int)c : ss_header_column(ss_reader_header(opts->over[k - 1]), head->column[c].name);
+            int same = k == 0 ? (int)c
+                : ss_header_column(ss_reader_header(opts->over[k - 1]), head->column[c].name);
             if (same >= 0) {
                 l->column[l->n] = (size_t)same;
                 l->panel[l->n++] = i;

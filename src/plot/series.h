@@ -45,8 +45,8 @@ enum { LAYERS = SS_PLOT_OVER + 1 };
 ss_status ss_layers_find(layer l[LAYERS], const ss_header *head, const size_t drawn[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
 void ss_layers_free(layer l[LAYERS]);
-/* The name of the block with the data of layer k in a panel, of those over the first with the panel's number from this
- * one on. */
+/* The name of the block with the data of layer k in a panel, of those over the first with the panel's number from
+ * this one on. */
 void ss_layer_name(char name[40], size_t k, size_t panel, int first);
 /* Plot the data of a panel, as lines or points, and all over it; the first panel has the legend.  before: what
  * lies below them in the plot command, with a comma. */

@@ -52,8 +52,8 @@ double ss_unit_in_si(const char *unit, char dimension);
 /* "unit^2/Hz", the density of a column of this unit, in brackets if it has an operator, or in decibels re that. */
 enum { DENSITY_UNIT = 256 };
 void ss_density_unit(char text[DENSITY_UNIT], const char *unit, int decibels);
-/* Cut the next label of a list, which becomes the rest, into name and unit.  A blank in brackets belongs to a unit.
- * Returns 0 if there is none. */
+/* Cut the next label of a list, which becomes the rest, into name and unit.  A blank in brackets belongs to a
+ * unit.  Returns 0 if there is none. */
 int ss_next_label(char **list, char **name, char **unit);
 /* Split "name", "name/unit" or "name/(unit)" into its two parts, in place. */
 void ss_split_label(char *label, char **name, char **unit);

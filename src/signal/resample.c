@@ -57,7 +57,7 @@ fill_piece(const struct resampled *r, double *x, const double *t, const double *
     return good ? SS_OK : SS_ERANGE;
 }
 
-/* Fill in the next samples of one column: by a spline through each piece without a gap, and NaN between the pieces. */
+/* Fill in the next samples of one column: by a spline through each piece without a gap, and NaN between them. */
 static ss_status
 fill_column(const struct resampled *r, double *x, const double *value)
 {

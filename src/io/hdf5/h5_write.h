@@ -29,9 +29,10 @@ hid_t ss_h5_new_group(hid_t parent, const char *name);
  * write its values if it has any; < 0 if HDF5 fails. */
 hid_t ss_h5_new_dataset(hid_t group, const h5_dataset *v, int rank, const hsize_t dims[],
                         const char *const scales[]);
-/* Write n lists of one length; the first is the scale of the others.  values of each are doubles, ints or texts as its
- * type in the file says; of numbers they point to the first, and the next is so many bytes apart. */
-ss_status ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n, size_t length, size_t apart);
+/* Write n lists of one length; the first is the scale of the others.  values of each are doubles, ints or texts as
+ * its type in the file says; of numbers they point to the first, and the next is so many bytes apart. */
+ss_status ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n, size_t length,
+                            size_t apart);
 /* n values of a row, from its at-th on; at[0] is the row, if there are several.  A dataset that is too
  * short grows. */
 int ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type,

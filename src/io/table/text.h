@@ -29,7 +29,8 @@ struct text {
     char *copy;                 /* of the line that was split last; it has room for each that was read or kept */
     size_t copy_room;
     char *cell[MAX_CELLS];      /* its cells, and a letter for each */
-    char shape[MAX_CELLS + 1], like[MAX_CELLS + 1];             /* like: that of the line that others are held against */
+    char shape[MAX_CELLS + 1];
+    char like[MAX_CELLS + 1];   /* those of the line that others are held against */
     struct text_line *head;     /* lines above the data */
     size_t n_head, head_room;
     int comments;               /* cells too many are comments, which LabVIEW writes behind its rows */
