@@ -1,8 +1,8 @@
 /* contact.c -- find the only compliant scene that moves as a signal does.
  *
  * The settled cycle of the scene is fitted to the mean cycle of the signal (forced_search.c), in a
- * wide range about the stiffness and damping of the scene, and about those that the transitions
- * show.  From the best results of this search, the motion is fitted to the record (forced_fit.c).
+ * wide range about the contact's stiffness and damping that the transitions show, or those of the
+ * scene.  From the best results of this search, the motion is fitted to the record (forced_fit.c).
  *
  * The sum of squares has many minima: a motion with one micro-slip more or less is another motion.
  * So there are several starts.  The lowest minimum is the answer only if its residual is no more
@@ -25,7 +25,6 @@
 enum { POINTS = 192, KEEP = 4 };        /* of the search */
 enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at most */
 #define BUDGET 1e8                      /* integration steps of a fit: less than a minute */
-#define NEAR 1.5                        /* factor within which the features' estimates are right */
 #define FAR 10.0                        /* factor of the range that is searched */
 #define SHORT 0.25                      /* periods of the contact: shorter sticks show no stiffness */
 
@@ -43,28 +42,23 @@ typedef struct fitting {
 
 /* --- fits ---------------------------------------------------------------------------------- */
 
-/* Let half of the search look about the contact's stiffness and damping that the transitions show. */
+/* Give the scene the contact's stiffness and damping that the transitions show, if they do. */
 static ss_status
-find_likely(forced *c, const ss_signal *signal, size_t column, ss_error *err)
+take_features(ss_scene *scene, const ss_signal *signal, size_t column, ss_error *err)
 {
     ss_features *f = NULL;
     ss_features_opts opts;
     ss_features_opts_init(&opts, sizeof opts);
-    opts.mass = c->scene.mass;
-    opts.stiffness = c->scene.stiffness;
+    opts.mass = scene->mass;
+    opts.stiffness = scene->stiffness;
     ss_status st = ss_features_find(&f, signal, column, &opts, err);
     if (st != SS_OK)
         return st;
-    const double estimate[2] = { f->number[SS_CONTACT_STIFFNESS].value, f->number[SS_CONTACT_DAMPING].value };
+    if (f->number[SS_CONTACT_STIFFNESS].value > 0)
+        ss_scene_set(scene, "contact_stiffness", f->number[SS_CONTACT_STIFFNESS].value, NULL);
+    if (f->number[SS_CONTACT_DAMPING].value > 0)
+        ss_scene_set(scene, "contact_damping", f->number[SS_CONTACT_DAMPING].value, NULL);
     ss_features_free(f);
-    memcpy(c->likely, c->range, sizeof c->likely);
-    for (size_t i = 0; i < 2; i++)
-        if (estimate[i] > 0) {                  /* NaN is not */
-            ss_range *all = &c->range[FORCED_OWN + i], *likely = &c->likely[FORCED_OWN + i];
-            *likely = (ss_range){ log(estimate[i] / NEAR), log(estimate[i] * NEAR) };
-            *all = (ss_range){ fmin(all->from, likely->from), fmax(all->to, likely->to) };
-            c->is_likely = 1;
-        }
     return SS_OK;
 }
 
@@ -274,10 +268,11 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
 {
     forced_start start[FORCED_KEPT];
     size_t n;
-    set_scene(w, &fit->scene, opts->quantity);
-    ss_status st = choose_part(w);
+    ss_scene scene = fit->scene;
+    ss_status st = take_features(&scene, signal, column, err);
+    set_scene(w, &scene, opts->quantity);
     if (st == SS_OK)
-        st = find_likely(&w->scene, signal, column, err);
+        st = choose_part(w);
     w->scene.progress = (ss_stretch){ opts->progress, 0, 0.5 };
     if (st == SS_OK)
         st = ss_forced_search(start, &n, &w->scene, &w->goal, POINTS, KEEP);

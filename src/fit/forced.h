@@ -29,8 +29,6 @@ typedef struct forced {
     size_t n;                   /* keys that the model has */
     double own[FORCED_KEYS];    /* the scene's, as logarithms */
     ss_range range[FORCED_KEYS];    /* of a fit; a key whose range has no width is held */
-    ss_range likely[FORCED_KEYS];   /* where half of the points of a search lie, if not all over the range */
-    int is_likely;
     ss_stretch progress;
     double steps, budget;       /* integration steps so far, and at most: then work ends */
 } forced;

@@ -74,24 +74,18 @@ height(const gsl_vector *w, void *user)
     return isfinite(h) ? h : log(DBL_MAX);
 }
 
-/* Try points all over the ranges, half of them where the keys are likely. */
+/* Try points all over the ranges. */
 static ss_status
 scatter(point *at, size_t points, size_t free, search *p)
 {
-    const forced *c = p->c;
     gsl_qrng *sobol = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)free);
     if (sobol == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < points; i++) {
         gsl_vector_view w = gsl_vector_view_array(at[i].w, free);
         gsl_qrng_get(sobol, at[i].w);           /* the middle comes first */
-        for (size_t key = 0, k = 0; key < c->n; key++) {
-            const ss_range all = c->range[key], part = c->is_likely && i >= points / 2 ? c->likely[key] : all;
-            const double width = all.to - all.from;
-            if (width > 0)
-                at[i].w[k] = asin(2 * (part.from - all.from + at[i].w[k] * (part.to - part.from)) / width - 1);
-            k += width > 0;
-        }
+        for (size_t k = 0; k < free; k++)
+            at[i].w[k] = asin(2 * at[i].w[k] - 1);
         at[i].height = height(&w.vector, p);
     }
     gsl_qrng_free(sobol);

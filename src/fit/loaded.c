@@ -4,7 +4,7 @@
  * k/a only.  These are tried on a grid, at few times, which lie close where the speed changes; the best go on by
  * least squares, and the best of them to all rows.  There, what the better law leaves shows the noise, with its
  * memory; rows are then whitened by it, fitted by both laws, and so once more.  Errors are those of the whitened
- * rows.  If few rows show the change, other numbers may do as well: then errors reach as far as these. */
+ * rows. */
 #include "fit/loaded.h"
 
 #include <gsl/gsl_statistics_double.h>
@@ -34,8 +34,7 @@ typedef struct law {
     const track *record;
     int is_slip;
     wander noise;
-    double u[UNKNOWNS], rival[UNKNOWNS];        /* the best, and others that may do as well; rival[0] NaN: none */
-    ss_step_law other;                          /* the numbers of these, if rival[0] is none */
+    double u[UNKNOWNS];
     double squares;                             /* that u leaves of whitened rows; infinite: there is no fit */
     double covariance[UNKNOWNS * UNKNOWNS];
     start grid[STARTS];         /* the best of the grid */
@@ -191,12 +190,12 @@ search(start best[STARTS], law *l, const law *other, double stiffness)
 /* --- fits ---------------------------------------------------------------------------------- */
 
 static ss_status
-fit(law *l, double u[UNKNOWNS], double noise, double *squares, double *covariance)
+fit(law *l, double u[UNKNOWNS], double noise, double *squares)
 {
     const least how = { .rows = l->record->n, .unknowns = UNKNOWNS, .model = whitened, .user = l,
                         .range = l->range, .tol = 1e-7, .noise = noise, .farthest = 1 };
     least_end end = { 0 };
-    ss_status st = ss_least_fit(&end, &how, u, NULL, covariance);
+    ss_status st = ss_least_fit(&end, &how, u, NULL, NULL);
     *squares = end.squares;
     return st;
 }
@@ -237,8 +236,7 @@ thin(track *few, const track *r)
 static ss_status
 make_room(law *l, const track *r, int is_slip, const ss_range range[UNKNOWNS])
 {
-    *l = (law){ .record = r, .is_slip = is_slip, .noise = { 0, 1, 0 }, .range = range, .squares = INFINITY,
-                .rival = { NAN } };
+    *l = (law){ .record = r, .is_slip = is_slip, .noise = { 0, 1, 0 }, .range = range, .squares = INFINITY };
     l->g = malloc(((2 + UNKNOWNS + 1) * r->n + 3 * r->places) * sizeof *l->g);
     if (l->g == NULL)
         return SS_ENOMEM;
@@ -254,16 +252,7 @@ make_room(law *l, const track *r, int is_slip, const ss_range range[UNKNOWNS])
     return SS_OK;
 }
 
-static int
-are_apart(const double u[UNKNOWNS], const double v[UNKNOWNS])
-{
-    double most = 0;
-    for (int k = DIRECT; k < UNKNOWNS; k++)
-        most = fmax(most, fabs(u[k] - v[k]));
-    return most > LITTLE;
-}
-
-/* Find where the fit to all rows starts, and a rival. */
+/* Find where the fit to all rows starts. */
 static ss_status
 begin(law *all, const law *other, double stiffness)
 {
@@ -271,7 +260,7 @@ begin(law *all, const law *other, double stiffness)
     track few;
     law l = { 0 };
     start s[STARTS];
-    double squares, second = INFINITY;
+    double squares;
     ss_status st = thin(&few, all->record);
     if (st == SS_OK)
         st = make_room(&l, &few, all->is_slip, range);
@@ -281,21 +270,12 @@ begin(law *all, const law *other, double stiffness)
     for (int i = 0; st == SS_OK && i < STARTS && isfinite(s[i].squares); i++) {
         for (int k = 0; k < UNKNOWNS; k++)
             s[i].u[k] = fmax(range[k].from, fmin(s[i].u[k], range[k].to));
-        st = fit(&l, s[i].u, s[i].squares / (double)few.n, &squares, NULL);
+        st = fit(&l, s[i].u, s[i].squares / (double)few.n, &squares);
         if (st == SS_OK && squares < all->squares) {
-            if (isfinite(all->squares) && are_apart(all->u, s[i].u)) {
-                memcpy(all->rival, all->u, sizeof all->u);
-                second = all->squares;
-            }
             memcpy(all->u, s[i].u, sizeof all->u);
             all->squares = squares;
-        } else if (st == SS_OK && squares < second && are_apart(all->u, s[i].u)) {
-            memcpy(all->rival, s[i].u, sizeof all->u);
-            second = squares;
         }
     }
-    if (second > all->squares * exp(2 * LOADED_DECISIVE / (double)few.n))
-        all->rival[0] = NAN;
     free(few.t);
     free(few.place);
     free(l.g);
@@ -328,9 +308,9 @@ value_of(double value, const double slope[UNKNOWNS], const double *covariance, d
 }
 
 static void
-report(ss_step_law *out, const law *l, const double *u, const double *covariance, double noise)
+report(ss_step_law *out, const law *l, double noise)
 {
-    const double a = exp(u[DIRECT]), k = exp(u[STIFFNESS]);
+    const double *u = l->u, *covariance = l->covariance, a = exp(u[DIRECT]), k = exp(u[STIFFNESS]);
     const slider s = slider_of(l, u[CRITICAL], exp(u[RING]), k / a);
     const double more = a * (s.ratio - 1), K = s.stiffness * s.distance;
     out->direct_effect = value_of(a, (double[]){ [DIRECT] = a, [STIFFNESS] = 0 }, covariance, noise);
@@ -341,22 +321,6 @@ report(ss_step_law *out, const law *l, const double *u, const double *covariance
     out->stiffness = value_of(k, (double[]){ [STIFFNESS] = k }, covariance, noise);
     const double way = way_of(l->record);
     out->drift = value_of(u[DRIFT] / way, (double[]){ [DRIFT] = 1 / way, [STIFFNESS] = 0 }, covariance, noise);
-}
-
-static void
-reach(ss_value *v, ss_value other)
-{
-    v->error = hypot(v->error, other.value - v->value);
-}
-
-static void
-swap(double *u, double *v, size_t n)
-{
-    for (size_t i = 0; i < n; i++) {
-        const double kept = u[i];
-        u[i] = v[i];
-        v[i] = kept;
-    }
 }
 
 /* Add to a covariance what comes of an error that changes whitened rows by so much. */
@@ -402,25 +366,6 @@ blur(law *l, double noise, double *changed, double *out)
         add_error(out, l, slopes, changed);
     }
     return SS_OK;
-}
-
-/* If a rival does better, it is the best; if it does not do as well, it is none. */
-static ss_status
-settle(law *l, double free_rows)
-{
-    double squares = INFINITY, covariance[UNKNOWNS * UNKNOWNS];
-    ss_status st = isnan(l->rival[0]) ? SS_OK : fit(l, l->rival, l->squares / free_rows, &squares, covariance);
-    if (st == SS_OK && squares < l->squares) {
-        swap(l->u, l->rival, UNKNOWNS);
-        swap(l->covariance, covariance, UNKNOWNS * UNKNOWNS);
-        swap(&l->squares, &squares, 1);
-    }
-    if (isinf(squares) || !are_apart(l->u, l->rival)
-        || (double)l->record->n * log(squares / l->squares) > 2 * LOADED_DECISIVE)
-        l->rival[0] = NAN;
-    else
-        report(&l->other, l, l->rival, covariance, squares / free_rows);
-    return st;
 }
 
 /* The squares that a line along the path leaves of whitened rows, and the logarithms of their variances. */
@@ -624,14 +569,11 @@ blur_all(loaded *const step[], size_t n, size_t k)
 }
 
 ss_status
-ss_loaded_share(loaded *const step[], size_t n)
+ss_loaded_fit(loaded *const step[], size_t n)
 {
     ss_status st = fit_both(step, n);
-    for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
-        for (size_t i = 0; i < n; i++)
-            step[i]->law[k].rival[0] = NAN;
+    for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++)
         st = blur_all(step, n, k);
-    }
     return st;
 }
 
@@ -663,19 +605,6 @@ ss_loaded_new(loaded **out, const track *record, const loaded *other, double sti
 }
 
 ss_status
-ss_loaded_fit(loaded *s)
-{
-    ss_status st = fit_both(&s, 1);
-    for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
-        if (isfinite(s->law[k].squares))
-            st = settle(&s->law[k], s->free_rows);
-        if (st == SS_OK)
-            st = blur_all(&s, 1, k);
-    }
-    return st;
-}
-
-ss_status
 ss_loaded_report(loaded *s, ss_step_law out[SS_STEP_LAWS], double *model)
 {
     const track *record = s->law->record;
@@ -690,14 +619,7 @@ ss_loaded_report(loaded *s, ss_step_law out[SS_STEP_LAWS], double *model)
                 model[i] = NAN;
             continue;
         }
-        report(&out[k], l, l->u, l->covariance, noise_of(s, k));
-        if (!isnan(l->rival[0])) {              /* errors reach as far as numbers that do as well */
-            reach(&out[k].direct_effect, l->other.direct_effect);
-            reach(&out[k].evolution_effect, l->other.evolution_effect);
-            reach(&out[k].critical_slip_distance, l->other.critical_slip_distance);
-            reach(&out[k].stiffness, l->other.stiffness);
-            reach(&out[k].drift, l->other.drift);
-        }
+        report(&out[k], l, noise_of(s, k));
         st = leave(l, l->u, s->room, NULL);
         for (size_t i = 0; i < n; i++)
             model[i] = record->mu[i] - s->room[i];

@@ -4,7 +4,6 @@
 
 #include <stddef.h>
 #include <stickslip/steps.h>
-#include "fit/verdict.h"
 
 /* Where the load point is at a time, between which it moves evenly; and the part that friction there has in a row. */
 typedef struct place {
@@ -32,10 +31,8 @@ typedef struct loaded loaded;
 /* Find where the fit of both laws to a record starts, which the caller keeps; other: the same along another path, or
  * NULL.  stiffness [1/m]; 0: it is found.  *out is to be freed even after SS_ENOMEM. */
 ss_status ss_loaded_new(loaded **out, const track *record, const loaded *other, double stiffness);
-/* Fit them, under one noise. */
-ss_status ss_loaded_fit(loaded *step);
-/* Fit them anew to all of these steps, with one a, b, Dc and stiffness.  SS_ENOMEM. */
-ss_status ss_loaded_share(loaded *const step[], size_t n);
+/* Fit both laws to each of these steps; to several with one a, b, Dc and stiffness.  SS_ENOMEM. */
+ss_status ss_loaded_fit(loaded *const step[], size_t n);
 /* model[n] of one, then the other law becomes their friction; numbers of a law that has no fit are NaN. */
 ss_status ss_loaded_report(loaded *step, ss_step_law out[SS_STEP_LAWS], double *model);
 void ss_loaded_free(loaded *step);

@@ -540,7 +540,7 @@ fit_step(ss_step *s, loaded **fit, const track r[2], double same, double stiffne
     for (int k = 0; st == SS_OK && k < paths; k++)
         st = ss_loaded_new(&of[k], &r[k], of[0], stiffness);
     for (int k = 0; st == SS_OK && k < paths; k++) {
-        st = ss_loaded_fit(of[k]);
+        st = ss_loaded_fit(&of[k], 1);
         if (st == SS_OK)
             st = ss_loaded_report(of[k], s->law, s->t + 4 * r->n);
         for (int i = 0; i < SS_STEP_LAWS; i++)
@@ -635,7 +635,7 @@ fit_steps(ss_steps *out, const path *p, const double *mu, double stiffness, int 
             st = fit_step(&out->step[k], &fit[k], record[k], SIGMAS * SIGMAS * p->noise + p->rounding, stiffness);
     }
     if (st == SS_OK && shared)
-        st = ss_loaded_share(fit, out->n);
+        st = ss_loaded_fit(fit, out->n);
     double all = 0;
     for (size_t k = 0; k < out->n; k++) {
         ss_step *s = &out->step[k];
