@@ -13,15 +13,11 @@
 #include <string.h>
 #include <unistd.h>
 
-typedef struct driver_info {
-    h5_disk *disk;
-} driver_info;
-
 static H5FD_t *
 open_file(const char *name, unsigned flags, hid_t access, haddr_t most)
 {
     (void)name, (void)flags, (void)most;
-    h5_disk *disk = ((const driver_info *)H5Pget_driver_info(access))->disk;
+    h5_disk *disk = *(h5_disk *const *)H5Pget_driver_info(access);
     memset(&disk->of_hdf5, 0, sizeof disk->of_hdf5);
     disk->eoa = 0;
     disk->eof = disk->reading ? disk->eof : 0;
@@ -140,7 +136,7 @@ static const H5FD_class_t driver = {
     .name = "stickslip",
     .maxaddr = (haddr_t)1 << 62,
     .fc_degree = H5F_CLOSE_WEAK,
-    .fapl_size = sizeof(driver_info),
+    .fapl_size = sizeof(h5_disk *),
     .open = open_file,
     .close = close_file,
     .query = query,
@@ -156,10 +152,9 @@ static const H5FD_class_t driver = {
 hid_t
 ss_h5_disk_access(h5_disk *disk, hid_t *id)
 {
-    driver_info info = { disk };
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     *id = H5FDregister(&driver);
-    if (access >= 0 && *id >= 0 && H5Pset_driver(access, *id, &info) >= 0)
+    if (access >= 0 && *id >= 0 && H5Pset_driver(access, *id, &disk) >= 0)
         return access;
     H5Pclose(access);
     return -1;

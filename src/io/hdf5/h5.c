@@ -337,9 +337,8 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
 }
 
 ss_status
-ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, size_t *n)
+ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, int *rank, hsize_t dims[])
 {
-    *n = 0;
     *id = ss_h5_open_dataset(group, name, 1);
     if (*id < 0)
         return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
@@ -351,9 +350,19 @@ ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, size_
     if (wrong != NULL)
         return ss_h5_fail(file, SS_EDATA, group, name, wrong);
     hid_t space = H5Dget_space(*id);
-    *n = (size_t)H5Sget_simple_extent_npoints(space);
+    *rank = H5Sget_simple_extent_dims(space, dims, NULL);
     H5Sclose(space);
     return SS_OK;
+}
+
+ss_status
+ss_h5_open_list(h5_file *file, hid_t group, const char *name, hid_t *id, size_t *n)
+{
+    hsize_t dims[H5S_MAX_RANK] = { 0 };
+    int rank = 1;
+    ss_status status = ss_h5_open_values(file, group, name, id, &rank, dims);
+    *n = (size_t)dims[0];
+    return rank == 1 ? status : ss_h5_fail(file, SS_EDATA, group, name, "not a list of values");
 }
 
 int

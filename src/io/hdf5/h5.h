@@ -82,8 +82,10 @@ int ss_h5_read_rows(hid_t id, int by_columns, size_t row, size_t n, double *valu
 
 /* SS_EDATA with the place of the first value that is not finite. */
 ss_status ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n);
-/* Open a dataset of n real numbers, which are counted as claimed; it is to be closed even after a failure. */
-ss_status ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, size_t *n);
+/* Open a dataset of real numbers, which are counted as claimed; it is to be closed even after a failure. */
+ss_status ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, int *rank, hsize_t dims[]);
+/* The same of a list of n numbers. */
+ss_status ss_h5_open_list(h5_file *file, hid_t group, const char *name, hid_t *id, size_t *n);
 
 /* Rate, start and whether the text form has a column of time, from a group into a new header, with the
  * notes of the file. */

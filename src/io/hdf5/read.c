@@ -240,19 +240,6 @@ find_array(rows *s, const char *dataset, const ss_read_opts *opts)
 
 /* --- /signal ------------------------------------------------------------------------------- */
 
-/* Open the dataset of n values at a link; it stays open. */
-static ss_status
-open_list(h5_file *file, hid_t group, const char *link, hid_t *id, size_t *n)
-{
-    ss_status status = ss_h5_open_values(file, group, link, id, n);
-    if (status != SS_OK)
-        return status;
-    hid_t space = H5Dget_space(*id);
-    int rank = H5Sget_simple_extent_ndims(space);
-    H5Sclose(space);
-    return rank == 1 ? SS_OK : ss_h5_fail(file, SS_EDATA, group, link, "not a list of values");
-}
-
 /* Add the dataset at a link as a column of the header. */
 static ss_status
 add_column(rows *s, hid_t group, const char *link)
@@ -266,7 +253,7 @@ add_column(rows *s, hid_t group, const char *link)
     if (s->n_datasets == MAX_COLUMNS)
         return ss_h5_fail(&s->file, SS_EDATA, group, "", "has more than 32768 columns");
     hid_t *id = &more[s->n_datasets++];
-    ss_status status = open_list(&s->file, group, link, id, &own);
+    ss_status status = ss_h5_open_list(&s->file, group, link, id, &own);
     if (status == SS_OK && own != s->n)
         status = ss_h5_fail(&s->file, SS_EDATA, group, link, "not as long as t");
     if (status == SS_OK)
@@ -320,7 +307,7 @@ find_signal(rows *s, const ss_read_opts *opts)
     s->is_own = 1;
     ss_status status = ss_h5_read_header(file, group, &s->base.head);
     if (status == SS_OK)
-        status = open_list(file, group, "t", &s->times, &s->n);
+        status = ss_h5_open_list(file, group, "t", &s->times, &s->n);
     if (status == SS_OK)
         status = find_columns(s, group);
     return status == SS_OK ? ss_refuse_clock(file->path, s->base.head->rate, opts, file->err) : status;

@@ -42,12 +42,9 @@ check_parts(file_source *s, hid_t group, size_t rows, size_t n)
     ss_status st = SS_OK;
     for (int k = 0; st == SS_OK && k < 2; k++) {
         hsize_t dims[H5S_MAX_RANK] = { 0 };
-        size_t claimed;
         hid_t id;
-        st = ss_h5_open_values(&s->file, group, part_name[k], &id, &claimed);
-        hid_t space = st == SS_OK ? H5Dget_space(id) : -1;
-        int rank = H5Sget_simple_extent_dims(space, dims, NULL);
-        H5Sclose(space);
+        int rank = 0;
+        st = ss_h5_open_values(&s->file, group, part_name[k], &id, &rank, dims);
         H5Dclose(id);
         if (st == SS_OK && (rank != 1 + s->dense || dims[rank - 1] != n || (s->dense && dims[0] != rows)))
             st = ss_h5_fail(&s->file, SS_EDATA, group, part_name[k], "not the coefficients of the grid that the "
@@ -96,7 +93,7 @@ read_grid(file_source *s, ss_coefficients *map)
     if (st == SS_OK)
         st = ss_h5_need_number(file, s->group, "dense", 0, 1, &dense);
     if (st == SS_OK)
-        st = ss_h5_open_values(file, s->group, "j", &of_j, &n);
+        st = ss_h5_open_list(file, s->group, "j", &of_j, &n);
     if (st == SS_OK && (st = ss_coefficients_take_notes(map, &opts, &why)) == SS_EDATA)
         return ss_h5_fail(file, st, 0, "", why.text);
     if (st == SS_OK && map->n == 0)
