@@ -142,12 +142,10 @@ static ss_status
 begin_au(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 {
     size_t length;
-    ss_status st = ss_header_check_notes(head, err);
+    char *text;
+    ss_status st = ss_header_text(&text, &length, head, magic, err);
     if (st != SS_OK)
         return st;
-    char *text = ss_header_text(head, magic, &length);
-    if (text == NULL)
-        return SS_ENOMEM;
     size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;        /* at least one NUL */
     int fits = head->n_columns <= MAX_CHANNELS && length + padding <= MAX_ANNOTATION;
     if (fits)

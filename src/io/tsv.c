@@ -140,12 +140,10 @@ static ss_status
 begin_text(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 {
     size_t length;
-    ss_status st = ss_header_check_notes(head, err);
+    char *text;
+    ss_status st = ss_header_text(&text, &length, head, magic, err);
     if (st != SS_OK)
         return st;
-    char *text = ss_header_text(head, magic, &length);
-    if (text == NULL)
-        return SS_ENOMEM;
     fwrite(text, 1, length, out);
     free(text);
     return ferror(out) ? SS_EIO : SS_OK;

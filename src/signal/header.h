@@ -35,8 +35,8 @@ size_t ss_header_row(const ss_header *head, double t);
 /* SS_EDATA: readers would refuse the header, as it has too many notes. */
 ss_status ss_header_check_notes(const ss_header *head, ss_error *err);
 #define WRONG_GAPS "the note 'gaps' is not from:to from:to ..., numbers of which each from is below its to"
-/* The lines of a header, to be freed, or NULL if there is no memory. */
-char *ss_header_text(const ss_header *head, const char *magic, size_t *length);
+/* The lines of a header, to be freed; SS_EDATA as above, and SS_ENOMEM without a text. */
+ss_status ss_header_text(char **text, size_t *length, const ss_header *head, const char *magic, ss_error *err);
 /* Read a "# key: value" line, which is changed; reason is set if the status is SS_EDATA. */
 ss_status ss_header_read_line(ss_header *head, char *line, const char **reason);
 /* Write " name", " name/unit" or " name/(unit)". */

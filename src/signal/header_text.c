@@ -24,13 +24,15 @@ ss_header_check_notes(const ss_header *head, ss_error *err)
         : ss_fail(err, SS_EDATA, "%zu notes: files have no more than %d", head->n_notes, MAX_NOTES);
 }
 
-char *
-ss_header_text(const ss_header *head, const char *magic, size_t *length)
+ss_status
+ss_header_text(char **text, size_t *length, const ss_header *head, const char *magic, ss_error *err)
 {
-    char *text = NULL, number[SS_NUMBER_MAX];
-    FILE *out = open_memstream(&text, length);
+    char number[SS_NUMBER_MAX];
+    ss_status st = ss_header_check_notes(head, err);
+    *text = NULL;
+    FILE *out = st == SS_OK ? open_memstream(text, length) : NULL;
     if (out == NULL)
-        return NULL;
+        return st == SS_OK ? SS_ENOMEM : st;
     fprintf(out, "%s\n", magic);
     for (size_t i = 0; i < head->n_notes; i++)
         fprintf(out, "# %s\n", head->note[i]);
@@ -45,9 +47,9 @@ ss_header_text(const ss_header *head, const char *magic, size_t *length)
     fputc('\n', out);
     int failed = ferror(out);
     if (fclose(out) == 0 && !failed)
-        return text;
-    free(text);
-    return NULL;
+        return SS_OK;
+    free(*text);
+    return SS_ENOMEM;
 }
 
 void
