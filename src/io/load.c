@@ -22,27 +22,21 @@ crc_further(unsigned long crc, unsigned long byte)
 
 /* Write the checksum of a file to text. */
 static ss_status
-sum_file(char text[48], const char *path, ss_error *err)
+sum_file(char text[48], const char *file, ss_error *err)
 {
-    const char *place;
-    char *file = ss_file_of(path, &place);
-    if (file == NULL)
-        return ss_fail_memory(err, path);
     FILE *in = fopen(file, "rb");
-    int why = errno;
-    free(file);
     if (in == NULL)
-        return ss_fail_errno(err, path, why);
+        return ss_fail_errno(err, file, errno);
     unsigned long crc = 0;
     unsigned long long size = 0;
     for (int c; (c = getc(in)) != EOF; size++)
         crc = crc_further(crc, (unsigned long)c);
-    why = ferror(in) ? errno : 0;
+    int why = ferror(in) ? errno : 0;
     fclose(in);
     for (unsigned long long n = size; n > 0; n >>= 8)
         crc = crc_further(crc, (unsigned long)(n & 0xff));
     snprintf(text, 48, "%lu %llu", ~crc & 0xffffffff, size);
-    return why == 0 ? SS_OK : ss_fail_errno(err, path, why);
+    return why == 0 ? SS_OK : ss_fail_errno(err, file, why);
 }
 
 /* The column of the base in a file with this header, or -1. */
@@ -68,20 +62,18 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
     if (file == NULL)
         return ss_fail_memory(err, path);
     int regular = stat(file, &is) != 0 || S_ISREG(is.st_mode) || S_ISDIR(is.st_mode); /* these fail when opened */
-    free(file);
     ss_status st = regular ? ss_signal_read(&signal, NULL, path, NULL, err)     /* a pipe can be read only once */
         : ss_fail(err, SS_EDATA, "%s: not a regular file, which the motion of a base must be", path);
-    if (st != SS_OK)
-        return st;
-    int c = base_column(signal->head, column);
+    int c = st == SS_OK ? base_column(signal->head, column) : 0;
     if (c < 0)
         st = ss_fail(err, SS_EDATA, "%s: no column '%s'", path,
                      column != NULL && *column != '\0' ? column : "z");
-    else if ((st = ss_base_new(&b, signal, (size_t)c, &why)) != SS_OK)
+    else if (st == SS_OK && (st = ss_base_new(&b, signal, (size_t)c, &why)) != SS_OK)
         ss_fail(err, st, "%s: %s", path, why.text);
     ss_signal_free(signal);
     if (st == SS_OK)
-        st = sum_file(b->cksum, path, err);
+        st = sum_file(b->cksum, file, err);
+    free(file);
     if (st == SS_OK)
         *base = b;
     else
