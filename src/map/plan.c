@@ -73,8 +73,7 @@ ss_morlet_free(ss_morlet *plan)
 ss_status
 ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out)
 {
-    return plan->blocks != NULL
-        ? ss_blocks_forward(plan->blocks, rec, (size_t)plan->opts.threads, out) : SS_OK;
+    return plan->blocks != NULL ? ss_blocks_forward(plan->blocks, rec, out) : SS_OK;
 }
 
 size_t

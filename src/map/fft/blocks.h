@@ -13,8 +13,7 @@ void ss_blocks_free(struct blocks *blocks);           /* NULL is allowed */
 int ss_blocks_covers(const struct blocks *blocks, size_t i);     /* blocks may be NULL */
 
 /* The record's spectra, window by window; free it, forward failed or not. */
-ss_status ss_blocks_forward(const struct blocks *blocks, const record *rec, size_t threads,
-                            spectra *out);
+ss_status ss_blocks_forward(const struct blocks *blocks, const record *rec, spectra *out);
 
 /* Doubles that a thread needs, from fftw_malloc. */
 size_t ss_blocks_room(const struct blocks *blocks);

@@ -7,12 +7,9 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/pool.h"
 #include "base/versions.h"
 #include "map/fft/blocks.h"
 #include "map/fft/stage.h"
-
-enum { WORTH_A_THREAD = 8 };    /* windows */
 
 /* --- a window: its samples, its spectrum, and the samples of the next level ----------------------- */
 
@@ -78,123 +75,14 @@ window_room(const struct blocks *b)
     return 3 * most;
 }
 
-/* --- a whole record --------------------------------------------------------------------------- */
-
-/* Some windows of a level, the work of one thread. */
-typedef struct task {
-    const stage *st;
-    const samples *from;
-    samples *next;              /* NULL: not needed */
-    double *spectra, *v;        /* spectra from window 0 on, or NULL; window_room doubles */
-    size_t first, end;          /* windows */
-} task;
-
-static void
-one_window(const task *t, size_t i)
-{
-    const stage *st = t->st;
-    ptrdiff_t first = ((ptrdiff_t)i - 1) * (ptrdiff_t)st->hop;
-    double *terms = t->spectra != NULL ? t->spectra + i * st->stride : t->v + st->stride;
-    double *spare = t->v + 2 * st->stride;
-    copy_samples(t->from, first - (ptrdiff_t)(st->overlap / 2), st->length, spare);
-    transform(st, spare, t->v, terms);
-    if (t->next == NULL)
-        return;
-    samples made = { spare, first / 2, (first + (ptrdiff_t)st->hop) / 2 };
-    ptrdiff_t lo = made.lo > t->next->lo ? made.lo : t->next->lo;
-    ptrdiff_t hi = made.hi < t->next->hi ? made.hi : t->next->hi;
-    if (lo >= hi)
-        return;
-    decimate(st, terms, t->v, spare);
-    copy_samples(&made, lo, (size_t)(hi - lo), t->next->x + (lo - t->next->lo));
-}
-
-static void
-some_windows(void *user)
-{
-    const task *t = user;
-    for (size_t i = t->first; i < t->end; i++)
-        one_window(t, i);
-}
-
-/* Compute the spectra of a level, if its scales need them, and the samples of the next level. */
-static ss_status
-forward_stage(const stage *st, task all, size_t room, size_t threads, double **out)
-{
-    task part[SS_THREADS_MAX];
-    size_t most = 1 + st->windows / WORTH_A_THREAD, n = threads < most ? threads : most;
-    if (st->used && (*out = fftw_malloc(st->windows * st->stride * sizeof **out)) == NULL)
-        return SS_ENOMEM;
-    all.spectra = *out;
-    for (size_t i = 0; i < n; i++) {
-        part[i] = all;
-        part[i].v = all.v + i * room;
-        part[i].first = st->windows * i / n;
-        part[i].end = st->windows * (i + 1) / n;
-    }
-    ss_pool_run(some_windows, part, sizeof *part, n);
-    return SS_OK;
-}
-
-static ss_status
-samples_new(samples *s, const stage *st)
-{
-    *s = (samples){ .lo = -(ptrdiff_t)st->margin, .hi = (ptrdiff_t)(st->n + st->margin) };
-    s->x = calloc((size_t)(s->hi - s->lo), sizeof *s->x);
-    return s->x != NULL ? SS_OK : SS_ENOMEM;
-}
-
-double *
-ss_fft_doubles(size_t n)
-{
-    return fftw_malloc(n * sizeof(double));
-}
-
-void
-ss_fft_scratch_free(double *scratch)
-{
-    fftw_free(scratch);
-}
-
-ss_status
-ss_blocks_forward(const struct blocks *b, const record *rec, size_t threads, spectra *out)
-{
-    samples now = { rec->x, 0, (ptrdiff_t)rec->n }, next = { 0 };
-    size_t room = window_room(b);
-    double *v = fftw_malloc(threads * room * sizeof *v);
-    ss_status st = v != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
-        int last = l + 1 == b->levels;
-        task all = { .st = &b->stage[l], .from = &now, .next = last ? NULL : &next, .v = v };
-        if (!last)
-            st = samples_new(&next, &b->stage[l + 1]);
-        if (st == SS_OK)
-            st = forward_stage(&b->stage[l], all, room, threads, &out->level[l]);
-        if (l > 0)
-            free(now.x);
-        now = next;
-        next.x = NULL;
-    }
-    if (st != SS_OK && now.x != rec->x)
-        free(now.x);
-    fftw_free(v);
-    return st;
-}
-
-void
-ss_morlet_spectra_free(spectra *s)
-{
-    for (size_t l = 0; l < LEVELS; l++)
-        fftw_free(s->level[l]);
-}
-
-/* --- a stream: one window of each level, which is computed when it is full ------------------------ */
+/* --- one window of each level, which is computed when it is full ---------------------------------- */
 
 /* The next window of a level, which samples fill. */
 typedef struct filling {
     double *made;               /* samples of the next level from the last window; x follows in memory */
     double *x;                  /* the overlap/2 samples before the window, then the window's */
     size_t have, window;        /* samples in x; the number of the window */
+    size_t skip;                /* so many samples that are still to come lie before x */
     ptrdiff_t end;              /* samples from here on are 0 */
 } filling;
 
@@ -225,7 +113,8 @@ empty_cascade(const struct blocks *b)
     return NULL;
 }
 
-/* Every level begins with zeros: those samples of window 0 that precede the first from the level before. */
+/* Every level begins with zeros, those samples of window 0 that precede the first from the level before, or skips
+ * those of the level before that precede window 0. */
 cascade *
 ss_cascade_new(const struct blocks *b)
 {
@@ -233,7 +122,9 @@ ss_cascade_new(const struct blocks *b)
     for (size_t l = 0; c != NULL && l < b->levels; l++) {
         const stage *st = &b->stage[l];
         filling *f = &c->level[l];
-        f->have = st->hop + st->overlap / 2 - (l > 0 ? st[-1].hop / 2 : 0);
+        size_t before = st->hop + st->overlap / 2, made = l > 0 ? st[-1].hop / 2 : 0;
+        f->have = before > made ? before - made : 0;
+        f->skip = before > made ? 0 : made - before;
         memset(f->x, 0, f->have * sizeof *f->x);
     }
     return c;
@@ -247,6 +138,7 @@ copy_of(const cascade *c)
         filling *f = &to->level[l];
         f->have = c->level[l].have;
         f->window = c->level[l].window;
+        f->skip = c->level[l].skip;
         memcpy(f->x, c->level[l].x, f->have * sizeof *f->x);
     }
     return to;
@@ -290,6 +182,10 @@ append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user)
     const stage *st = &c->b->stage[l];
     filling *f = &c->level[l];
     ss_status status = SS_OK;
+    size_t skip = n < f->skip ? n : f->skip;
+    f->skip -= skip;
+    x += skip;
+    n -= skip;
     while (status == SS_OK && n > 0) {
         size_t left = st->length - f->have, part = n < left ? n : left;
         ptrdiff_t at = ((ptrdiff_t)f->window - 1) * (ptrdiff_t)st->hop
@@ -355,7 +251,74 @@ ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
     return st;
 }
 
+/* --- a whole record --------------------------------------------------------------------------- */
+
+double *
+ss_fft_doubles(size_t n)
+{
+    return fftw_malloc(n * sizeof(double));
+}
+
+void
+ss_fft_scratch_free(double *scratch)
+{
+    fftw_free(scratch);
+}
+
+/* The user data of keep_spectrum. */
+typedef struct kept {
+    const struct blocks *b;
+    spectra *out;
+} kept;
+
+static ss_status
+keep_spectrum(size_t level, size_t window, double *spectrum, void *user)
+{
+    const kept *k = user;
+    const stage *st = &k->b->stage[level];
+    if (window < st->windows)
+        memcpy(k->out->level[level] + window * st->stride, spectrum, (st->length + 2) * sizeof *spectrum);
+    return SS_OK;
+}
+
+ss_status
+ss_blocks_forward(const struct blocks *b, const record *rec, spectra *out)
+{
+    kept k = { b, out };
+    cascade *c = ss_cascade_new(b);
+    ss_status st = c != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
+        const stage *of = &b->stage[l];
+        if (of->used && (out->level[l] = fftw_malloc(of->windows * of->stride * sizeof(double))) == NULL)
+            st = SS_ENOMEM;
+    }
+    for (size_t i = 0, n; st == SS_OK && i < rec->n; i += n) {
+        n = rec->n - i < ss_cascade_room(c) ? rec->n - i : ss_cascade_room(c);
+        ss_cascade_append(c, rec->x + i, n);
+        st = ss_cascade_run(c, keep_spectrum, &k);
+    }
+    if (st == SS_OK)
+        st = ss_cascade_end(c, rec->n, keep_spectrum, &k);
+    ss_cascade_free(c);
+    return st;
+}
+
+void
+ss_morlet_spectra_free(spectra *s)
+{
+    for (size_t l = 0; l < LEVELS; l++)
+        fftw_free(s->level[l]);
+}
+
 /* --- the adjoint ------------------------------------------------------------------------------ */
+
+static ss_status
+samples_new(samples *s, const stage *st)
+{
+    *s = (samples){ .lo = -(ptrdiff_t)st->margin, .hi = (ptrdiff_t)(st->n + st->margin) };
+    s->x = calloc((size_t)(s->hi - s->lo), sizeof *s->x);
+    return s->x != NULL ? SS_OK : SS_ENOMEM;
+}
 
 /* Sample first + i += v[i]. */
 static void
