@@ -233,15 +233,6 @@ read_record(struct npy *a, uint64_t at, ss_error *err)
     return SS_OK;
 }
 
-/* SS_EDATA: more follows the array. */
-static ss_status
-check_end(struct npy *a, ss_error *err)
-{
-    ss_status st = ss_input_need(a->in, 1, err);
-    return st != SS_OK || a->in->hi == a->in->lo ? st
-        : ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", a->in->name, a->rows * a->columns);
-}
-
 /* Give all columns of the next rows. */
 static ss_status
 give_npy(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
@@ -259,7 +250,9 @@ give_npy(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *
         }
     a->row += rows;
     *n = rows;
-    return st == SS_OK && rows == 0 ? check_end(a, err) : st;
+    if (st == SS_OK && rows == 0 && (st = ss_input_need(a->in, 1, err)) == SS_OK && a->in->hi > a->in->lo)
+        st = ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", s->name, a->rows * a->columns);
+    return st;
 }
 
 static void

@@ -8,7 +8,6 @@
 #include <fcntl.h>
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
 #include "base/error.h"
 #include "io/frames.h"
 
@@ -99,14 +98,6 @@ read_chunks(struct input *in, description *d, uint64_t *place, uint32_t *length,
                    MAX_CHUNKS);
 }
 
-/* 1 if the input is a file of n bytes or more, and not a pipe. */
-static int
-has_bytes(const struct input *in, uint64_t n)
-{
-    struct stat st;
-    return fstat(fileno(in->file), &st) == 0 && S_ISREG(st.st_mode) && (uint64_t)st.st_size >= n;
-}
-
 static ss_status
 open_wav(ss_source **out, const struct opening *o, ss_error *err)
 {
@@ -130,7 +121,7 @@ open_wav(ss_source **out, const struct opening *o, ss_error *err)
     f->base.head->rate = d.rate;
     f->type = (sample_type){ .bytes = d.bits / 8, .is_float = d.code == CODE_FLOAT, .is_unsigned = d.bits == 8,
                              .little_endian = 1 };
-    int unknown = (length >= UNKNOWN_FROM && !has_bytes(in, place + length)) || (length == 0 && all == 0);
+    int unknown = (length >= UNKNOWN_FROM && !(in->size >= (double)(place + length))) || (length == 0 && all == 0);
     f->bytes_left = unknown ? UINT64_MAX : length;
     f->end = place + length;
     f->is_chunk = 1;

@@ -40,21 +40,6 @@ ss_sheet_warn(const struct sheet *t, ss_status about, const char *format, ...)
 
 /* --- the stamps of the rows ---------------------------------------------------------------- */
 
-/* Find the clock on which the rows are samples. */
-static ss_status
-find_uniform(struct sheet *t, struct stamps s, double taken, double digit, double *usual, ss_error *err)
-{
-    int gaps = t->opts->gaps != SS_GAPS_REFUSE;
-    struct clock clock = { .taken = taken, .digit = gaps ? 0 : digit };
-    clock.usual = *usual = gaps ? ss_usual_step(s) : 0;
-    ss_status st = ss_find_clock(s, &clock, err);
-    t->names->rate = clock.rate;
-    t->names->start = clock.start;
-    if (st == SS_OK && (clock.last + 1) / GAPS_MOST >= (double)clock.n + 1)
-        st = ss_fail(err, SS_EDATA, "%s: of %.15g samples only %zu are there", t->name, clock.last + 1, clock.n);
-    return st;
-}
-
 /* The clock is opts->resample; check that the stamps can be resampled to it. */
 static ss_status
 find_resampled(struct sheet *t, struct stamps s, double usual, double *longest, ss_error *err)
@@ -82,6 +67,7 @@ read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, s
 {
     const struct time_column *time = &timing->time;
     struct stamps s = { &t->rows, *time, .n = 0 };
+    int gaps = t->opts->gaps != SS_GAPS_REFUSE;
     ss_status st = ss_stamps_check(s, err);
     if (st != SS_OK)
         return st;
@@ -93,8 +79,14 @@ read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, s
             ss_sheet_warn(t, SS_OK, "%s: frequencies above %g Hz fold down", t->name, t->opts->resample / 2);
         return t->opts->resample > 0 ? find_resampled(t, s, usual, &timing->longest, err) : SS_OK;
     }
-    st = find_uniform(t, s, time->zero * time->factor / time->divisor, digit, &timing->usual, err);
-    *own = t->names->rate;
+    timing->usual = gaps ? ss_usual_step(s) : 0;
+    struct clock clock = { .usual = timing->usual, .taken = time->zero * time->factor / time->divisor,
+                           .digit = gaps ? 0 : digit };
+    st = ss_find_clock(s, &clock, err);
+    *own = t->names->rate = clock.rate;
+    t->names->start = clock.start;
+    if (st == SS_OK && (clock.last + 1) / GAPS_MOST >= (double)clock.n + 1)
+        st = ss_fail(err, SS_EDATA, "%s: of %.15g samples only %zu are there", t->name, clock.last + 1, clock.n);
     return st;
 }
 
