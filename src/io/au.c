@@ -125,19 +125,6 @@ open_au(ss_source **out, const struct opening *o, ss_error *err)
 
 enum { ANNOTATION_UNIT = 8 };
 
-static void
-write_header(FILE *out, const ss_header *head, const char *text, size_t length, size_t padding)
-{
-    char fixed[FIXED_HEADER];
-    uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), UNKNOWN_SIZE,
-                          ENCODING_DOUBLE, whole_rate(head->rate), (uint32_t)head->n_columns };
-    for (int i = 0; i < 6; i++)
-        ss_bytes_put(fixed + 4 * i, field[i], 4, 0);
-    fwrite(fixed, 1, sizeof fixed, out);
-    fwrite(text, 1, length, out);
-    fwrite("\0\0\0\0\0\0\0", 1, padding, out);
-}
-
 static ss_status
 begin_au(FILE *out, const ss_header *head, const char *magic, ss_error *err)
 {
@@ -147,13 +134,20 @@ begin_au(FILE *out, const ss_header *head, const char *magic, ss_error *err)
     if (st != SS_OK)
         return st;
     size_t padding = ANNOTATION_UNIT - length % ANNOTATION_UNIT;        /* at least one NUL */
-    int fits = head->n_columns <= MAX_CHANNELS && length + padding <= MAX_ANNOTATION;
-    if (fits)
-        write_header(out, head, text, length, padding);
-    free(text);
-    if (!fits)
+    if (head->n_columns > MAX_CHANNELS || length + padding > MAX_ANNOTATION) {
+        free(text);
         return ss_fail(err, SS_EINVAL, "AU holds at most %d columns and a header of %d MiB",
                        MAX_CHANNELS, MAX_ANNOTATION >> 20);
+    }
+    char fixed[FIXED_HEADER];
+    uint32_t field[6] = { 0x2e736e64, (uint32_t)(sizeof fixed + length + padding), UNKNOWN_SIZE,
+                          ENCODING_DOUBLE, whole_rate(head->rate), (uint32_t)head->n_columns };
+    for (int i = 0; i < 6; i++)
+        ss_bytes_put(fixed + 4 * i, field[i], 4, 0);
+    fwrite(fixed, 1, sizeof fixed, out);
+    fwrite(text, 1, length, out);
+    fwrite("\0\0\0\0\0\0\0", 1, padding, out);
+    free(text);
     return ferror(out) ? SS_EIO : SS_OK;
 }
 

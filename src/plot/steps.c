@@ -16,28 +16,20 @@ enum { POINTS = 4000 };         /* of a line */
 
 static const char *const colour[SS_STEP_LAWS] = { BLUE, VERMILION };
 
-/* The extents of friction, and of what the laws leave. */
-static void
-find_extents(const ss_step *s, script_extent *of_mu, script_extent *of_left)
-{
-    *of_mu = *of_left = SCRIPT_NO_EXTENT;
-    for (size_t i = 0; i < s->n; i++) {
-        ss_script_include(of_mu, s->friction[i]);
-        for (int k = 0; k < SS_STEP_LAWS; k++) {
-            ss_script_include(of_mu, s->law[k].model[i]);
-            ss_script_include(of_left, s->friction[i] - s->law[k].model[i]);
-        }
-    }
-}
-
 static void
 draw_step(script_stack *stack, const ss_step *s, size_t number)
 {
     FILE *out = stack->out;
     const ss_column path = { (char *)"path of the load point", (char *)"\xc2\xb5m" };
     const ss_column mu = { (char *)"friction", (char *)"" }, left = { (char *)"left", (char *)"" };
-    script_extent extent_of_mu, extent_of_left;
-    find_extents(s, &extent_of_mu, &extent_of_left);
+    script_extent extent_of_mu = SCRIPT_NO_EXTENT, extent_of_left = extent_of_mu;
+    for (size_t i = 0; i < s->n; i++) {
+        ss_script_include(&extent_of_mu, s->friction[i]);
+        for (int k = 0; k < SS_STEP_LAWS; k++) {
+            ss_script_include(&extent_of_mu, s->law[k].model[i]);
+            ss_script_include(&extent_of_left, s->friction[i] - s->law[k].model[i]);
+        }
+    }
     const script_axis frictions = ss_script_axis(&mu, extent_of_mu), rest = ss_script_axis(&left, extent_of_left);
     ss_print(out, "$step%zu << EOD\n", number);
     for (size_t i = 0, stride = 1 + s->n / POINTS; i < s->n; i += stride) {

@@ -60,20 +60,6 @@ ss_noise_add(ss_noise *noise, double *const column[], size_t n_columns, size_t n
     return zero == 0 ? SS_OK : refuse_sum(err);
 }
 
-/* Fill in Gaussian numbers at those frequencies of the spectrum of m samples that lie in [lo, hi]. */
-static size_t
-fill_band(ss_noise *noise, double *spectrum, size_t m, double rate, double lo, double hi)
-{
-    size_t first = (size_t)ceil(lo / rate * (double)m), last = (size_t)floor(hi / rate * (double)m);
-    last = last < m / 2 ? last : m / 2;
-    for (size_t k = first; k <= last; k++) {
-        spectrum[2 * k] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
-        if (k > 0 && k < m / 2)
-            spectrum[2 * k + 1] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
-    }
-    return first <= last ? last - first + 1 : 0;
-}
-
 ss_status
 ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range band, double rms,
                   ss_error *err)
@@ -94,7 +80,14 @@ ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range ba
         return ss_fail_memory(err, NULL);
     memset(f.x, 0, (m + 2) * sizeof *f.x);
     double *y = f.x;
-    if (fill_band(noise, y, m, rate, lo, hi) == 0) {
+    size_t first = (size_t)ceil(lo / rate * (double)m), last = (size_t)floor(hi / rate * (double)m);
+    last = last < m / 2 ? last : m / 2;
+    for (size_t k = first; k <= last; k++) {    /* Gaussian numbers at the frequencies of the band */
+        y[2 * k] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
+        if (k > 0 && k < m / 2)
+            y[2 * k + 1] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
+    }
+    if (first > last) {
         ss_real_fft_free(&f);
         return ss_fail(err, SS_EINVAL, "band %g to %g Hz: a record of %zu sample%s at %g Hz has "
                        "no frequency in it", lo, hi, n, PLURAL(n), rate);

@@ -59,22 +59,6 @@ add_segment(ss_welch *w)
     w->sum->segments++;
 }
 
-/* Divide the sum over the segments so that it becomes their mean density. */
-static ss_status
-finish(ss_spectrum *s, size_t length, double rate, ss_error *err)
-{
-    double power = 0;           /* the window's sum of squares */
-    for (size_t i = 0; i < length; i++)
-        power += hann(i, length) * hann(i, length);
-    for (size_t k = 0; k < s->n; k++) {
-        double sides = k > 0 && k < length / 2 ? 2 : 1;
-        s->density[k] *= sides / (rate * power * (double)s->segments);
-        if (!isfinite(s->density[k]))
-            return ss_fail(err, SS_ERANGE, "the spectral density at %g Hz is not finite", (double)k * s->step);
-    }
-    return SS_OK;
-}
-
 ss_status
 ss_welch_new(ss_welch **out, size_t n, double rate, double resolution, ss_error *err)
 {
@@ -132,10 +116,17 @@ ss_welch_end(ss_spectrum **out, ss_welch *w, ss_error *err)
     *out = NULL;
     if (w->sum->segments == 0)
         return ss_fail(err, SS_EINVAL, "a spectrum needs at least %zu samples, not %zu", w->length, w->n);
-    ss_status st = finish(w->sum, w->length, w->rate, err);
-    if (st != SS_OK)
-        return st;
-    *out = w->sum;
+    ss_spectrum *s = w->sum;
+    double power = 0;           /* the window's sum of squares */
+    for (size_t i = 0; i < w->length; i++)
+        power += hann(i, w->length) * hann(i, w->length);
+    for (size_t k = 0; k < s->n; k++) {         /* the sum over the segments becomes their mean density */
+        double sides = k > 0 && k < w->length / 2 ? 2 : 1;
+        s->density[k] *= sides / (w->rate * power * (double)s->segments);
+        if (!isfinite(s->density[k]))
+            return ss_fail(err, SS_ERANGE, "the spectral density at %g Hz is not finite", (double)k * s->step);
+    }
+    *out = s;
     w->sum = NULL;
     return SS_OK;
 }

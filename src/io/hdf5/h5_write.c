@@ -169,20 +169,6 @@ ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type,
 
 /* --- the file ------------------------------------------------------------------------------ */
 
-static hid_t
-create_file(const char *path, hid_t access)
-{
-    hid_t how = H5Pcreate(H5P_FILE_CREATE);
-    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);   /* programs read it since 2008 */
-    H5Pset_obj_track_times(how, 0);
-    H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    H5Pset_attr_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    hid_t id = H5Fcreate(path, H5F_ACC_TRUNC, how, access);
-    H5Pclose(how);
-    return id;
-}
-
 ss_status
 ss_h5_output_open(h5_output *out)
 {
@@ -192,7 +178,14 @@ ss_h5_output_open(h5_output *out)
     hid_t access = ss_h5_disk_access(&out->file.disk, &out->file.driver);
     if (access < 0)
         return SS_ENOMEM;
-    out->file.id = create_file(out->path, access);
+    hid_t how = H5Pcreate(H5P_FILE_CREATE);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);   /* programs read it since 2008 */
+    H5Pset_obj_track_times(how, 0);
+    H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    H5Pset_attr_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    out->file.id = H5Fcreate(out->path, H5F_ACC_TRUNC, how, access);
+    H5Pclose(how);
     H5Pclose(access);
     return out->file.id >= 0 ? SS_OK : SS_ENOMEM;
 }
