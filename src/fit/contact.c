@@ -235,51 +235,38 @@ judge(ss_fit *fit, const fitting *w)
 
 /* --- all ----------------------------------------------------------------------------------- */
 
-static void
-set_scene(fitting *w, const ss_scene *start, ss_quantity quantity)
-{
-    forced *c = &w->scene;
-    *c = ss_forced_of(start, (int)quantity, FAR);
-    c->period = w->goal.period;
-    c->budget = BUDGET;
-    c->range[FORCED_STIFFNESS] = (ss_range){ c->own[FORCED_STIFFNESS], c->own[FORCED_STIFFNESS] };
-    /* below it sticks are too short to fit */
-    c->range[FORCED_RATIO] = (ss_range){ log(LITTLE), start->friction > 0
-        ? log(start->friction / fmax(start->static_friction, start->friction)) : 0 };
-}
-
-/* Choose the part of a long record that begins after half a cycle.  A fitted motion starts in a slip before its
- * record, but the record itself may start from rest. */
-static ss_status
-choose_part(fitting *w)
-{
-    double samples = w->goal.period * w->rate;
-    size_t first = (double)w->n > 2.5 * samples ? (size_t)(samples / 2) : 0;
-    size_t n = (size_t)fmin(fmin((double)(w->n - first), CYCLES * samples), MOST);
-    w->record = (rank_record){ .x = w->x + first, .n = n, .rate = w->rate,
-                               .missing = w->missing != NULL ? w->missing + first : NULL,
-                               .from = (double)first / w->rate };
-    return ss_record_noise(&w->record, samples);
-}
-
 static ss_status
 fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, const ss_rank_opts *opts,
            ss_error *err)
 {
     forced_start start[FORCED_KEPT];
-    size_t n;
     ss_scene scene = fit->scene;
+    forced *c = &w->scene;
     ss_status st = take_features(&scene, signal, column, err);
-    set_scene(w, &scene, opts->quantity);
+    *c = ss_forced_of(&scene, (int)opts->quantity, FAR);
+    c->period = w->goal.period;
+    c->budget = BUDGET;
+    c->range[FORCED_STIFFNESS] = (ss_range){ c->own[FORCED_STIFFNESS], c->own[FORCED_STIFFNESS] };
+    c->range[FORCED_RATIO].from = log(LITTLE);          /* below it sticks are too short to fit */
+    c->range[FORCED_RATIO].to = scene.friction > 0
+        ? log(scene.friction / fmax(scene.static_friction, scene.friction)) : 0;
+    /* A long record is fitted from half a cycle on.  A fitted motion starts in a slip before its record, but the
+     * record itself may start from rest. */
+    const double samples = w->goal.period * w->rate;
+    size_t first = (double)w->n > 2.5 * samples ? (size_t)(samples / 2) : 0, starts;
+    size_t n = (size_t)fmin(fmin((double)(w->n - first), CYCLES * samples), MOST);
+    w->record = (rank_record){ .x = w->x + first, .n = n, .rate = w->rate,
+                               .missing = w->missing != NULL ? w->missing + first : NULL,
+                               .from = (double)first / w->rate };
     if (st == SS_OK)
-        st = choose_part(w);
-    w->scene.progress = (ss_stretch){ opts->progress, 0, 0.5 };
+        st = ss_record_noise(&w->record, samples);
+    c->progress = (ss_stretch){ opts->progress, 0, 0.5 };
     if (st == SS_OK)
-        st = ss_forced_search(start, &n, &w->scene, &w->goal, POINTS, KEEP);
-    w->scene.progress = (ss_stretch){ opts->progress, 0.5, 1 };
+        st = ss_forced_search(start, &starts, c, &w->goal, POINTS, KEEP);
+    c->progress = (ss_stretch){ opts->progress, 0.5, 1 };
     if (st == SS_OK)
-        st = ss_forced_fit(&w->best, &w->rival, &w->scene, start, n, w->goal.power, &w->record);
-    if (st == SS_OK && w->scene.steps > BUDGET)
+        st = ss_forced_fit(&w->best, &w->rival, c, start, starts, w->goal.power, &w->record);
+    if (st == SS_OK && c->steps > BUDGET)
         return ss_fail(err, SS_EBUDGET, "its fits take more than %.0e integration steps: the contact is "
                        "too stiff, or too many samples stand in a cycle", BUDGET);
     if (st == SS_OK)

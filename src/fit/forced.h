@@ -76,7 +76,7 @@ const char *ss_forced_key_name(const forced *c, size_t key);
 
 /* --- forced_search.c ----------------------------------------------------------------------- */
 
-/* Find *n starts, the best first, no two the same: try `points` all over the ranges and improve the best
+/* Find *n starts, the best first: try `points` all over the ranges and improve the best
  * keep <= FORCED_KEPT of them.  If none of them moves, the misfit is all of the
  * cycle.  SS_ENOMEM, SS_STOP. */
 ss_status ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cycle *goal,

@@ -229,26 +229,6 @@ find_fastest(const ss_sample *s, size_t n, void *user)
     return 0;
 }
 
-/* Does the record depend on the start?  A change by less than RESIDUE_QUIET of the power for a whole
- * unit of the start does not count. */
-static ss_status
-remembers(fitting *w, const double *u, double power, int *is)
-{
-    double squares = 0, h = 1e-2, q[FORCED_MOVED], *changed = malloc((w->r->n + 1) * sizeof *changed);
-    memcpy(q, u, sizeof q);
-    q[FORCED_X0] += h;
-    ss_status st = changed != NULL ? move_to(w, u) : SS_ENOMEM;
-    if (st == SS_OK)
-        st = run(w, q, changed, NULL);
-    for (size_t i = 0; st == SS_OK && i < w->r->n; i++) {
-        double d = w->size * (changed[i] - w->motion[i]) / h;
-        squares += d * d / (double)w->r->n;
-    }
-    free(changed);
-    *is = st == SS_OK && squares > RESIDUE_QUIET * power;
-    return st == SS_EDATA ? SS_OK : st;
-}
-
 static void
 free_ranges(fitting *w)
 {
@@ -259,20 +239,20 @@ free_ranges(fitting *w)
 
 /* Free the start of the motion, `cycles` cycles before the record or up to half a cycle later: it
  * is moved to the fastest slip if x and v are the whole state there.  *is_free becomes 0 if the motion does
- * not slip, or if the record does not depend on the start. */
+ * not slip, or if its start was free before and is not moved. */
 static ss_status
-free_start(fitting *w, double cycles, double *u, double power, int *is_free)
+free_start(fitting *w, double cycles, double *u, int *is_free)
 {
     ss_sample fastest = { .v = 0 };
     ss_scene s = scene_of(w, u);
     const double period = 1 / s.base_frequency;
     *is_free = 0;
     if (w->c->model->dim > 2) {         /* from rest, once */
-        int was_free = w->o.x_unit > 0;
+        *is_free = !(w->o.x_unit > 0);
         w->o.x_unit = s.base_amplitude;
         w->o.v_unit = 2 * M_PI * s.base_frequency * s.base_amplitude;
         free_ranges(w);
-        return was_free ? SS_OK : remembers(w, u, power, is_free);
+        return SS_OK;
     }
     s.settle = w->o.lead - cycles * period;
     s.duration = period / 2;
@@ -461,7 +441,7 @@ fit_start(forced_fit *m, forced *c, const forced_start *start, const rank_record
         double left = m->of_samples.left;
         if (m->of_samples.compared == 0 || left > LITTLE * power)
             break;
-        st = free_start(&w, before[i], u, power, &is_free);
+        st = free_start(&w, before[i], u, &is_free);
         if (st == SS_OK && is_free)
             st = minimise(&w, u);
         if (st == SS_OK && is_free)

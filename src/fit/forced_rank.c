@@ -287,20 +287,6 @@ conclude(ss_ranking *r, comparison *w, const found *f)
 
 /* --- all ----------------------------------------------------------------------------------- */
 
-/* The rows of the signal from first to before end, of all columns. */
-static ss_status
-rows_of(ss_signal **out, const ss_signal *signal, size_t first, size_t end)
-{
-    size_t n = signal->head->n_columns, *column = malloc(n * sizeof *column);
-    if (column == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < n; i++)
-        column[i] = i;
-    ss_status st = ss_signal_select(out, signal, column, n, first, end, NULL);
-    free(column);
-    return st;
-}
-
 /* Compare the scenes with the middle of the signal. */
 static ss_status
 rank_window(ss_ranking *r, comparison *w, const ss_signal *signal, const char *missing, const ss_scene *scene,
@@ -311,7 +297,8 @@ rank_window(ss_ranking *r, comparison *w, const ss_signal *signal, const char *m
     const size_t n = most < (double)signal->n ? (size_t)most : signal->n, first = (signal->n - n) / 2;
     ss_signal *window = NULL;
     found *f = calloc(r->n, sizeof *f);
-    ss_status st = f != NULL ? rows_of(&window, signal, first, first + n) : SS_ENOMEM;
+    ss_status st = f == NULL ? SS_ENOMEM
+        : ss_signal_select(&window, signal, NULL, signal->head->n_columns, first, first + n, NULL);
     w->signal = window;
     if (st == SS_OK)
         st = ss_gaps_of(&w->gap, &w->n_gaps, window->head, n);

@@ -135,18 +135,8 @@ ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cy
             st = descend(&at[i], free_keys, &p);
         qsort(at, keep, sizeof *at, ss_ascending);
     }
-    for (size_t i = 0; st == SS_OK && i < (free_keys > 0 ? keep : 1); i++) {
-        double nearest = INFINITY;
-        run_point(&p, at[i].w, &start[*n]);
-        for (size_t j = 0; j < *n; j++) {
-            double farthest = 0;
-            for (size_t k = 0; k < c->n; k++)
-                farthest = fmax(farthest, fabs(start[*n].key[k] - start[j].key[k]));
-            nearest = fmin(nearest, farthest);
-        }
-        *n += nearest >= 2 * FAINT;
-        st = p.status;
-    }
+    for (; st == SS_OK && *n < (free_keys > 0 ? keep : 1); st = p.status, ++*n)
+        run_point(&p, at[*n].w, &start[*n]);
     ss_cycle_goal_free(&p.goal);
     free(at);
     return st;

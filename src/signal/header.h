@@ -61,7 +61,7 @@ void ss_split_label(char *label, char **name, char **unit);
 /* SS_EDATA: the clock is so fast or slow that its times might not be finite, or starts so late that they would be
  * equal. */
 ss_status ss_refuse_range(const char *name, double rate, double start, ss_error *err);
-/* Copy the columns of these indices, in this order, and of them the rows first ... end - 1. */
+/* Copy the columns of these indices, in this order, or the first for NULL; of them the rows first ... end - 1. */
 ss_status ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
                            size_t n_columns, size_t first, size_t end, ss_error *err);
 

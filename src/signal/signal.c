@@ -43,7 +43,7 @@ ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
                  size_t first, size_t end, ss_error *err)
 {
     ss_header *head;
-    if (out == NULL || signal == NULL || (column == NULL && n_columns > 0))
+    if (out == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
     *out = NULL;
     if (first > end || end > signal->n)
@@ -55,7 +55,7 @@ ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
     st = ss_signal_new(out, head, n, err);
     ss_header_free(head);
     for (size_t c = 0; st == SS_OK && c < n_columns; c++)
-        memcpy((*out)->values + c * n, signal->values + column[c] * signal->n + first,
+        memcpy((*out)->values + c * n, signal->values + (column != NULL ? column[c] : c) * signal->n + first,
                n * sizeof *signal->values);
     return st;
 }
