@@ -56,20 +56,6 @@ append_column(ss_header *head, char *name, char *unit, ss_error *err)
     return SS_OK;
 }
 
-static int
-copy_notes(ss_header *to, const ss_header *from)
-{
-    to->note = calloc(from->n_notes + 1, sizeof *to->note);
-    if (to->note == NULL)
-        return 0;
-    for (; to->n_notes < from->n_notes; to->n_notes++) {
-        to->note[to->n_notes] = strdup(from->note[to->n_notes]);
-        if (to->note[to->n_notes] == NULL)
-            return 0;
-    }
-    return 1;
-}
-
 ss_status
 ss_header_select(ss_header **out, const ss_header *head, const size_t *column, size_t n, size_t first,
                  ss_error *err)
@@ -79,10 +65,13 @@ ss_header_select(ss_header **out, const ss_header *head, const size_t *column, s
         return SS_FAIL_NULL(err);
     *out = NULL;
     ss_status st = ss_header_new(&copy, head->rate, head->start, err);
-    if (st != SS_OK || !copy_notes(copy, head)) {
-        ss_header_free(copy);
-        return ss_fail_memory(err, NULL);
-    }
+    if (st != SS_OK)
+        return st;
+    copy->note = calloc(head->n_notes + 1, sizeof *copy->note);
+    st = copy->note != NULL ? SS_OK : ss_fail_memory(err, NULL);
+    for (; st == SS_OK && copy->n_notes < head->n_notes; copy->n_notes++)
+        if ((copy->note[copy->n_notes] = strdup(head->note[copy->n_notes])) == NULL)
+            st = ss_fail_memory(err, NULL);
     copy->has_time = head->has_time;
     if (first > 0)
         copy->start += (double)first / head->rate;

@@ -171,27 +171,14 @@ make_header(rows *s, hid_t group, const char *dataset, const array *shape, doubl
     return status;
 }
 
-/* Times are the last column.  Their unit is the s of "s since 1970-01-01 00:00". */
-static ss_status
-name_times(rows *s, const char *time)
-{
-    const char *slash = strrchr(time, '/');
-    char *unit = NULL;
-    ss_status status = ss_h5_get_text(&s->file, s->times, "units", &unit);
-    char *since = unit != NULL ? strstr(unit, " since ") : NULL;
-    if (since != NULL)
-        *since = '\0';
-    if (status == SS_OK)
-        status = ss_header_add_column(s->base.head, slash != NULL ? slash + 1 : time, unit, NULL);
-    free(unit);
-    return status;
-}
-
-/* Open the times of an array: at a path, or with a name in its group, unless a column has this name. */
+/* Open the times of an array: at a path, or with a name in its group, unless a column has this name.  They become the
+ * last column. */
 static ss_status
 find_times(rows *s, hid_t group, const char *time)
 {
     array shape;
+    const char *slash = strrchr(time, '/');
+    char *unit = NULL;
     hid_t id = ss_h5_open_dataset(group, time, 1);
     if (id < 0)
         return ss_header_column(s->base.head, time) >= 0 ? SS_OK
@@ -201,7 +188,15 @@ find_times(rows *s, hid_t group, const char *time)
     if (status == SS_OK && (shape.columns > 1 || shape.rows != s->n))
         status = ss_h5_fail(&s->file, SS_EDATA, group, time, "not one time for each row of the signal");
     s->times_by_columns = shape.transposed;
-    return status == SS_OK ? name_times(s, time) : status;
+    if (status == SS_OK)
+        status = ss_h5_get_text(&s->file, id, "units", &unit);
+    char *since = unit != NULL ? strstr(unit, " since ") : NULL;        /* "s since 1970-01-01 00:00" */
+    if (since != NULL)
+        *since = '\0';
+    if (status == SS_OK)
+        status = ss_header_add_column(s->base.head, slash != NULL ? slash + 1 : time, unit, NULL);
+    free(unit);
+    return status;
 }
 
 static ss_status
@@ -348,27 +343,6 @@ columns_of(const rows *s)
     return s->n_datasets > 1 || s->is_own ? 1 : s->base.head->n_columns - (s->times > 0);
 }
 
-static ss_status
-read_times(rows *s, size_t row, size_t n, double *times)
-{
-    return ss_h5_read_rows(s->times, s->times_by_columns, row, n, times) ? SS_OK
-        : ss_h5_fail(&s->file, SS_EIO, s->times, "", "cannot be read");
-}
-
-static ss_status
-check_times(rows *s, size_t n)
-{
-    const ss_header *head = s->base.head;
-    char text[64];
-    ss_status status = read_times(s, s->row, n, s->raw);
-    for (size_t i = 0; status == SS_OK && i < n; i++)
-        if (!ss_is_on_clock(s->raw[i], head->rate, head->start, s->row + i)) {
-            snprintf(text, sizeof text, "value %zu is not start + %zu / rate", s->row + i + 1, s->row + i);
-            status = ss_h5_fail(&s->file, SS_EDATA, s->times, "", text);
-        }
-    return status;
-}
-
 /* Read n rows of dataset d, which has so many columns, into columns of the piece.  Values that are not finite
  * become NaN if there may be gaps, else SS_EDATA. */
 static ss_status
@@ -394,16 +368,23 @@ read_dataset(rows *s, size_t d, size_t n, size_t columns)
     return SS_OK;
 }
 
-/* Read the next n rows. */
+/* Read the next n rows.  Times of our own files are not given, but must be those of the clock. */
 static ss_status
 read_piece(rows *s, size_t n)
 {
-    size_t all = s->base.head->n_columns;
-    ss_status status = s->is_own && n > 0 ? check_times(s, n) : SS_OK;
+    const ss_header *head = s->base.head;
+    double *times = s->is_own ? s->raw : s->value[head->n_columns - 1];
+    ss_status status = SS_OK;
+    char text[64];
+    if (n > 0 && s->times > 0 && !ss_h5_read_rows(s->times, s->times_by_columns, s->row, n, times))
+        return ss_h5_fail(&s->file, SS_EIO, s->times, "", "cannot be read");
+    for (size_t i = 0; s->is_own && status == SS_OK && i < n; i++)
+        if (!ss_is_on_clock(times[i], head->rate, head->start, s->row + i)) {
+            snprintf(text, sizeof text, "value %zu is not start + %zu / rate", s->row + i + 1, s->row + i);
+            status = ss_h5_fail(&s->file, SS_EDATA, s->times, "", text);
+        }
     for (size_t d = 0; status == SS_OK && n > 0 && d < s->n_datasets; d++)
         status = read_dataset(s, d, n, columns_of(s));
-    if (status == SS_OK && n > 0 && s->times > 0 && !s->is_own)
-        status = read_times(s, s->row, n, s->value[all - 1]);
     if (status != SS_OK)
         return status;
     s->row += n;

@@ -445,24 +445,6 @@ read_line(struct text *x, ss_error *err)
     return x->ended ? read_heading(x, line, err) : append_row(x, line, err);
 }
 
-/* Discard the columns of a table before the next one. */
-static ss_status
-clear_table(struct text *x)
-{
-    struct sheet *t = &x->t;
-    free(t->column);
-    free(x->row);
-    ss_header_free(t->names);
-    t->column = NULL;
-    x->row = NULL;
-    ss_header_new(&t->names, 0, 0, NULL);
-    t->counted.increment = 0;
-    t->named = 0;
-    x->mark = '\0';
-    x->comments = 0;
-    return t->names != NULL ? SS_OK : SS_ENOMEM;
-}
-
 /* Append a description of a table: "2 from line 17, 1200 rows of t Fx Fz". */
 static void
 list_table(const struct text *x, size_t number, char *list, size_t size)
@@ -481,8 +463,9 @@ list_table(const struct text *x, size_t number, char *list, size_t size)
 static ss_status
 read_tables(struct text *x, ss_error *err)
 {
+    struct sheet *t = &x->t;
     char list[300] = "";
-    for (size_t number = 1, wanted = x->t.opts->table;; number++) {
+    for (size_t number = 1, wanted = t->opts->table;; number++) {
         ss_status st = SS_OK;
         while (st == SS_OK && !x->ended)
             st = read_line(x, err);
@@ -490,8 +473,16 @@ read_tables(struct text *x, ss_error *err)
             return st;
         list_table(x, number, list, sizeof list);
         if (!x->another)
-            return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", x->t.name, number, PLURAL(number), list);
-        st = clear_table(x);
+            return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", t->name, number, PLURAL(number), list);
+        free(t->column);
+        free(x->row);
+        ss_header_free(t->names);
+        t->column = NULL;
+        x->row = NULL;
+        t->counted.increment = 0;
+        t->named = x->comments = 0;
+        x->mark = '\0';
+        st = ss_header_new(&t->names, 0, 0, NULL);
         if (st == SS_OK)
             st = begin_table(x, x->n_head - 1, err);
         if (st != SS_OK)
