@@ -51,27 +51,6 @@ refuse(const coefficient_reader *r, const char *format, ...)
                    line > 0 ? line : r->row, why);
 }
 
-/* --- header */
-
-/* Check that the columns are those of coefficients, and copy the rest of the stream's header. */
-static ss_status
-copy_header(coefficient_reader *r)
-{
-    const ss_header *head = r->in->source->head;
-    int known = head->n_columns == COEFFICIENT_COLUMNS && !head->has_time;
-    for (size_t i = 0; known && i < COEFFICIENT_COLUMNS; i++)
-        known = strcmp(head->column[i].name, ss_coefficient_columns[i][0]) == 0
-            && strcmp(head->column[i].unit, ss_coefficient_columns[i][1]) == 0;
-    if (!known)
-        return ss_fail_wanted(ss_fail(r->err, SS_EKIND, "%s: the columns are not those of wavelet "
-                                      "coefficients, m a/s b/s f/Hz re im edge", r->in->source->name),
-                              SS_KIND_COEFFICIENTS, r->err);
-    ss_status st = ss_header_select(&r->coef->head, head, NULL, 0, 0, NULL);
-    if (st == SS_OK)
-        r->coef->head->has_time = 1;
-    return st;
-}
-
 /* --- rows */
 
 static ss_status
@@ -236,10 +215,21 @@ read_all(coefficient_reader *r, FILE *in, const char *name)
     ss_status st = ss_reader_open(&r->in, in, name, &o, r->err);
     if (st != SS_OK)
         return st;
+    const ss_header *head = r->in->source->head;
+    int known = head->n_columns == COEFFICIENT_COLUMNS && !head->has_time;
+    for (size_t i = 0; known && i < COEFFICIENT_COLUMNS; i++)
+        known = strcmp(head->column[i].name, ss_coefficient_columns[i][0]) == 0
+            && strcmp(head->column[i].unit, ss_coefficient_columns[i][1]) == 0;
+    if (!known)
+        return ss_fail_wanted(ss_fail(r->err, SS_EKIND, "%s: the columns are not those of wavelet "
+                                      "coefficients, m a/s b/s f/Hz re im edge", r->in->source->name),
+                              SS_KIND_COEFFICIENTS, r->err);
     r->coef = calloc(1, sizeof *r->coef);
     if (r->coef == NULL)
         return SS_ENOMEM;
-    st = copy_header(r);
+    st = ss_header_select(&r->coef->head, head, NULL, 0, 0, NULL);      /* without columns */
+    if (st == SS_OK)
+        r->coef->head->has_time = 1;
     if (st == SS_OK && (st = ss_coefficients_take_notes(r->coef, &r->opts, &why)) == SS_EDATA)
         ss_fail(r->err, st, "%s: %s", r->in->source->name, why.text);
     if (st != SS_OK)

@@ -17,21 +17,6 @@ static const ss_read_opts defaults = { .size = sizeof defaults };
 
 SS_OPTIONS(ss_read_opts, defaults)
 
-/* The caller's options, all of which this library has. */
-static ss_status
-take_opts(ss_read_opts *opts, const ss_read_opts *given, ss_error *err)
-{
-    ss_status st = ss_options_take(opts, sizeof *opts, &defaults, given, err);
-    if (st != SS_OK)
-        return st;
-    if (opts->needed == NULL && opts->n_needed > 0)
-        return SS_FAIL_NULL(err);
-    if ((unsigned)opts->gaps > SS_GAPS_INTERPOLATE || !(opts->rate >= 0) || !(opts->resample >= 0)
-        || isinf(opts->rate + opts->resample))
-        return ss_fail(err, SS_EINVAL, "gaps, rate or resample out of range");
-    return SS_OK;
-}
-
 /* --- opening ------------------------------------------------------------------------------- */
 
 #define MOST 1e6                /* samples for each row: a short file cannot fill a disk */
@@ -94,9 +79,14 @@ ss_reader_open(ss_reader **out, FILE *in, const char *name, struct opening *o, s
 {
     ss_read_opts opts;
     *out = NULL;
-    ss_status st = take_opts(&opts, o->opts, err);
+    ss_status st = ss_options_take(&opts, sizeof opts, &defaults, o->opts, err);
     if (st != SS_OK)
         return st;
+    if (opts.needed == NULL && opts.n_needed > 0)
+        return SS_FAIL_NULL(err);
+    if ((unsigned)opts.gaps > SS_GAPS_INTERPOLATE || !(opts.rate >= 0) || !(opts.resample >= 0)
+        || isinf(opts.rate + opts.resample))
+        return ss_fail(err, SS_EINVAL, "gaps, rate or resample out of range");
     o->opts = &opts;
     ss_reader *reader = calloc(1, sizeof *reader);
     if (reader == NULL)

@@ -316,21 +316,6 @@ write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_
 }
 
 static ss_status
-check_scales(const ss_coefficients *c, ss_error *err)
-{
-    if (c->n_scales < 2)
-        return ss_fail(err, SS_EINVAL, "contours need two scales at least, there are %zu", c->n_scales);
-    for (size_t i = 0; i < c->n_scales; i++) {
-        const ss_scale *s = &c->scale[i];
-        if (!(s->f >= 1e-300 && s->f <= 1e300 && (i == 0 || s->f > s[-1].f)))
-            return ss_fail(err, SS_EINVAL, "scale %zu of %g Hz cannot be drawn", i + 1, s->f);
-        if (s->n == 0 || !(s->b_num / s->b_den > 0))
-            return ss_fail(err, SS_EINVAL, "scale %zu has no translations", i + 1);
-    }
-    return SS_OK;
-}
-
-static ss_status
 check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
 {
     const ss_signal *signal = contour->signal;
@@ -350,7 +335,16 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
         return ss_fail_column(err, contour->column, signal->head->n_columns);
     if (c->w == NULL && c->source == NULL)
         return ss_fail(err, SS_EINVAL, "no coefficients, and no source of them");
-    return check_scales(c, err);
+    if (c->n_scales < 2)
+        return ss_fail(err, SS_EINVAL, "contours need two scales at least, there are %zu", c->n_scales);
+    for (size_t i = 0; i < c->n_scales; i++) {
+        const ss_scale *s = &c->scale[i];
+        if (!(s->f >= 1e-300 && s->f <= 1e300 && (i == 0 || s->f > s[-1].f)))
+            return ss_fail(err, SS_EINVAL, "scale %zu of %g Hz cannot be drawn", i + 1, s->f);
+        if (s->n == 0 || !(s->b_num / s->b_den > 0))
+            return ss_fail(err, SS_EINVAL, "scale %zu has no translations", i + 1);
+    }
+    return SS_OK;
 }
 
 /* The caller's options, and the map. */

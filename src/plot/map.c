@@ -163,20 +163,6 @@ write_data(FILE *out, const drawn *d, const ss_plot_opts *opts, ss_error *err)
 /* --- the script ---------------------------------------------------------------------------- */
 
 static void
-write_key(FILE *out, const drawn *d)
-{
-    if (d->n_values == 0 && !d->missing)
-        return;
-    fputs("set key at screen 0.995,graph 1 right top Left reverse samplen 0.6 spacing 1.3 "
-          "noenhanced font fine\n", out);
-    if (d->n_values == 0)
-        return;
-    fputs("set key title ", out);
-    ss_script_quote(out, d->column[d->regions].label->name, 0);
-    fputs(" noenhanced font fine\n", out);
-}
-
-static void
 write_plot(FILE *out, const drawn *d, const ss_plot_opts *opts)
 {
     static const char boxes[] = "using 1:3:1:2:3:4 with boxxyerror fs solid 1 noborder lc rgb";
@@ -234,7 +220,14 @@ write_map(FILE *out, const drawn *d, const ss_plot_opts *opts, ss_error *err)
     }
     fputs("set border lw 0.8 front\n"
           "set style textbox opaque fillcolor '#ffffff' noborder margins 0.4,0.3\n", out);
-    write_key(out, d);
+    if (d->n_values > 0 || d->missing)
+        fputs("set key at screen 0.995,graph 1 right top Left reverse samplen 0.6 spacing 1.3 "
+              "noenhanced font fine\n", out);
+    if (d->n_values > 0) {
+        fputs("set key title ", out);
+        ss_script_quote(out, d->column[d->regions].label->name, 0);
+        fputs(" noenhanced font fine\n", out);
+    }
     write_plot(out, d, opts);
     return ss_script_end(out);
 }
