@@ -108,25 +108,6 @@ find(const map_axis *a, double x)
     return (size_t)(at - a->value);
 }
 
-/* Find the row of each point; SIZE_MAX: there is none. */
-static ss_status
-find_rows(size_t *row, const map_grid *g, const map_column axis[2], size_t n, ss_error *err)
-{
-    for (size_t k = 0; k < g->x.n * g->y.n; k++)
-        row[k] = SIZE_MAX;
-    for (size_t i = 0; i < n; i++) {
-        double x = axis[0].value[i], y = axis[1].value[i];
-        if (!isfinite(x) || !isfinite(y))
-            continue;
-        size_t k = find(&g->y, y) * g->x.n + find(&g->x, x);
-        if (row[k] != SIZE_MAX)
-            return ss_fail(err, SS_EINVAL, "two rows with the same %s and %s: choose among them "
-                           "first", axis[0].label->name, axis[1].label->name);
-        row[k] = i;
-    }
-    return SS_OK;
-}
-
 ss_status
 ss_map_make_grid(map_grid *g, map_column column[], size_t n_columns, size_t n, ss_error *err)
 {
@@ -140,8 +121,20 @@ ss_map_make_grid(map_grid *g, map_column column[], size_t n_columns, size_t n, s
     if (g->x.n > SIZE_MAX / sizeof *row / g->y.n || points > 16 * n + 100)
         return ss_fail(err, SS_EINVAL, "the rows are no grid: %zu values of %s, %zu of %s in %zu "
                        "rows", g->x.n, column[0].label->name, g->y.n, column[1].label->name, n);
-    row = malloc(points * sizeof *row);
-    st = row != NULL ? find_rows(row, g, column, n, err) : ss_fail_memory(err, NULL);
+    row = malloc(points * sizeof *row);         /* of each point; SIZE_MAX: there is none */
+    st = row != NULL ? SS_OK : ss_fail_memory(err, NULL);
+    for (size_t k = 0; st == SS_OK && k < points; k++)
+        row[k] = SIZE_MAX;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        double x = column[0].value[i], y = column[1].value[i];
+        if (!isfinite(x) || !isfinite(y))
+            continue;
+        size_t k = find(&g->y, y) * g->x.n + find(&g->x, x);
+        if (row[k] != SIZE_MAX)
+            st = ss_fail(err, SS_EINVAL, "two rows with the same %s and %s: choose among them first",
+                         column[0].label->name, column[1].label->name);
+        row[k] = i;
+    }
     for (size_t c = 2; st == SS_OK && c < n_columns; c++) {
         double *of_row = column[c].value, *value = malloc(points * sizeof *value);
         for (size_t k = 0; value != NULL && k < points; k++)

@@ -43,25 +43,6 @@ write_densities(FILE *out, const char *name, const ss_spectrum *s, int decibels)
 
 /* --- a signal of any length ----------------------------------------------------------------- */
 
-/* The spectrum of one column of n rows. */
-static ss_status
-estimate(ss_spectrum **out, series *s, size_t column, size_t n, double resolution, ss_error *err)
-{
-    ss_welch *welch = NULL;
-    ss_status st = ss_welch_new(&welch, n, s->head->rate, resolution, err);
-    if (st == SS_OK)
-        st = ss_series_rewind(s, err);
-    for (size_t got = 1; st == SS_OK && got > 0;) {
-        st = ss_series_next(s, &got, err);
-        if (st == SS_OK)
-            st = ss_welch_add(welch, s->value + column * s->piece, got, err);
-    }
-    if (st == SS_OK)
-        st = ss_welch_end(out, welch, err);
-    ss_welch_free(welch);
-    return st;
-}
-
 /* The rows are read once to be counted, and once for each column. */
 ss_status
 ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[], size_t n,
@@ -84,8 +65,20 @@ ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[
         st = ss_series_next(&s, &got, err);
     if (st == SS_OK)
         st = ss_script_find_span(&span, s.start, s.head->rate, s.rows, &opts, err);
-    for (size_t i = 0; st == SS_OK && i < n; i++)
-        st = estimate(&spectrum[i], &s, i, span.n, opts.resolution, err);
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        ss_welch *welch = NULL;
+        st = ss_welch_new(&welch, span.n, s.head->rate, opts.resolution, err);
+        if (st == SS_OK)
+            st = ss_series_rewind(&s, err);
+        for (size_t got = 1; st == SS_OK && got > 0;) {
+            st = ss_series_next(&s, &got, err);
+            if (st == SS_OK)
+                st = ss_welch_add(welch, s.value + i * s.piece, got, err);
+        }
+        if (st == SS_OK)
+            st = ss_welch_end(&spectrum[i], welch, err);
+        ss_welch_free(welch);
+    }
     ss_series_free(&s);
     return st;
 }

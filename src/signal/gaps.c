@@ -67,26 +67,6 @@ add_value(struct runs *r, size_t row, double value)
     return 1;
 }
 
-/* Add n rows; 0: no memory. */
-static int
-add_rows(struct filled *g, double *const column[], size_t n)
-{
-    for (size_t i = 0; i < n; i++, g->row++) {
-        double zero = 0;                        /* NaN if any column lacks its value */
-        for (size_t c = 0; c < g->base.head->n_columns; c++) {
-            double x = column[c][i];
-            if (g->how == SS_GAPS_SPLIT)
-                g->column[c].there += !isnan(x);
-            else if (!add_value(&g->column[c], g->row, x))
-                return 0;
-            zero = isnan(x) ? x : zero;
-        }
-        if (!add_value(&g->rows, g->row, zero))
-            return 0;
-    }
-    return 1;
-}
-
 /* Note the gaps as "from:to from:to ...".  Each goes from the time of its first missing sample to that of the
  * next sample with a value. */
 static ss_status
@@ -169,8 +149,20 @@ ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err)
     ss_status st = column != NULL && g->column != NULL ? SS_OK : ss_fail_memory(err, g->base.name);
     while (st == SS_OK && n > 0) {
         st = ss_source_rows(g->base.inner, column, piece, &n, err);
-        if (st == SS_OK && !add_rows(g, column, n))
-            st = ss_fail_memory(err, g->base.name);
+        for (size_t i = 0; st == SS_OK && i < n; i++, g->row++) {
+            double zero = 0;                    /* NaN if any column lacks its value */
+            int added = 1;
+            for (size_t c = 0; c < columns; c++) {
+                double x = column[c][i];
+                if (how == SS_GAPS_SPLIT)
+                    g->column[c].there += !isnan(x);
+                else
+                    added &= add_value(&g->column[c], g->row, x);
+                zero = isnan(x) ? x : zero;
+            }
+            if (!added || !add_value(&g->rows, g->row, zero))
+                st = ss_fail_memory(err, g->base.name);
+        }
     }
     free(column);
     for (size_t c = 0; st == SS_OK && c < columns; c++) {

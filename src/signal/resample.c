@@ -111,16 +111,6 @@ read_on(struct resampled *r, ss_error *err)
     return SS_OK;
 }
 
-/* The number of samples that the rows in memory determine. */
-static size_t
-count_ready(const struct resampled *r)
-{
-    double rate = r->base.head->rate;
-    double all = r->ended ? ss_resample_count(r->first, r->stamp[r->n - 1], rate)
-        : floor((r->stamp[r->n - 1 - MARGIN] - r->first) * rate) + 1;
-    return all > r->at ? (size_t)fmin(all - r->at, (double)r->room) : 0;
-}
-
 static ss_status
 make_samples(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
@@ -130,7 +120,10 @@ make_samples(ss_source *s, double *const column[], size_t max, size_t *n, ss_err
     s->given = 0;
     do {
         st = read_on(r, err);
-        s->held = st == SS_OK ? count_ready(r) : 0;
+        double all = st != SS_OK ? 0            /* samples that the rows in memory determine */
+            : r->ended ? ss_resample_count(r->first, r->stamp[r->n - 1], s->head->rate)
+            : floor((r->stamp[r->n - 1 - MARGIN] - r->first) * s->head->rate) + 1;
+        s->held = all > r->at ? (size_t)fmin(all - r->at, (double)r->room) : 0;
     } while (st == SS_OK && s->held == 0 && !r->ended);
     for (size_t c = 0; st == SS_OK && s->held > 0 && c < r->columns; c++) {
         st = fill_column(r, r->sample[c], r->value[c]);

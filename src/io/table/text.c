@@ -278,25 +278,6 @@ append_row(struct text *x, const char *line, ss_error *err)
 
 /* --- one table ----------------------------------------------------------------------------- */
 
-/* Find the kinds of the columns from the cells of the first row. */
-static ss_status
-find_kinds(struct text *x, const char *row)
-{
-    size_t numbers, n = x->t.n_columns;
-    const char *shape = ss_text_shape(x, row, x->separator, &numbers);
-    struct sheet_column *column = x->t.column = calloc(n, sizeof *column);
-    x->row = malloc((n + 1) * sizeof *x->row);
-    for (size_t i = 0; column != NULL && i < n; i++) {
-        unsigned parts = ss_stamp_read(x->cell[i]).parts;
-        int empty = shape[i] == 'e' && !ss_text_may_lack(x);
-        int is_words = shape[i] == 't' || empty || (x->settings && i < 2);
-        column[i].kind = is_words ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS : COLUMN_NUMBERS;
-        column[i].begins_empty = empty && !x->labview;
-        column[i].stamps = ss_stamp_column(parts);
-    }
-    return column != NULL && x->row != NULL ? SS_OK : SS_ENOMEM;
-}
-
 /* Find the columns of a table, whose first row is the line behind the kept ones. */
 static ss_status
 begin_columns(struct text *x, ss_error *err)
@@ -306,16 +287,28 @@ begin_columns(struct text *x, ss_error *err)
     x->in->line = x->head[x->n_head].number;
     if (t->n_columns > MAX_COLUMNS)
         return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->name, x->in->line);
-    ss_status st = find_kinds(x, row);
-    if (st == SS_OK)
-        st = ss_text_read_names(x, err);
+    size_t numbers;
+    const char *shape = ss_text_shape(x, row, x->separator, &numbers);
+    struct sheet_column *column = t->column = calloc(t->n_columns, sizeof *column);
+    x->row = malloc((t->n_columns + 1) * sizeof *x->row);
+    if (column == NULL || x->row == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < t->n_columns; i++) {
+        unsigned parts = ss_stamp_read(x->cell[i]).parts;
+        int empty = shape[i] == 'e' && !ss_text_may_lack(x);
+        int is_words = shape[i] == 't' || empty || (x->settings && i < 2);
+        column[i].kind = is_words ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS : COLUMN_NUMBERS;
+        column[i].begins_empty = empty && !x->labview;
+        column[i].stamps = ss_stamp_column(parts);
+    }
+    ss_status st = ss_text_read_names(x, err);
     if (st == SS_OK)
         st = ss_sheet_mark_spare(t, err);
     if (st != SS_OK)
         return st;
     ss_text_split(x, row, x->separator);        /* the cells were those of the names */
     for (size_t i = 0; i < t->n_columns; i++)
-        if (t->column[i].kind == COLUMN_TEXT && t->opts->n_needed == 0 && ss_cell_is_grouped(x->cell[i]))
+        if (column[i].kind == COLUMN_TEXT && t->opts->n_needed == 0 && ss_cell_is_grouped(x->cell[i]))
             return ss_fail(err, SS_EDATA, "%s:%lu: column %zu (\"%s\"): '%.40s' is not a number: it has separators "
                            "of thousands; remove them, or choose other columns", t->name, x->in->line, i + 1,
                            t->names->column[i].name, x->cell[i]);
