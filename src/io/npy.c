@@ -251,7 +251,8 @@ give_npy(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *
     a->row += rows;
     *n = rows;
     if (st == SS_OK && rows == 0 && (st = ss_input_need(a->in, 1, err)) == SS_OK && a->in->hi > a->in->lo)
-        st = ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", s->name, a->rows * a->columns);
+        st = ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", s->name,
+                     a->rows * a->columns);
     return st;
 }
 

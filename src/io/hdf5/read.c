@@ -171,8 +171,8 @@ make_header(rows *s, hid_t group, const char *dataset, const array *shape, doubl
     return status;
 }
 
-/* Open the times of an array: at a path, or with a name in its group, unless a column has this name.  They become the
- * last column. */
+/* Open the times of an array: at a path, or with a name in its group, unless a column has this name.  They become
+ * the last column. */
 static ss_status
 find_times(rows *s, hid_t group, const char *time)
 {
