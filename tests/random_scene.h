@@ -1,4 +1,4 @@
-/* random_scene.h -- scenes drawn log-uniformly from the ranges that the library says it supports. */
+/* random_scene.h -- scenes drawn log-uniformly from the ranges that stickslip-scene(5) says are supported. */
 #ifndef RANDOM_SCENE_H
 #define RANDOM_SCENE_H
 
@@ -46,5 +46,19 @@ ss_scene random_scene(uint64_t number);
 ss_scene random_rig(uint64_t number);
 /* The same with a gap and another friction and stiffness of the other side. */
 ss_scene random_contact(uint64_t number);
+
+/* A range in which results are verified; the manual shows these ranges. */
+typedef struct scene_range {
+    const char *name, *unit;    /* "Omega/omega_n"; stickslip-scene(5) defines X */
+    double from, to;
+    int zero;                   /* 1: 0 belongs to the range too */
+    const char *key;            /* of a number; NULL: it is computed by `of` alone */
+    double (*of)(const ss_scene *scene);        /* the number's unit, 0 where it has no meaning */
+    const char *model;          /* that has it; NULL: every */
+} scene_range;
+/* The i-th range of the scenes of a model; NULL after the last. */
+const scene_range *range_of(const ss_model *model, size_t i);
+/* The name of a range that a scene is not within; NULL: it is within all. */
+const char *outside_of(const ss_scene *scene);
 
 #endif

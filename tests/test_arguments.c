@@ -236,7 +236,6 @@ simulations_refuse_null(void **state)
     e.text[0] = '\0';
     assert_refused(ss_scene_set_text(NULL, "mass", "1", &e), &e);
     assert_refused(ss_scene_set_text(&copy, "mass", NULL, &e), &e);
-    assert_refused(ss_scene_supported(NULL, &e), &e);
     assert_int_equal(ss_scene_samples(NULL), 0);
     assert_refused(ss_sim_run(NULL, &opts, NULL, &e), &e);
     assert_refused(ss_sim_signal(NULL, &scene, &e), &e);
@@ -787,7 +786,6 @@ refuses_what_is_no_known_choice(void **state)
         assert_true(isnan(ss_scene_get(&copy, "mass")));
         assert_null(ss_model_named(NULL));
         assert_null(ss_model_at((size_t)k));
-        assert_int_equal(ss_scene_supported(&copy, NULL), SS_EINVAL);
         assert_null(ss_sim_method_for(&copy, NULL));
         assert_int_equal(ss_steady_check(NULL, &copy, NULL), SS_EINVAL);
         assert_int_equal(ss_morlet_new(&plan, 64, 1, &norm, NULL), SS_EINVAL);
@@ -806,7 +804,6 @@ refuses_what_is_no_known_choice(void **state)
         assert_int_equal(ss_ranking_new(&ranking, signal, 0, &scene, 1, &rank, NULL), SS_EINVAL);
         assert_int_equal(ss_scene_fit(&fit, signal, 0, &scene, &rank, NULL), SS_EINVAL);
         assert_string_equal(ss_model_name(NULL), "?");
-        assert_null(ss_model_range(NULL, 0));
         assert_int_equal(ss_model_has_events(NULL), 0);
         assert_int_equal(ss_model_is_linear(NULL), 0);
         assert_string_equal(ss_event_kind_name((ss_event_kind)k), "?");

@@ -1,6 +1,6 @@
 /* test_random.c -- random scenes, drawn from the ranges that the library says it supports.
  *
- * Log-uniform in each ss_model_range, from a fixed seed; SCENES=N in the environment sets how
+ * Log-uniform in each range of random_scene.c, from a fixed seed; SCENES=N in the environment sets how
  * many of the older, and a third as many of the newer (tests/long/random-scenes-*.sh: 10000), FIRST=N with which one to begin. */
 #include <float.h>
 #include <stdint.h>
@@ -68,8 +68,8 @@ trial_of(uint64_t number)
 {
     trial t = { .number = number, .scene = random_scene(number) };
     ss_error err = { 0 };
-    if (ss_scene_check(&t.scene, &err) != SS_OK || ss_scene_supported(&t.scene, &err) != SS_OK)
-        complain(t.number, &t.scene, err.text, 0, 0);
+    if (ss_scene_check(&t.scene, &err) != SS_OK || outside_of(&t.scene) != NULL)
+        complain(t.number, &t.scene, *err.text != '\0' ? err.text : outside_of(&t.scene), 0, 0);
     t.method = ss_model_is_linear(t.scene.model) ? "exact" : ss_sim_method_for(&t.scene, NULL);
     t.run = run_alike(&t, &t.scene, 1e-12);
     demand(&t, t.run.err.text, t.run.status, SS_OK);
@@ -429,9 +429,9 @@ the_manual_shows_the_ranges_drawn_from(void **state)
     FILE *in = fopen(path, "r");
     if (in == NULL)
         fail_msg("%s cannot be read: run from the source tree, or set SRC", path);
-    const ss_scene_range *r;
+    const scene_range *r;
     for (size_t m = 0; ss_model_at(m) != NULL; m++)
-        for (size_t i = 0; (r = ss_model_range(ss_model_at(m), i)) != NULL; i++) {
+        for (size_t i = 0; (r = range_of(ss_model_at(m), i)) != NULL; i++) {
             int found = 0;
             snprintf(row, sizeof row, ".It %s Ta %s Ta %g Ta %g Ta %s\n", r->name, r->unit, r->from,
                      r->to, r->zero ? "or 0" : "\\&");

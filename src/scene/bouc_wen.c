@@ -21,13 +21,6 @@ static const vanishing vanishing_terms[] = {
     { "gap=0", OWN_AT(GAP) },
 };
 
-static const ss_scene_range ranges[] = {
-    { "K X/f_k", "1", 1e-1, 1e4, 0, OWN_AT(STIFFNESS), ss_unit_contact },
-    { "n", "1", 0.5, 20, 0, OWN_AT(EXPONENT), ss_unit_one },
-    { "p", "1", 0.5, 1, 0, OWN_AT(FRACTION), ss_unit_one },
-    { "b/X", "1", 1e-3, 1, 1, OWN_AT(GAP), ss_unit_length },
-};
-
 /* --- the law ------------------------------------------------------------------------------------ */
 
 /* z where the contact is on a side. */
@@ -221,7 +214,6 @@ limit(ss_scene *s)
 MODEL(bouc_wen) = {
     .name = "bouc-wen",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
-    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .parameter = { { .offset = OWN_AT(STIFFNESS), .by_mass = 1 } },
     .n_parameters = 1,
     .vanishing = vanishing_terms, .n_vanishing = sizeof vanishing_terms / sizeof *vanishing_terms,

@@ -38,25 +38,6 @@ static const vanishing vanishing_terms[] = {
     { "contact_damping=0", OWN_AT(DAMPING) },
 };
 
-static double
-critical(const ss_scene *s)
-{
-    return 2 * sqrt(s->stiffness + s->own[STIFFNESS]) * sqrt(s->mass);
-}
-
-static double
-first_stiffness(const ss_scene *s)
-{
-    return s->own[STIFFNESS];
-}
-
-static const ss_scene_range ranges[] = {
-    { "K_y/k", "1", 1e-2, 1e8, 0, OWN_AT(STIFFNESS), ss_unit_stiffness },
-    { "c/(2 sqrt((k + K_y) m))", "1", 1e-4, 100, 1, OWN_AT(DAMPING), critical },
-    { "K_y-/K_y", "1", 0.1, 10, 1, OWN_AT(NEGATIVE), first_stiffness },
-    { "b/X", "1", 1e-3, 1, 1, OWN_AT(GAP), ss_unit_length },
-};
-
 /* K_y of motion in direction `way`. */
 static double
 stiffness_of(const ss_scene *s, int way)
@@ -354,7 +335,6 @@ ss_to_compliant(ss_scene *scene, double stiffness, double gap)
 MODEL(compliant) = {
     .name = "compliant",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
-    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .parameter = { { .offset = OWN_AT(STIFFNESS), .by_mass = 1 },
                    { .offset = OWN_AT(DAMPING), .by_mass = 1 } },
     .n_parameters = 2,

@@ -85,28 +85,6 @@ int ss_key_is_of_record(const char *name);
 const char *ss_scene_unit(const ss_scene *scene, const char *key);      /* of a number; NULL: no such number */
 int ss_model_is_linear(const ss_model *model);      /* 1: between events it has a closed form */
 
-/* A range in which scenes are supported: the tests verify results there.  A scene outside is
- * simulated too, without this promise. */
-typedef struct ss_scene_range {
-    const char *name, *unit;    /* "Omega/omega_n"; stickslip-scene(5) defines X */
-    double from, to;
-    int zero;                   /* 1: 0 belongs to the range too */
-    size_t offset;              /* in ss_scene, of a number; 0: it is computed by `of` alone */
-    double (*of)(const ss_scene *scene);        /* the number's unit, 0 where it has no meaning */
-} ss_scene_range;
-/* The i-th range of the scenes of a model; NULL after the last. */
-const ss_scene_range *ss_model_range(const ss_model *model, size_t i);
-double ss_range_value(const ss_scene_range *range, const ss_scene *scene);      /* NaN where it has no meaning */
-/* Change the model's own number of which this is the range so that the value is x; 0: there is none. */
-int ss_range_set(const ss_scene_range *range, ss_scene *scene, double x);
-/* Units of numbers: 1, k, f_k / X, X, omega_n X, 2 sqrt(k m). */
-double ss_unit_contact(const ss_scene *scene);
-double ss_unit_one(const ss_scene *scene);
-double ss_unit_stiffness(const ss_scene *scene);
-double ss_unit_length(const ss_scene *scene);
-double ss_unit_speed(const ss_scene *scene);
-double ss_unit_damping(const ss_scene *scene);
-
 /* --- simpler.c ----------------------------------------------------------------------------- */
 
 /* Make the i-th of the simpler scenes that a scene contains.  Each loses more than the one before:

@@ -22,19 +22,6 @@ static const vanishing vanishing_terms[] = {
     { "viscous_friction=0", OWN_AT(VISCOUS) },
 };
 
-static double
-critical(const ss_scene *s)
-{
-    return 2 * sqrt(s->stiffness + s->own[STIFFNESS]) * sqrt(s->mass);
-}
-
-static const ss_scene_range ranges[] = {
-    { "sigma_0 X/f_k", "1", 1, 1e5, 0, OWN_AT(STIFFNESS), ss_unit_contact },
-    { "sigma_1/(2 sqrt((k + sigma_0) m))", "1", 1e-3, 1, 1, OWN_AT(DAMPING), critical },
-    { "sigma_2/(2 sqrt(k m))", "1", 1e-3, 1, 1, OWN_AT(VISCOUS), ss_unit_damping },
-    { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, OWN_AT(SPEED), ss_unit_speed },
-};
-
 /* --- the law ------------------------------------------------------------------------------------ */
 
 /* sigma_0 |v| / g(v), the rate at which bristles slip, in motion in direction `way`; *slope becomes its
@@ -174,7 +161,6 @@ drive(const ss_scene *s, double *memory, const piece *p, double part[])
 MODEL(lugre) = {
     .name = "lugre",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
-    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .parameter = { { .offset = OWN_AT(STIFFNESS), .by_mass = 1 },
                    { .offset = OWN_AT(DAMPING), .by_mass = 1 } },
     .n_parameters = 2,

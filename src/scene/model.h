@@ -118,8 +118,6 @@ struct ss_model {
     const scene_key *keys;          /* keys that not every scene has (keys.c has the others) */
     size_t n_keys;
     int rig_is_own;                 /* 1: the rig is among them, all of it but mass and spring */
-    const ss_scene_range *ranges;   /* ranges that not every scene has (ranges.c has the others) */
-    size_t n_ranges;
     parameter parameter[PARAMETERS];
     size_t n_parameters;
     const vanishing *vanishing;     /* numbers that not every scene has (simpler.c has the others) */

@@ -37,45 +37,6 @@ static const scene_key keys[] = {
     OWN_WORD("law", LAW, law_word),
 };
 
-static double
-reference(const ss_scene *s)
-{
-    return s->own[REFERENCE];
-}
-
-static double
-direct(const ss_scene *s)
-{
-    return s->own[DIRECT];
-}
-
-static double
-load(const ss_scene *s)
-{
-    return s->stiffness * s->base_velocity / own_frequency(s) / s->own[REFERENCE];
-}
-
-static double
-pull(const ss_scene *s)
-{
-    return s->base_velocity;
-}
-
-static double
-distance(const ss_scene *s)
-{
-    return s->own[NORMAL] * s->own[DIRECT] / s->stiffness;
-}
-
-static const ss_scene_range ranges[] = {
-    { "mu0", "1", 0.1, 1, 0, OWN_AT(REFERENCE), ss_unit_one },
-    { "a/mu0", "1", 1e-3, 0.03, 0, OWN_AT(DIRECT), reference },
-    { "b/a", "1", 0.1, 2, 1, OWN_AT(EVOLUTION), direct },
-    { "mu0 N omega_n/(k U)", "1", 3, 1e4, 0, OWN_AT(NORMAL), load },
-    { "k Dc/(a N)", "1", 0.03, 100, 0, OWN_AT(DISTANCE), distance },
-    { "V0/U", "1", 1e-4, 1e4, 0, OWN_AT(SPEED), pull },
-};
-
 /* --- the law ------------------------------------------------------------------------------------ */
 
 enum { LARGE = 20 };                /* beyond, exp(-2 w) is 0 beside 1 */
@@ -397,7 +358,6 @@ limit(ss_scene *s)
 MODEL(rate_and_state) = {
     .name = "rate-and-state",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys, .rig_is_own = 1,
-    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .limit = limit, .dim = 3, .kinks = 1, .from_pull = 1, .force_varies = IN_STICK | IN_SLIP,
     .start = start, .fastest = fastest, .scales = scales, .quickest = quickest, .stiff = stiff,
     .rates = rates, .jacobian = jacobian, .series = series, .next = next,

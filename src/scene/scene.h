@@ -10,8 +10,5 @@ const ss_model *ss_model_at(size_t i);              /* NULL after the last */
  * SS_EDATA: the column's unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
 ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
 const char *ss_scene_word(const ss_scene *scene, const char *key);     /* of a word; NULL: no such key */
-/* SS_OK if a scene that has passed ss_scene_check lies within the ranges in which the tests verify results
- * (stickslip-scene(5) lists them), else SS_EINVAL.  A scene outside is simulated too. */
-ss_status ss_scene_supported(const ss_scene *scene, ss_error *err);
 
 #endif

@@ -30,24 +30,6 @@ law(const ss_scene *s, double *rate, double *goal)
     *goal = literal ? 1 : s->friction;
 }
 
-static double
-per_speed(const ss_scene *s)
-{
-    double speed = ss_unit_speed(s);
-    return speed > 0 ? 1 / speed : 0;
-}
-
-static double
-rate_unit(const ss_scene *s)
-{
-    return own_frequency(s) / (s->own[LAW] == LITERAL && s->friction > 0 ? s->friction : 1);
-}
-
-static const ss_scene_range ranges[] = {
-    { "alpha X omega_n", "1", 0.1, 1e6, 0, OWN_AT(ALPHA), per_speed },
-    { "gamma/omega_n", "1", 1e-2, 1e8, 0, OWN_AT(GAMMA), rate_unit },
-};
-
 /* Replace the law by the scaled one with the same rate and goal. */
 static void
 normalise(ss_scene *s)
@@ -251,7 +233,6 @@ in_transition(const state *m, double v)
 MODEL(state_variable) = {
     .name = "state-variable",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
-    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .parameter = { { .offset = OWN_AT(GAMMA) },
                    { .offset = OWN_AT(ALPHA), .by_speed = 1 } },
     .n_parameters = 2, .normalise = normalise, .limit = limit,

@@ -20,11 +20,6 @@ static const scene_key keys[] = {
     OWN_NUMBER("stribeck_exponent", EXPONENT, TERM, FROM_ONE, "1"),
 };
 
-static const ss_scene_range ranges[] = {
-    { "delta", "1", 1, 4, 1, OWN_AT(EXPONENT), ss_unit_one },
-    { "v_s/(omega_n X)", "1", 1e-3, 1e3, 0, OWN_AT(SPEED), ss_unit_speed },
-};
-
 static double
 exponent(const ss_scene *s)
 {
@@ -169,7 +164,6 @@ drive(const ss_scene *s, double *memory, const piece *p, double part[])
 MODEL(stribeck) = {
     .name = "stribeck",
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
-    .ranges = ranges, .n_ranges = sizeof ranges / sizeof *ranges,
     .parameter = { { .offset = OWN_AT(SPEED), .by_speed = -1 } },
     .n_parameters = 1,
     .limit = ss_to_coulomb, .dim = 2, .force_varies = IN_SLIP,
