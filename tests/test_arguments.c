@@ -7,6 +7,7 @@
 #include <stickslip.h>
 #include "map/map.h"
 
+#include "base/error.h"
 #include "signal/wave.h"
 #include "signal/welch.h"
 #include "unit.h"
@@ -853,6 +854,12 @@ every_status_has_words_of_its_own(void **state)
         for (int b = SS_OK; b < a; b++)
             assert_string_not_equal(ss_strerror((ss_status)a), ss_strerror((ss_status)b));
     }
+    ss_error err;
+    assert_int_equal(ss_fail_memory(&err, NULL), SS_ENOMEM);
+    assert_string_equal(err.text, ss_strerror(SS_ENOMEM));
+    assert_int_equal(ss_fail_memory(&err, "run.tsv"), SS_ENOMEM);
+    assert_memory_equal(err.text, "run.tsv: ", 9);
+    assert_string_equal(err.text + 9, ss_strerror(SS_ENOMEM));
 }
 
 /* Letters of UTF-8 stay; what drives a terminal of 7 or 8 bits, or of UTF-8, does not. */
