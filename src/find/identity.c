@@ -12,9 +12,12 @@
  *   contact   x = p(t) + ringing until 0 + [t > 0] (jump + kink t + bend t^2)
  *   sensor    x = p(t) + ringing         + [t > 0] (what a resonator makes of these)
  *
- * with a cubic p and an event at 0, which is sought.  The end of a slip is a sensor's by this, whatever rings.
- * Some other place must be the contact's, the same behind all sticks together.  The slower a slip begins, re the
- * ringing, the less it differs; so noise that would hide it, compared with the end of a slip, speaks for neither.
+ * with a cubic p and an event at 0, which is sought.  A low-pass may lie behind either: then its own answer to the
+ * event is added.  What may not decay may be a hum, which rings on beside the event itself.
+ *
+ * The end of a slip is a sensor's by this, whatever rings.  Some other place must be the contact's, the same behind
+ * all sticks together.  The slower a slip begins, re the ringing, the less it differs; so noise that would hide it,
+ * compared with the end of a slip, speaks for neither.
  * Ringing that dies out at rest has no slips about it, and is taken as it is.
  *
  * A filter's corner has no peak, and the spectrum ends there.  The rig's own spring rings with sqrt(k/m) while it
@@ -25,6 +28,7 @@
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <stickslip/spectrum.h>
 #include "find/fitter.h"
 
@@ -92,16 +96,22 @@ is_edge(const double *x, size_t n, double f, int *is)
 
 /* --- a sensor -------------------------------------------------------------------------------- */
 
-typedef enum ringer { BY_SENSOR, BY_CONTACT, RINGERS } ringer;
-enum { EVENT = 3, COLUMNS = 4 + 2 + EVENT };    /* a cubic, the ringing, and what the event makes */
+typedef enum ringer { BY_SENSOR, BY_CONTACT, BY_HUM, RINGERS } ringer;
+enum { EVENT = 3, COLUMNS = 4 + 2 + EVENT + 2 };        /* a cubic, the ringing, what the event makes, and a filter */
+static const double corners[] = { INFINITY, 0.7, 1, 1.4 };      /* of a filter, re the frequency; none comes first */
+#define FILTERED 4.0            /* the same as SHOWN behind a filter, whose answer is like a damped sensor's */
+enum { CORNERS = sizeof corners / sizeof *corners };
 
 /* n samples, each `skip` behind the one before; w and s by such a step. */
 typedef struct stretch {
     size_t n, skip;
     size_t length, hop;         /* of it, and from one to the next, in samples of the record */
     double w, s;
+    double corner;              /* of a filter behind it, re w, or infinite */
+    int columns;                /* that are used */
+    ringer ringers;             /* that are compared: a hum only where what rings may not decay */
     double noise;               /* sum of squares of white noise, or of rounding */
-    double *basis;              /* for each place of an event and either ringer: COLUMNS orthonormal columns */
+    double *basis;              /* for each place of an event and each ringer: COLUMNS orthonormal columns */
     double *x;                  /* room for n samples */
 } stretch;
 
@@ -116,11 +126,11 @@ answer(const stretch *of, int k, double t)
     return steady[k] + exp(-of->s * t) * (-at_0[k] * cos(of->w * t) + sine * sin(of->w * t));
 }
 
-/* Make the columns of n rows orthonormal. */
+/* Make so many columns of n rows orthonormal. */
 static void
-orthonormalise(double *row, size_t n)
+orthonormalise(double *row, size_t n, int columns)
 {
-    for (int c = 0; c < COLUMNS; c++)
+    for (int c = 0; c < columns; c++)
         for (int k = 0; k < 2 * c + 1; k++) {   /* off those before twice, as rounding leaves a part of them */
             int by = k < 2 * c ? k % c : c;
             double dot = 0;
@@ -145,14 +155,17 @@ fill_basis(const stretch *of, size_t event, ringer who)
     double *row = basis_of(of, event, who);
     for (size_t i = 0; i < of->n; i++, row += COLUMNS) {
         double t = (double)i - at, u = t / (double)of->n, fall = exp(-of->s * t);
-        int rings = who == BY_SENSOR || t < 0;
+        int rings = who != BY_CONTACT || t < 0;
         row[0] = 1, row[1] = u, row[2] = u * u, row[3] = u * u * u;
         row[4] = rings ? fall * cos(of->w * t) : 0;
         row[5] = rings ? fall * sin(of->w * t) : 0;
         for (int k = 0; k < EVENT; k++)
             row[6 + k] = t < 0 ? 0 : who == BY_SENSOR ? answer(of, k, t) : pow(u, k);
+        const double turn = of->corner * of->w * M_SQRT1_2 * t;
+        for (int k = 6 + EVENT; k < of->columns; k++)
+            row[k] = t < 0 ? 0 : exp(-turn) * (k % 2 == 0 ? cos(turn) : sin(turn));
     }
-    orthonormalise(basis_of(of, event, who), of->n);
+    orthonormalise(basis_of(of, event, who), of->n, of->columns);
 }
 
 /* So many stretches, half a period apart, lie in a gap. */
@@ -176,16 +189,16 @@ explained(const stretch *of, size_t event, ringer who, int first, int end)
     return sum;
 }
 
-/* The least sums of squares that either leaves of the samples in x, whose own is `all`.  The cubic is the same at
- * all places, and so is what rings in a sensor. */
+/* The least sums of squares that each leaves of the samples in x, whose own is `all`.  The cubic is the same at
+ * all places, and so is what rings on. */
 static void
 seek_event(const stretch *of, double all, double left[RINGERS])
 {
-    for (ringer who = BY_SENSOR; who < RINGERS; who++) {
-        const int same = who == BY_SENSOR ? COLUMNS - EVENT : COLUMNS - EVENT - 2;
+    for (ringer who = BY_SENSOR; who < of->ringers; who++) {
+        const int same = who == BY_CONTACT ? 4 : 6;
         double most = 0;
         for (size_t event = 0; event < EVENTS; event++)
-            most = fmax(most, explained(of, event, who, same, COLUMNS));
+            most = fmax(most, explained(of, event, who, same, of->columns));
         left[who] = fmax(all - explained(of, 0, who, 0, same) - most, 0) + of->noise;
     }
 }
@@ -206,7 +219,7 @@ compare(const stretch *of, const double *x, ss_window gap, place *sum)
     double most = 0, mean[2] = { INFINITY, -INFINITY }, sample[2] = { INFINITY, -INFINITY };
     for (size_t i = 0; i < n; i++) {
         const double *first = x + gap.end - of->length - i * of->hop;
-        double whole = 0, all = 0, left[RINGERS];
+        double whole = 0, all = 0, left[RINGERS] = { INFINITY, INFINITY, INFINITY };
         for (size_t k = 0; k < of->n; k++) {
             double here = of->x[k] = first[k * of->skip];
             whole += here, all += here * here;
@@ -218,10 +231,11 @@ compare(const stretch *of, const double *x, ss_window gap, place *sum)
         if (all - whole * whole * (double)of->n < of->noise + FIT_MISFIT * FIT_MISFIT * (double)of->n)
             continue;
         seek_event(of, all, left);
-        sum[i].more += left[BY_SENSOR] - left[BY_CONTACT];
+        const double by_others = fmin(left[BY_SENSOR], left[BY_HUM]);
+        sum[i].more += by_others - left[BY_CONTACT];
         sum[i].left += left[BY_CONTACT];
         sum[i].noise += of->noise;
-        most = fmax(most, left[BY_CONTACT] - left[BY_SENSOR]);
+        most = fmax(most, left[BY_CONTACT] - by_others);
     }
     for (size_t i = 0; i < n; i++)
         sum[i].most += most;
@@ -239,53 +253,77 @@ gap_behind(const search *s, const ringdown *r, size_t i, size_t length)
     return gap.end < gap.first + length || gap.end > s->n ? (ss_window){ 0, 0 } : gap;
 }
 
-/* Does what rings in the windows ring on through the slips, or end where they begin?  *more: what a sensor leaves
- * more than a contact, in parts, where that is most; NaN: it cannot be told. */
-static ss_status
-compare_all(const search *s, const ringdown *r, double *more)
+/* Up to STICKS gaps behind windows all over the record. */
+static size_t
+find_gaps(const search *s, const ringdown *r, size_t length, ss_window gap[STICKS])
 {
-    double period = 2 * M_PI / r->all[0].value, best = 0;
-    size_t skip = (size_t)ceil(period / RATE), n = (size_t)(2 * AROUND * period / (double)skip) + 1;
-    size_t windows = 0, seen = 0, used = 0, most = 0, moved = 0;
-    stretch of = { .n = n, .skip = skip, .length = n * skip, .hop = (size_t)ceil(period / 2),
-                   .w = r->all[0].value * (double)skip, .s = r->all[1].value * (double)skip,
-                   .noise = (double)n * (r->white * r->white + ROUNDING) };
-    ss_window gap[STICKS];
+    size_t windows = 0, seen = 0, n = 0;
     for (size_t i = 0; i < r->n_anchors; i++)
         windows += ss_window_length(r->window[i]) > 0;
-    for (size_t i = 0; i < r->n_anchors && used < STICKS; i++)
+    for (size_t i = 0; i < r->n_anchors && n < STICKS; i++)
         if (ss_window_length(r->window[i]) > 0 && seen++ % (windows / STICKS + 1) == 0) {
-            gap[used] = gap_behind(s, r, i, of.length);
-            if (ss_window_length(gap[used]) == 0)
-                continue;
-            size_t all = places(&of, gap[used++]);
-            most = all > most ? all : most;
+            gap[n] = gap_behind(s, r, i, length);
+            n += ss_window_length(gap[n]) > 0;
         }
-    *more = NAN;
+    return n;
+}
+
+/* What a sensor leaves more than a contact in n gaps, in parts, where that is most, by the bases of a corner; NaN:
+ * nothing moves but what rings.  sum has room for the places of the longest gap. */
+static double
+most_in_gaps(const stretch *of, const double *x, const ss_window *gap, size_t n, place *sum)
+{
+    size_t moved = 0, end = 0;
+    double best = 0;
+    for (size_t i = 0; i < n; i++) {
+        moved += (size_t)compare(of, x, gap[i], sum);
+        end = places(of, gap[i]) > end ? places(of, gap[i]) : end;
+    }
+    for (const place *at = sum; at < sum + end; at++) {
+        double unexplained = fmax(at->left - 2 * at->noise, 0) + fmin(at->noise, HIDDEN * at->most);
+        if (at->sticks >= 2 && 2 * at->sticks >= n && at->most > 0
+            && at->more > CHANCE * (at->noise + MORE * of->noise) / (double)of->n)
+            best = fmax(best, at->more / unexplained);
+    }
+    return 2 * moved > n ? best : NAN;
+}
+
+/* Does what rings in the windows ring on through the slips, or end where they begin?  *more becomes what a sensor
+ * leaves more than a contact, in parts, where that is most; it stays NaN where that cannot be told.  Behind a filter
+ * it becomes that only if it is FILTERED. */
+static ss_status
+compare_all(const search *s, const ringdown *r, int decays, int is_filtered, double *more)
+{
+    double period = 2 * M_PI / r->all[0].value;
+    size_t skip = (size_t)ceil(period / RATE), n = (size_t)(2 * AROUND * period / (double)skip) + 1, most = 0;
+    stretch of = { .n = n, .skip = skip, .length = n * skip, .hop = (size_t)ceil(period / 2),
+                   .w = r->all[0].value * (double)skip, .s = r->all[1].value * (double)skip,
+                   .noise = (double)n * (r->white * r->white + ROUNDING), .ringers = decays ? BY_HUM : RINGERS };
+    ss_window gap[STICKS];
+    const size_t used = find_gaps(s, r, of.length, gap);
     if (used < 2)
         return SS_OK;
+    for (size_t i = 0; i < used; i++)
+        most = places(&of, gap[i]) > most ? places(&of, gap[i]) : most;
     of.basis = malloc((EVENTS * RINGERS * COLUMNS + 1) * n * sizeof *of.basis);
-    place *sum = calloc(most, sizeof *sum);
+    place *sum = malloc(most * sizeof *sum);
     if (of.basis == NULL || sum == NULL) {
         free(sum);
         free(of.basis);
         return SS_ENOMEM;
     }
     of.x = basis_of(&of, EVENTS, BY_SENSOR);
-    for (size_t event = 0; event < EVENTS; event++)
-        for (ringer who = BY_SENSOR; who < RINGERS; who++)
-            fill_basis(&of, event, who);
-    for (size_t i = 0; i < used; i++)
-        moved += (size_t)compare(&of, s->x, gap[i], sum);
-    for (size_t k = 0; k < most; k++) {
-        const place *at = &sum[k];
-        double unexplained = fmax(at->left - 2 * at->noise, 0) + fmin(at->noise, HIDDEN * at->most);
-        if (at->sticks >= 2 && 2 * at->sticks >= used && at->most > 0
-            && at->more > CHANCE * (at->noise + MORE * of.noise) / (double)n)
-            best = fmax(best, at->more / unexplained);
+    for (size_t k = is_filtered ? 1 : 0, end = is_filtered ? CORNERS : 1; k < end && !(*more >= SHOWN); k++) {
+        of.corner = corners[k];
+        of.columns = isinf(of.corner) ? COLUMNS - 2 : COLUMNS;
+        for (size_t event = 0; event < EVENTS; event++)
+            for (ringer who = BY_SENSOR; who < of.ringers; who++)
+                fill_basis(&of, event, who);
+        memset(sum, 0, most * sizeof *sum);
+        const double here = most_in_gaps(&of, s->x, gap, used, sum);
+        if (!is_filtered || here >= FILTERED)
+            *more = here;
     }
-    if (2 * moved > used)
-        *more = best;
     free(sum);
     free(of.basis);
     return SS_OK;
@@ -338,9 +376,11 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     s->rings_as = *why != NULL ? OF_NOTHING : OF_SOMETHING;
     if (*why != NULL || is_told)
         return SS_OK;
-    ss_status st = compare_all(s, r, &more);
+    ss_status st = compare_all(s, r, damping > error, 0, &more);
     if (st == SS_OK && !(more >= SHOWN))
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
+    if (st == SS_OK && !(more >= SHOWN) && !at_edge)
+        st = compare_all(s, r, damping > error, 1, &more);
     s->rings_as = more >= SHOWN ? OF_CONTACT : at_edge ? OF_FILTER : more < CONTACT ? OF_SENSOR : OF_SOMETHING;
     /* a contact may be undamped, if that is well known */
     const int may_ring_on = s->rings_as == OF_CONTACT && !s->must_show && error < UNDAMPED * r->all[0].value;

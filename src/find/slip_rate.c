@@ -301,6 +301,8 @@ count_events(search *s, double *t, const ss_rests *rests)
     }
     if (each == 0)
         count_cycles(s);
+    else if (s->quantity == QUANTITY_MOTION && !s->spiked && isnan(out->number[SS_TRANSITION_FREQUENCY].value))
+        forget_slips(out, "what swells again and again is not known to begin with slips");
     else if (is_doubtful(s, onsets(s, t), each)
         || (rests->rest != NULL && s->quantity == QUANTITY_MOTION
             && hides_stops(s, onsets(s, t), rests, (double)each * cycle_rate(s).value, STRONG)))
@@ -343,6 +345,8 @@ ss_slip_rate_find(search *s)
         forget_slips(out, "what rings is a sensor's: short sticks may hide in it");
     else if (motion.n >= FEW && !rests.is_doubtful && slips_in_cycle(s, motion) % least_in_cycle(s) == 0)
         count_motions(s, motion, end, &rests);
+    else if (motion.n >= FEW && !rests.is_doubtful && s->quantity == QUANTITY_MOTION)
+        forget_slips(out, "one half of the cycle mirrors the other, but it does not rest in both");
     else if (motion.n >= FEW && out->n > 0 && rests.is_doubtful)
         forget_slips(out, "the signal rests at a level that it also crosses so slowly that rests are not certain");
     else if (repeats)
