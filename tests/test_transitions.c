@@ -423,6 +423,37 @@ the_ringing_of_a_sensor_is_no_contact(void **state)
         check_sensor(&slow, .0718800679, 6.74720346, k + 8);
 }
 
+/* A low-pass near the contact's frequency rounds all jumps and kinks, and its slips are far stronger than what rings
+ * between them. */
+static void
+a_contact_rings_behind_a_low_pass(void **state)
+{
+    static const double ratio[] = { 0.01, 0.03, 0.08 };
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        ss_scene scene = scene_of("compliant-heavy");
+        ss_signal *signal = NULL;
+        ss_features *found = NULL;
+        const double stiffness = 40000, w = sqrt((scene.stiffness + stiffness) / scene.mass), zeta = ratio[k / 2];
+        assert_int_equal(ss_scene_set(&scene, "contact_stiffness", stiffness, NULL), SS_OK);
+        assert_int_equal(ss_scene_set(&scene, "contact_damping", 2 * zeta * scene.mass * w, NULL), SS_OK);
+        scene.base_frequency = 0.3, scene.friction = 0.9;
+        scene.settle = 20, scene.duration = 40, scene.rate = 500;
+        assert_int_equal(ss_sim_signal(&signal, &scene, NULL), SS_OK);
+        size_t column = (size_t)ss_header_column(signal->head, "a"), n = signal->n;
+        double *a = signal->values + column * n;
+        resonate(a, n, (1 + 0.25 * (k % 2)) * w / (2 * M_PI * scene.rate), sqrt(0.5));
+        ss_noise_add_once(a, n, ss_noise_rms(a, n, 50), 1 + (unsigned long)k, NULL);
+        assert_int_equal(ss_features_find(&found, signal, column, NULL, NULL), SS_OK);
+        const ss_number *got = &found->number[SS_TRANSITION_FREQUENCY];
+        double off = (got->value - w * sqrt(1 - zeta * zeta) / (2 * M_PI)) / got->error;
+        if (!(fabs(off) < 4))
+            fail_msg("%d: %.8g +- %.2g Hz", k, got->value, got->error);
+        ss_features_free(found);
+        ss_signal_free(signal);
+    }
+}
+
 /* A filter rings behind each jump, at its corner; a slider without a contact does not. */
 static void
 the_ringing_of_a_filter_is_no_contact(void **state)
@@ -762,6 +793,7 @@ main(void)
         cmocka_unit_test(finds_nothing_in_noise_silence_and_short_records),
         cmocka_unit_test(the_forcing_is_no_harmonic),
         cmocka_unit_test(rings_beside_larger_jumps),
+        cmocka_unit_test(a_contact_rings_behind_a_low_pass),
         cmocka_unit_test(the_ringing_of_a_filter_is_no_contact),
         cmocka_unit_test(the_ringing_of_a_sensor_is_no_contact),
         cmocka_unit_test(single_events_have_an_extent),

@@ -152,13 +152,15 @@ fit_singly(search *s, ringdown *r, double f)
 /* Fit all sticks together, in the first of these ways that is ringing.  A jump larger than the oscillation
  * passes for the strongest oscillation in a window over it; a smaller one does little harm.  So windows are
  * moved behind what a slip leaves in a filter; kept off jumps and kinks; and moved behind trains of these.  A
- * train of micro-slips stays one, however it is barred: only the stick behind it may ring. */
+ * train of micro-slips stays one, however it is barred: only the stick behind it may ring.  Where a filter rounds all
+ * jumps and kinks, a stick lies between slips. */
 static ss_status
 fit_together(search *s, ringdown *r, double f)
 {
     static const struct { int off_events; double behind; } way[] = {    /* behind the anchors, in periods; */
         { 0, 0 }, { 0, 2 }, { 0, 5 }, { 1, 0 }, { 1, 2 }, { 1, 5 },
         { 1, NAN },                                                     /* NAN: in the longest stick there */
+        { 0, INFINITY },                                                /* halfway to the next anchor */
     };
     const size_t *anchor = r->anchor, n = r->n_anchors, cycles = r->forcing > 0 ? s->cycles.n : n;
     const char **why = &s->out->number[SS_TRANSITION_FREQUENCY].why;
@@ -178,7 +180,9 @@ fit_together(search *s, ringdown *r, double f)
             || (r->is_train && !(is_barred && in_stick)))
             continue;
         for (size_t i = 0; i < n; i++) {
-            moved[i] = in_stick ? stick_behind(s, anchor[i], i + 1 < n ? anchor[i + 1] : s->n, f)
+            const size_t next = i + 1 < n ? anchor[i + 1] : s->n;
+            moved[i] = in_stick ? stick_behind(s, anchor[i], next, f)
+                : isinf(way[k].behind) ? anchor[i] + (next - anchor[i]) / 2
                 : anchor[i] + (size_t)(way[k].behind / f * s->rate);
             moved[i] = moved[i] < s->n ? moved[i] : s->n - 1;
         }
