@@ -33,7 +33,7 @@
 #include "find/fitter.h"
 
 #define AROUND 1.5              /* periods on either side of the middle of a stretch: more may hold two events */
-#define CONTACT 0.15            /* what the sensor leaves more than the contact, in parts: less is the sensor */
+#define CONTACT 0.3             /* what the sensor leaves more than the contact, in parts: less is the sensor */
 #define SHOWN 1.0               /* the same: so it is the contact, whatever else may be */
 #define CHANCE 2.8              /* variances of a sample: noise makes so much behind each stick, as the place of the
                                    event is chosen, and of some more sticks by chance */
@@ -50,6 +50,7 @@ enum { EVENTS = 33 };           /* places of an event that are tried, within a p
 enum { STICKS = 24, MORE = 5 }; /* most sticks that are looked behind; see CHANCE */
 #define ONE 0.5                 /* of what rings: with more in one sinusoid that runs through all sticks it is a hum */
 #define UNDAMPED 0.01           /* error of the damping re the frequency */
+#define SURE 10.0               /* standard errors of a damping that must be shown, where only the fit speaks for it */
 enum { TRIALS = 200 };          /* most of its frequencies to either side */
 
 /* --- the rig's spring ------------------------------------------------------------------------ */
@@ -99,7 +100,8 @@ is_edge(const double *x, size_t n, double f, int *is)
 typedef enum ringer { BY_SENSOR, BY_CONTACT, BY_HUM, RINGERS } ringer;
 enum { EVENT = 3, COLUMNS = 4 + 2 + EVENT + 2 };        /* a cubic, the ringing, what the event makes, and a filter */
 static const double corners[] = { INFINITY, 0.7, 1, 1.4 };      /* of a filter, re the frequency; none comes first */
-#define FILTERED 4.0            /* the same as SHOWN behind a filter, whose answer is like a damped sensor's */
+#define FILTERED 4.0            /* the same as SHOWN behind a filter */
+#define LIGHT 0.1               /* damping re the frequency: a sensor that is damped more answers as a filter does */
 enum { CORNERS = sizeof corners / sizeof *corners };
 
 /* n samples, each `skip` behind the one before; w and s by such a step. */
@@ -109,7 +111,7 @@ typedef struct stretch {
     double w, s;
     double corner;              /* of a filter behind it, re w, or infinite */
     int columns;                /* that are used */
-    ringer ringers;             /* that are compared: a hum only where what rings may not decay */
+    ringer ringers;             /* that are compared: a hum only where it is not sure that something rings and decays */
     double noise;               /* sum of squares of white noise, or of rounding */
     double *basis;              /* for each place of an event and each ringer: COLUMNS orthonormal columns */
     double *x;                  /* room for n samples */
@@ -292,13 +294,13 @@ most_in_gaps(const stretch *of, const double *x, const ss_window *gap, size_t n,
  * leaves more than a contact, in parts, where that is most; it stays NaN where that cannot be told.  Behind a filter
  * it becomes that only if it is FILTERED. */
 static ss_status
-compare_all(const search *s, const ringdown *r, int decays, int is_filtered, double *more)
+compare_all(const search *s, const ringdown *r, int is_sure, int is_filtered, double *more)
 {
     double period = 2 * M_PI / r->all[0].value;
     size_t skip = (size_t)ceil(period / RATE), n = (size_t)(2 * AROUND * period / (double)skip) + 1, most = 0;
     stretch of = { .n = n, .skip = skip, .length = n * skip, .hop = (size_t)ceil(period / 2),
                    .w = r->all[0].value * (double)skip, .s = r->all[1].value * (double)skip,
-                   .noise = (double)n * (r->white * r->white + ROUNDING), .ringers = decays ? BY_HUM : RINGERS };
+                   .noise = (double)n * (r->white * r->white + ROUNDING), .ringers = is_sure ? BY_HUM : RINGERS };
     ss_window gap[STICKS];
     const size_t used = find_gaps(s, r, of.length, gap);
     if (used < 2)
@@ -367,7 +369,7 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     int at_edge = 0;
     double more = NAN;
     const int is_told = s->out->reverses || s->part->is_contact;
-    const double damping = r->all[1].value, error = is_told ? 0 : SIGMAS * r->all[1].error;
+    const double damping = r->all[1].value, error = is_told ? 0 : (s->must_show ? SURE : SIGMAS) * r->all[1].error;
     /* a damping ratio above one half */
     *why = 3 * pow(damping, 2) > pow(r->all[0].value, 2)
         ? "what recurs is damped so much that a filter may make it"
@@ -376,11 +378,12 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     s->rings_as = *why != NULL ? OF_NOTHING : OF_SOMETHING;
     if (*why != NULL || is_told)
         return SS_OK;
-    ss_status st = compare_all(s, r, damping > error, 0, &more);
+    const int is_sure = damping > error && !s->must_show;
+    ss_status st = compare_all(s, r, is_sure, 0, &more);
     if (st == SS_OK && !(more >= SHOWN))
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
-    if (st == SS_OK && !(more >= SHOWN) && !at_edge)
-        st = compare_all(s, r, damping > error, 1, &more);
+    if (st == SS_OK && !(more >= SHOWN) && !at_edge && damping < LIGHT * r->all[0].value)
+        st = compare_all(s, r, is_sure, 1, &more);
     s->rings_as = more >= SHOWN ? OF_CONTACT : at_edge ? OF_FILTER : more < CONTACT ? OF_SENSOR : OF_SOMETHING;
     /* a contact may be undamped, if that is well known */
     const int may_ring_on = s->rings_as == OF_CONTACT && !s->must_show && error < UNDAMPED * r->all[0].value;

@@ -62,11 +62,12 @@ fit_one(fitter *k, ss_window win, ss_value each[2])
 
 /* --- all windows together -------------------------------------------------------------------- */
 
-/* Fit w and s to all windows, and find the noise.  *ok: the fit has converged. */
+/* Fit w and s to all windows, and find the noise.  *ok: the fit has converged within an octave of its start: farther
+ * off, windows are longer than the table. */
 static ss_status
 fit_shared(fitter *k, double tol, int *ok)
 {
-    *ok = ss_varpro_fit(&k->fit, k->window, k->n, tol);
+    *ok = ss_varpro_fit(&k->fit, k->window, k->n, tol) && fabs(log(k->fit.w / k->of->w)) < M_LN2;
     return *ok ? ss_sticks_noise(k) : SS_OK;
 }
 
