@@ -209,18 +209,6 @@ write_variables(FILE *out, const contour_map *map, const ss_contour_opts *contou
         fputs("line_colour = '" LEVEL_COLOUR "'\n", out);
 }
 
-/* Panel (a). */
-static void
-write_signal(FILE *out, const trace *t)
-{
-    ss_trace_write(out, "$signal", t);
-    ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t->y.extent, t->y.scale), 5);
-    fputs("set tmargin at screen 0.925; set bmargin at screen 0.72\n"
-          "set label 1 '(a)' at screen 0.01, screen 0.96\nset xtics format ''; ", out);
-    ss_script_write_side_label(out, 2, t->y.column, t->y.scale, ROOM);
-    fputs(panel_a, out);
-}
-
 /* Where ridge points go: a datablock, or rows. */
 typedef struct ridge_of {
     FILE *out;
@@ -417,8 +405,14 @@ ss_plot_contour(FILE *out, const ss_coefficients *c, const ss_contour_opts *cont
     if (st == SS_OK) {
         write_variables(out, &p.map, &p.contour);
         fputs(around, out);
-        if (signal != NULL)
-            write_signal(out, &t);
+        if (signal != NULL) {
+            ss_trace_write(out, "$signal", &t);
+            ss_script_write_tics(out, "ytics", ss_script_scaled_extent(t.y.extent, t.y.scale), 5);
+            fputs("set tmargin at screen 0.925; set bmargin at screen 0.72\n"
+                  "set label 1 '(a)' at screen 0.01, screen 0.96\nset xtics format ''; ", out);
+            ss_script_write_side_label(out, 2, t.y.column, t.y.scale, ROOM);
+            fputs(panel_a, out);
+        }
         st = write_map(out, &p.map, c, &p.contour);
     }
     if (st == SS_OK)

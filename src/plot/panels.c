@@ -64,19 +64,6 @@ write_differences(drawing *d, ss_error *err)
     return SS_OK;
 }
 
-static void
-plot_differences(const drawing *d)
-{
-    const char *before = "plot ";
-    for (size_t k = 1; k <= d->opts->n_over; k++)
-        if (d->left[k].y.column != NULL) {
-            const char *number = ss_script_number[k - 1];
-            ss_print(d->out, "%s$difference%s using 1:2 with lines lw 1 lc rgb over%s", before, number, number);
-            before = ", ";
-        }
-    putc('\n', d->out);
-}
-
 static ss_status
 write_panels(drawing *d, const ss_header *head, ss_error *err)
 {
@@ -110,8 +97,15 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
         if (i + 1 == panels)
             ss_script_write_time_labels(out, d->span);
         ss_script_write_panel(&stack, PANEL - gap, gap, &t->y, ROOM, 5);
+        const char *before = "plot ";
+        for (size_t k = 1; is_left && k <= opts->n_over; k++)
+            if (d->left[k].y.column != NULL) {
+                const char *number = ss_script_number[k - 1];
+                ss_print(out, "%s$difference%s using 1:2 with lines lw 1 lc rgb over%s", before, number, number);
+                before = ", ";
+            }
         if (is_left)
-            plot_differences(d);
+            putc('\n', out);
         else                            /* a line of one sample would be invisible */
             ss_layers_plot(out, d->layer, opts, column, 1, d->bands > 0 ? "$spans using 1:(0):1:2:(0):(1) axes "
                            "x1y2 with boxxyerror fill solid noborder lc rgb feature_colour, " : "",
