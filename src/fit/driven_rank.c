@@ -426,7 +426,8 @@ write_answer(struct rows *rows, const ss_motion_ranking *r)
 {
     ss_rows_whole_word(rows, "answer", r->answer);
     if (r->n > 0)
-        ss_rows_whole_value(rows, "explained", (ss_value){ r->row[0].explained, r->row[0].explained_error }, "", 5);
+        ss_rows_whole_value(rows, "explained", (ss_value){ r->row[0].explained, r->row[0].explained_error }, "",
+                            5);
     for (size_t i = 0; i < r->n_numbers; i++)
         ss_rows_whole_value(rows, r->number[i].name, r->number[i].value, r->number[i].unit, 5);
     if (r->confounded[0] != '\0')

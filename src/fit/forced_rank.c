@@ -153,8 +153,9 @@ test_damping(ss_ranking *r, const comparison *w, const found *f)
             || !ss_residue_equals(&damped, &f[first->scene].fit.of_samples, w->record.noise))
             continue;
         r->verdict = SS_UNDECIDED;
-        ss_print_to(r->why, sizeof r->why, "%s friction explains the signal as well as %s friction if the rig's damping "
-                 "is %.2g N s/m", ss_model_name(other->adjusted.model), ss_model_name(first->adjusted.model), by->nearer);
+        ss_print_to(r->why, sizeof r->why, "%s friction explains the signal as well as %s friction if the rig's "
+                    "damping is %.2g N s/m", ss_model_name(other->adjusted.model),
+                    ss_model_name(first->adjusted.model), by->nearer);
     }
     return st;
 }

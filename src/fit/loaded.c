@@ -21,10 +21,9 @@
  * and STIFFNESS are logarithms, DRIFT is that over the whole way. */
 enum { LEVEL, DRIFT, DIRECT, CRITICAL, RING, STIFFNESS, UNKNOWNS };
 enum { STARTS = 4, NEAR = 12 };    /* NEAR: rows about a change that are not thinned */
-#define COARSE 1e-5             /* the slider's tolerance on the grid, and in fits */
-#define FINE 1e-10
+#define FINE 1e-10              /* the slider's tolerance in fits */
+#define COARSE sqrt(FINE)       /* the same on the grid, and the step of an unknown for slopes */
 #define STIFF 5000              /* ways over a/k that are not tried on the grid: they take most of its time */
-#define DIFFERENCE 1e-5         /* of an unknown, for slopes */
 
 typedef struct start {
     double u[UNKNOWNS], squares, ratio;
@@ -82,9 +81,9 @@ leave(law *l, const double *u, double *residual, double *slopes)
     for (size_t i = 0; residual != NULL && st == SS_OK && i < r->n; i++)
         residual[i] = r->mu[i] - u[LEVEL] - u[DRIFT] * r->load[i] / way_of(r) - a * l->g[i];
     for (int k = CRITICAL; slopes != NULL && st == SS_OK && k < UNKNOWNS; k++) {
-        st = run(l, l->moved, u, k, DIFFERENCE, FINE);
+        st = run(l, l->moved, u, k, COARSE, FINE);
         for (size_t i = 0; st == SS_OK && i < r->n; i++)
-            slopes[i * UNKNOWNS + (size_t)k] = a * (l->g[i] - l->moved[i]) / DIFFERENCE;
+            slopes[i * UNKNOWNS + (size_t)k] = a * (l->g[i] - l->moved[i]) / COARSE;
     }
     for (size_t i = 0; slopes != NULL && st == SS_OK && i < r->n; i++) {
         double *row = &slopes[i * UNKNOWNS];

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stickslip/steps.h>
 
-/* Where the load point is at a time, between which it moves evenly; and the part that friction there has in a row. */
+/* Where the load point is at a time, between which it moves evenly; the part that friction there has in a row. */
 typedef struct place {
     double t, load;
     size_t row;

@@ -36,9 +36,6 @@ enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
 #define GONE 1e-3               /* of the last amplitude: what a law says behind it, at least */
 #define STUCK .2                /* of ln A below where a slider sticks, its last slip is past */
 #define NEARLY 6.0              /* of BIC: the better one cannot be told */
-#define CHANCE .1               /* probability of such a gain of chi^2: one that contains the better one is a
-                                   rival then */
-#define SHOWN 1e-2              /* the same: one that the better one contains is none then */
 #define SOFTER .5               /* of its losses c: by Masing's rules friction softens by pi/4 (1 + 2/p) c */
 #define REJECT 1e-3             /* probability of so large a chi^2 */
 
@@ -726,10 +723,11 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     for (fitted *x = best; st == SS_OK && other == NULL && x < f + SS_MECHANISMS; x++) {
         int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY;
         double gain = best->squares - x->squares, more = best->free - x->free;
+        /* a gain of little chance makes what contains the best a rival; a loss of faint chance, what is in it none */
         if (laws[x->kind].contains >> best->kind & 1)
-            is_near &= gsl_cdf_chisq_Q(gain, more) < CHANCE;
+            is_near &= gsl_cdf_chisq_Q(gain, more) < LITTLE;
         else if (laws[best->kind].contains >> x->kind & 1)
-            is_near &= gsl_cdf_chisq_Q(-gain, -more) > SHOWN;
+            is_near &= gsl_cdf_chisq_Q(-gain, -more) > FAINT;
         if (x == best || is_near) {
             of.kind = x->kind;
             double weight = exp((best->bic - x->bic) / 2);

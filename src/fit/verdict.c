@@ -19,8 +19,8 @@
 #define AS_GOOD 0.03                /* of the least loss, or of the noise: laws that differ by less are as good */
 #define ALIKE 0.5                   /* of the best law's error: laws whose errors differ by less are as good */
 #define EXPLAINED 0.8               /* of the power, by a law that is named */
-#define BEYOND_NOISE 1.5            /* times the noise is surely left: the law's error is more than half the noise */
-#define QUIET 1e-4                  /* of the power: sensors are linear to a hundredth */
+#define BEYOND_NOISE 1.5            /* times the noise is surely left: the law's error is over half the noise */
+#define QUIET (FAINT * FAINT)       /* of the power: sensors are linear to so much */
 
 /* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
  * of the estimate of the noise, which is some 2.3 / sqrt n: it rests on medians of n numbers, two of
