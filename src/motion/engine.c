@@ -49,7 +49,7 @@ derive(const state *m, double u, const double q[], const double dqdt[],
 {
     memcpy(d[0], q, sizeof d[0]);
     memcpy(d[1], dqdt, sizeof d[1]);
-    m->model->derivatives(m, u, q, dqdt, d + 2);
+    ss_linear_derivatives(m, u, q, dqdt, d + 2);
 }
 
 void
@@ -133,7 +133,7 @@ ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
         const bound *b = &m->bound[e->ended];
         double s;
         int found = e->type->curve != NULL ? ends_by_curve(e, b, &s, &unresolved)
-            : m->model->derivatives != NULL ? ends_by_derivatives(e, b, &s, &unresolved)
+            : m->model->linear ? ends_by_derivatives(e, b, &s, &unresolved)
             : ends_by_steps(e, b, &s);
         if (found < 0)
             return fail_lost(e, err);

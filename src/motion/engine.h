@@ -27,8 +27,8 @@ struct engine_type {
     /* The state at s from now, 0 <= s <= h, within the step just taken, and its rate of change, of
      * which a sample needs only the first two numbers; base is the phase of the base there. */
     void (*at)(engine *e, reading where, double s, turn base, double q[], double dqdt[]);
-    /* The derivative of x_ref (or of the state's third number), q[0] and v at s from now, within that
-     * step, by the same three numbers now.  NULL if the engine cannot compute it. */
+    /* The derivative of x_ref, q[0] and v at s from now, within that step, by the same three numbers now.  NULL
+     * if the engine cannot compute it. */
     void (*response)(engine *e, double s, double d[D_MOST][D_MOST]);
     /* Write the Taylor coefficients of the state within that step, in s / h, to c, and return their
      * degree, at most MOST_DEGREE.  NULL if the state is not a polynomial. */

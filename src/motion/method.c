@@ -103,7 +103,7 @@ ss_method_named(const struct method **how, const char *name, const ss_scene *sce
                        kind == SERIES && model->series != NULL ? "with this exponent the" : "the", model->name, lacks);
     if (kind == CLOSED_FORM && scene->base != NULL)
         return ss_fail(err, SS_EINVAL, "method %s: a measured base has no closed form", name);
-    if (kind == MULTISTEP && model->next != NULL && model->derivatives == NULL)
+    if (kind == MULTISTEP && model->next != NULL && !model->linear)
         return ss_fail(err, SS_EINVAL, "method %s does not repeat a step, by which alone %s of "
                        "the %s model are found", name, model->kinks ? "kinks" : "events", model->name);
     if (i < RK1IMP && model->from_pull && is_stiff(scene))

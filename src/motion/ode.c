@@ -373,7 +373,7 @@ ss_ode_new(engine **out, motion *of, const char *name, int multistep, double tol
         set_zeros(o);
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, type, o->h_next,
                                                    tol, ss_motion_relative(m, tol), 1, 0, scale);
-    int sides = m->model->derivatives == NULL && !multistep;
+    int sides = !m->model->linear && !multistep;
     if (sides)
         o->side = gsl_odeiv2_step_alloc(type, m->model->dim);
     if (o->driver == NULL || (sides && o->side == NULL)

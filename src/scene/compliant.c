@@ -342,7 +342,7 @@ MODEL(compliant) = {
     .limit = ss_to_coulomb,
     .dim = 2, .linear = 1, .has_contact = 1, .force_varies = IN_STICK,
     .start = start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
-    .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives, .series = ss_linear_series,
+    .jacobian = ss_linear_jacobian, .series = ss_linear_series,
     .next = next, .sample = sample,
     .memory = memory, .in_transition = in_microstick, .variation = &variation,
     .drive = drive

@@ -17,8 +17,7 @@ MODEL(coulomb) = {
     .keys = keys, .n_keys = sizeof keys / sizeof *keys,
     .dim = 2, .linear = 1,
     .start = ss_stick_start, .fastest = ss_linear_fastest, .rates = ss_linear_rates,
-    .jacobian = ss_linear_jacobian, .derivatives = ss_linear_derivatives,
-    .series = ss_linear_series,
+    .jacobian = ss_linear_jacobian, .series = ss_linear_series,
     .still = ss_stick_still, .next = ss_stick_next,
     .sample = ss_stick_sample,
     .variation = &ss_stick_variation, .drive = drive

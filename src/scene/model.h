@@ -126,7 +126,8 @@ struct ss_model {
      * stiff; NULL if this is the simplest model. */
     void (*limit)(ss_scene *scene);
     size_t dim;                     /* of the state */
-    int linear;                     /* 1: each mode is linear, with the coefficients k, c and f0 */
+    int linear;                     /* 1: each mode is linear, with the coefficients k, c and f0; else GSL's steps
+                                       are repeated to know the state inside, which multistep methods cannot */
     int has_contact;                /* 1: it has an elastic contact, with contact_stiffness and
                                        contact_damping */
     int kinks;                      /* 1: modes end where the law has a kink, which is no event */
@@ -154,10 +155,6 @@ struct ss_model {
     void (*rates)(const state *m, double drive, const double q[], double dqdt[]);
     /* The derivatives of this rate by the state (row after row) and by time. */
     void (*jacobian)(const state *m, double u, const double q[], double *dfdq, double dfdt[]);
-    /* The next ORDERS - 1 derivatives of a state at u, after dqdt.  NULL if a step is repeated to
-     * know the state inside it; multistep methods cannot do this for a model with events. */
-    void (*derivatives)(const state *m, double u, const double q[], const double dqdt[],
-                        double higher[][MAX_DIM]);
     /* The Taylor coefficients of the present state in s / unit, up to an order of at most
      * MOST_SERIES, and those of v', the last part, up to one order less; step[n] = unit / (n + 1).
      * Parts that the model does not have are not written.  NULL if the model has no recurrence. */
@@ -452,6 +449,7 @@ step_within(double c[][SERIES_PARTS], double step, double most)
 
 void ss_linear_rates(const state *m, double drive, const double q[], double dqdt[]);
 void ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]);
+/* The next ORDERS - 1 derivatives of a state at u, after dqdt. */
 void ss_linear_derivatives(const state *m, double u, const double q[], const double dqdt[],
                            double higher[][MAX_DIM]);
 void ss_linear_series(const state *m, const double step[], int order, double c[][SERIES_PARTS]);
