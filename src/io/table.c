@@ -73,29 +73,6 @@ read_row(table_reader *r, const char *line, ss_error *err)
     return SS_OK;
 }
 
-static ss_status
-read_lines(table_reader *r, ss_kind kind, ss_error *err)
-{
-    static const char columns[] = "# columns: ";
-    ss_table *t = r->table;
-    char *line;
-    ss_status st = ss_input_begin(&r->in, kind, err);
-    while (st == SS_OK && (st = ss_input_row(&r->in, &line, err)) == SS_OK && line != NULL)
-        if (strncmp(line, columns, strlen(columns)) == 0)
-            st = read_columns(r, line + strlen(columns), err);
-        else if (line[0] != '#')
-            st = read_row(r, line, err);
-        else if (strstr(line, ": ") != NULL) {
-            char **more = ss_list_room(t->note, &r->notes, t->n_notes, sizeof *more);
-            t->note = more != NULL ? more : t->note;
-            if (more == NULL || (more[t->n_notes++] = strdup(line + 1 + strspn(line + 1, " "))) == NULL)
-                st = ss_fail_memory(err, r->in.name);
-        }
-    if (st == SS_OK && t->n_columns == 0)
-        return ss_fail(err, SS_EDATA, "%s: no '# columns:' line in the header", r->in.name);
-    return st;
-}
-
 ss_status
 ss_table_read(ss_table **out, FILE *in, const char *name, ss_kind kind, ss_error *err)
 {
@@ -103,13 +80,29 @@ ss_table_read(ss_table **out, FILE *in, const char *name, ss_kind kind, ss_error
         return SS_FAIL_NULL(err);
     if (kind < SS_KIND_FEATURES || kind > SS_KIND_SUMMARIES)
         return ss_fail(err, SS_EINVAL, "text of this kind is no table");
+    static const char columns[] = "# columns: ";
     table_reader r = { .table = calloc(1, sizeof *r.table) };
+    ss_table *t = r.table;
+    char *line;
     *out = NULL;
     ss_status st = ss_input_open(&r.in, in, name, err);
-    if (st == SS_OK && r.table == NULL)
+    if (st == SS_OK && t == NULL)
         st = ss_fail_memory(err, name);
     if (st == SS_OK)
-        st = read_lines(&r, kind, err);
+        st = ss_input_begin(&r.in, kind, err);
+    while (st == SS_OK && (st = ss_input_row(&r.in, &line, err)) == SS_OK && line != NULL)
+        if (strncmp(line, columns, strlen(columns)) == 0)
+            st = read_columns(&r, line + strlen(columns), err);
+        else if (line[0] != '#')
+            st = read_row(&r, line, err);
+        else if (strstr(line, ": ") != NULL) {
+            char **more = ss_list_room(t->note, &r.notes, t->n_notes, sizeof *more);
+            t->note = more != NULL ? more : t->note;
+            if (more == NULL || (more[t->n_notes++] = strdup(line + 1 + strspn(line + 1, " "))) == NULL)
+                st = ss_fail_memory(err, name);
+        }
+    if (st == SS_OK && t->n_columns == 0)
+        st = ss_fail(err, SS_EDATA, "%s: no '# columns:' line in the header", name);
     free(r.columns_text);
     ss_input_close(&r.in);
     if (st == SS_OK)

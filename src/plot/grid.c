@@ -68,14 +68,6 @@ is_log(const map_axis *a)
         && d.hi > d.lo * (1 + 1e-6) && r.hi / r.lo < d.hi / d.lo;
 }
 
-/* The scale of a linear axis: values as they are, unless their labels would be long. */
-static script_scale
-linear_scale(script_extent e)
-{
-    script_scale scale = ss_script_scale(e);
-    return scale.offset != 0 ? scale : ss_script_power(0);
-}
-
 ss_status
 ss_map_make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
 {
@@ -95,7 +87,9 @@ ss_map_make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
         return ss_fail(err, SS_EINVAL, "a picture needs two values of %s at least", column->label->name);
     double lo = a->value[0], hi = a->value[a->n - 1];
     a->log = is_log(a);
-    a->scale = a->log ? ss_script_power(0) : linear_scale((script_extent){ lo, hi });
+    a->scale = ss_script_scale((script_extent){ lo, hi });
+    if (a->log || a->scale.offset == 0)         /* values as they are, unless their labels would be long */
+        a->scale = ss_script_power(0);
     a->digits = 6 + (int)fmax(0, floor(log10(fmax(fabs(lo), fabs(hi)) / (hi - lo))));
     return SS_OK;
 }

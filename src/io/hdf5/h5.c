@@ -286,26 +286,6 @@ read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
     return notes->status != SS_OK;
 }
 
-/* Read the notes among the root's attributes, in the order in which they were written. */
-static ss_status
-read_notes(h5_file *file, ss_header *head)
-{
-    hid_t root = ss_h5_open_group(file->id, "/"), how = H5Gget_create_plist(root);
-    struct notes notes = { file, head, SS_OK };
-    unsigned tracked = 0;
-    H5Pget_attr_creation_order(how, &tracked);
-    int lost = H5Aexists(root, H5_VERSION_NOTE) < 0;    /* as for find_columns of read.c */
-    herr_t stopped = lost ? -1 : H5Aiterate2(root, tracked != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,
-                                 H5_ITER_INC, NULL, read_note, &notes);
-    H5Pclose(how);
-    H5Gclose(root);
-    if (stopped < 0)
-        return ss_h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
-    if (notes.status == SS_OK && (notes.status = ss_header_check_gaps(head)) == SS_EDATA)
-        return ss_h5_fail(file, SS_EDATA, 0, "/", WRONG_GAPS);
-    return notes.status;
-}
-
 ss_status
 ss_h5_need_number(h5_file *file, hid_t group, const char *name, double lo, double hi,
                   double *value)
@@ -333,7 +313,21 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
     (*head)->rate = rate;
     (*head)->start = start;
     (*head)->has_time = has_time != 0;
-    return read_notes(file, *head);
+    /* the notes among the root's attributes, in the order in which they were written */
+    hid_t root = ss_h5_open_group(file->id, "/"), how = H5Gget_create_plist(root);
+    struct notes notes = { file, *head, SS_OK };
+    unsigned tracked = 0;
+    H5Pget_attr_creation_order(how, &tracked);
+    int lost = H5Aexists(root, H5_VERSION_NOTE) < 0;    /* as for find_columns of read.c */
+    herr_t stopped = lost ? -1 : H5Aiterate2(root, tracked != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,
+                                 H5_ITER_INC, NULL, read_note, &notes);
+    H5Pclose(how);
+    H5Gclose(root);
+    if (stopped < 0)
+        return ss_h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
+    if (notes.status == SS_OK && (notes.status = ss_header_check_gaps(*head)) == SS_EDATA)
+        return ss_h5_fail(file, SS_EDATA, 0, "/", WRONG_GAPS);
+    return notes.status;
 }
 
 ss_status
