@@ -4,8 +4,9 @@
  * time, so the derivative jumps there, by the saltation matrix (Aizerman and Gantmakher 1958; Leine and
  * Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7).  The motion
  * after a Coulomb stick does not depend on v and on the time at which the stick began, so a stick
- * removes one direction of the derivative.  Elsewhere walks that start at neighbouring states give it.  Without forcing and with true sticks it is 0: a stick lasts until the pull has
- * raised the force to f_s, and this happens at the same x - U t wherever the stick began. */
+ * removes one direction of the derivative.  Elsewhere walks that start at neighbouring states give it.
+ * Without forcing and with true sticks it is 0: a stick lasts until the pull has raised the force to f_s, and
+ * this happens at the same x - U t wherever the stick began. */
 #include "study/sweep/cycles.h"
 
 #include <math.h>
