@@ -301,7 +301,8 @@ count_events(search *s, double *t, const ss_rests *rests)
     }
     if (each == 0)
         count_cycles(s);
-    else if (s->quantity == QUANTITY_MOTION && !s->spiked && isnan(out->number[SS_TRANSITION_FREQUENCY].value))
+    else if (s->quantity == QUANTITY_MOTION && !s->spiked && least_in_cycle(s) == 1
+             && isnan(out->number[SS_TRANSITION_FREQUENCY].value))
         forget_slips(out, "what swells again and again is not known to begin with slips");
     else if (is_doubtful(s, onsets(s, t), each)
         || (rests->rest != NULL && s->quantity == QUANTITY_MOTION
