@@ -100,7 +100,7 @@ is_edge(const double *x, size_t n, double f, int *is)
 typedef enum ringer { BY_SENSOR, BY_CONTACT, BY_HUM, RINGERS } ringer;
 enum { EVENT = 3, COLUMNS = 4 + 2 + EVENT + 2 };        /* a cubic, the ringing, what the event makes, and a filter */
 static const double corners[] = { INFINITY, 0.7, 1, 1.4 };      /* of a filter, re the frequency; none comes first */
-#define FILTERED 4.0            /* the same as SHOWN behind a filter */
+#define FILTERED 2.0            /* behind a filter: the same, noise included */
 #define LIGHT 0.1               /* damping re the frequency: a sensor that is damped more answers as a filter does */
 enum { CORNERS = sizeof corners / sizeof *corners };
 
@@ -282,7 +282,8 @@ most_in_gaps(const stretch *of, const double *x, const ss_window *gap, size_t n,
         end = places(of, gap[i]) > end ? places(of, gap[i]) : end;
     }
     for (const place *at = sum; at < sum + end; at++) {
-        double unexplained = fmax(at->left - 2 * at->noise, 0) + fmin(at->noise, HIDDEN * at->most);
+        double unexplained = isfinite(of->corner) ? at->left
+            : fmax(at->left - 2 * at->noise, 0) + fmin(at->noise, HIDDEN * at->most);
         if (at->sticks >= 2 && 2 * at->sticks >= n && at->most > 0
             && at->more > CHANCE * (at->noise + MORE * of->noise) / (double)of->n)
             best = fmax(best, at->more / unexplained);
