@@ -35,6 +35,8 @@
 #define AROUND 1.5              /* periods on either side of the middle of a stretch: more may hold two events */
 #define CONTACT 0.3             /* what the sensor leaves more than the contact, in parts: less is the sensor */
 #define SHOWN 1.0               /* the same: so it is the contact, whatever else may be */
+#define FILTERED 2.0            /* the same behind a filter, noise included */
+#define LIGHT 0.1               /* damping re the frequency: a sensor that is damped more answers as a filter does */
 #define CHANCE 2.8              /* variances of a sample: noise makes so much behind each stick, as the place of the
                                    event is chosen, and of some more sticks by chance */
 #define HIDDEN 2e-4             /* noise re what an event makes: more may hide where a slip begins */
@@ -50,7 +52,6 @@ enum { EVENTS = 33 };           /* places of an event that are tried, within a p
 enum { STICKS = 24, MORE = 5 }; /* most sticks that are looked behind; see CHANCE */
 #define ONE 0.5                 /* of what rings: with more in one sinusoid that runs through all sticks it is a hum */
 #define UNDAMPED 0.01           /* error of the damping re the frequency */
-#define SURE 10.0               /* standard errors of a damping that must be shown, where only the fit speaks for it */
 enum { TRIALS = 200 };          /* most of its frequencies to either side */
 
 /* --- the rig's spring ------------------------------------------------------------------------ */
@@ -98,10 +99,9 @@ is_edge(const double *x, size_t n, double f, int *is)
 /* --- a sensor -------------------------------------------------------------------------------- */
 
 typedef enum ringer { BY_SENSOR, BY_CONTACT, BY_HUM, RINGERS } ringer;
-enum { EVENT = 3, COLUMNS = 4 + 2 + EVENT + 2 };        /* a cubic, the ringing, what the event makes, and a filter */
+enum { CUBIC = 4, RINGING = 2, EVENT = 3, FILTER = 2 };         /* columns of each */
+enum { UNFILTERED = CUBIC + RINGING + EVENT, COLUMNS = UNFILTERED + FILTER };
 static const double corners[] = { INFINITY, 0.7, 1, 1.4 };      /* of a filter, re the frequency; none comes first */
-#define FILTERED 2.0            /* behind a filter: the same, noise included */
-#define LIGHT 0.1               /* damping re the frequency: a sensor that is damped more answers as a filter does */
 enum { CORNERS = sizeof corners / sizeof *corners };
 
 /* n samples, each `skip` behind the one before; w and s by such a step. */
@@ -162,9 +162,9 @@ fill_basis(const stretch *of, size_t event, ringer who)
         row[4] = rings ? fall * cos(of->w * t) : 0;
         row[5] = rings ? fall * sin(of->w * t) : 0;
         for (int k = 0; k < EVENT; k++)
-            row[6 + k] = t < 0 ? 0 : who == BY_SENSOR ? answer(of, k, t) : pow(u, k);
+            row[CUBIC + RINGING + k] = t < 0 ? 0 : who == BY_SENSOR ? answer(of, k, t) : pow(u, k);
         const double turn = of->corner * of->w * M_SQRT1_2 * t;
-        for (int k = 6 + EVENT; k < of->columns; k++)
+        for (int k = UNFILTERED; k < of->columns; k++)
             row[k] = t < 0 ? 0 : exp(-turn) * (k % 2 == 0 ? cos(turn) : sin(turn));
     }
     orthonormalise(basis_of(of, event, who), of->n, of->columns);
@@ -197,7 +197,7 @@ static void
 seek_event(const stretch *of, double all, double left[RINGERS])
 {
     for (ringer who = BY_SENSOR; who < of->ringers; who++) {
-        const int same = who == BY_CONTACT ? 4 : 6;
+        const int same = who == BY_CONTACT ? CUBIC : CUBIC + RINGING;
         double most = 0;
         for (size_t event = 0; event < EVENTS; event++)
             most = fmax(most, explained(of, event, who, same, of->columns));
@@ -271,17 +271,16 @@ find_gaps(const search *s, const ringdown *r, size_t length, ss_window gap[STICK
 }
 
 /* What a sensor leaves more than a contact in n gaps, in parts, where that is most, by the bases of a corner; NaN:
- * nothing moves but what rings.  sum has room for the places of the longest gap. */
+ * nothing moves but what rings.  sum has room for the places of the longest gap, `most`. */
 static double
-most_in_gaps(const stretch *of, const double *x, const ss_window *gap, size_t n, place *sum)
+most_in_gaps(const stretch *of, const double *x, const ss_window *gap, size_t n, place *sum, size_t most)
 {
-    size_t moved = 0, end = 0;
+    size_t moved = 0;
     double best = 0;
-    for (size_t i = 0; i < n; i++) {
+    memset(sum, 0, most * sizeof *sum);
+    for (size_t i = 0; i < n; i++)
         moved += (size_t)compare(of, x, gap[i], sum);
-        end = places(of, gap[i]) > end ? places(of, gap[i]) : end;
-    }
-    for (const place *at = sum; at < sum + end; at++) {
+    for (const place *at = sum; at < sum + most; at++) {
         double unexplained = isfinite(of->corner) ? at->left
             : fmax(at->left - 2 * at->noise, 0) + fmin(at->noise, HIDDEN * at->most);
         if (at->sticks >= 2 && 2 * at->sticks >= n && at->most > 0
@@ -292,10 +291,10 @@ most_in_gaps(const stretch *of, const double *x, const ss_window *gap, size_t n,
 }
 
 /* Does what rings in the windows ring on through the slips, or end where they begin?  *more becomes what a sensor
- * leaves more than a contact, in parts, where that is most; it stays NaN where that cannot be told.  Behind a filter
- * it becomes that only if it is FILTERED. */
+ * leaves more than a contact, in parts, where that is most; it stays NaN where that cannot be told.  Behind a filter,
+ * which has one of the corners first ... end - 1, it becomes that only if it is FILTERED. */
 static ss_status
-compare_all(const search *s, const ringdown *r, int is_sure, int is_filtered, double *more)
+compare_all(const search *s, const ringdown *r, int is_sure, size_t first, size_t end, double *more)
 {
     double period = 2 * M_PI / r->all[0].value;
     size_t skip = (size_t)ceil(period / RATE), n = (size_t)(2 * AROUND * period / (double)skip) + 1, most = 0;
@@ -316,15 +315,14 @@ compare_all(const search *s, const ringdown *r, int is_sure, int is_filtered, do
         return SS_ENOMEM;
     }
     of.x = basis_of(&of, EVENTS, BY_SENSOR);
-    for (size_t k = is_filtered ? 1 : 0, end = is_filtered ? CORNERS : 1; k < end && !(*more >= SHOWN); k++) {
+    for (size_t k = first; k < end && !(*more >= SHOWN); k++) {
         of.corner = corners[k];
-        of.columns = isinf(of.corner) ? COLUMNS - 2 : COLUMNS;
+        of.columns = isinf(of.corner) ? UNFILTERED : COLUMNS;
         for (size_t event = 0; event < EVENTS; event++)
             for (ringer who = BY_SENSOR; who < of.ringers; who++)
                 fill_basis(&of, event, who);
-        memset(sum, 0, most * sizeof *sum);
-        const double here = most_in_gaps(&of, s->x, gap, used, sum);
-        if (!is_filtered || here >= FILTERED)
+        const double here = most_in_gaps(&of, s->x, gap, used, sum, most);
+        if (isinf(of.corner) || here >= FILTERED)
             *more = here;
     }
     free(sum);
@@ -370,7 +368,7 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     int at_edge = 0;
     double more = NAN;
     const int is_told = s->out->reverses || s->part->is_contact;
-    const double damping = r->all[1].value, error = is_told ? 0 : (s->must_show ? SURE : SIGMAS) * r->all[1].error;
+    const double damping = r->all[1].value, error = is_told ? 0 : (s->must_show ? PRECISE : SIGMAS) * r->all[1].error;
     /* a damping ratio above one half */
     *why = 3 * pow(damping, 2) > pow(r->all[0].value, 2)
         ? "what recurs is damped so much that a filter may make it"
@@ -380,11 +378,11 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     if (*why != NULL || is_told)
         return SS_OK;
     const int is_sure = damping > error && !s->must_show;
-    ss_status st = compare_all(s, r, is_sure, 0, &more);
+    ss_status st = compare_all(s, r, is_sure, 0, 1, &more);
     if (st == SS_OK && !(more >= SHOWN))
         st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
     if (st == SS_OK && !(more >= SHOWN) && !at_edge && damping < LIGHT * r->all[0].value)
-        st = compare_all(s, r, is_sure, 1, &more);
+        st = compare_all(s, r, is_sure, 1, CORNERS, &more);
     s->rings_as = more >= SHOWN ? OF_CONTACT : at_edge ? OF_FILTER : more < CONTACT ? OF_SENSOR : OF_SOMETHING;
     /* a contact may be undamped, if that is well known */
     const int may_ring_on = s->rings_as == OF_CONTACT && !s->must_show && error < UNDAMPED * r->all[0].value;

@@ -4,6 +4,7 @@
 
 #define SIGMAS 3.0              /* standard errors beyond which something is not by chance; a number with a
                                    larger error than its SIGMAS-th part is not known */
+#define PRECISE 10.0            /* standard errors that a value must be large where nothing but the fit speaks for it */
 #define OUTLIERS 0.02           /* part of the samples at either end of the range that may be wrong */
 enum { FEW = 3 };               /* fewest of a kind that recur */
 enum { FEWEST = 8 };            /* fewest samples that show a shape; so many in a row that stand still are clipped */

@@ -12,7 +12,6 @@
 #define NEAR 1.0                /* [octaves] the largest distance of a fit from the frequency that recurs */
 #define SHARPER 1.5             /* times the frequency of the oscillation: an event so sharp lies within it */
 #define KNOWN 0.75              /* part of the sticks: so many tell what the others are like */
-#define PRECISE 10.0            /* standard errors that a frequency must be large */
 
 /* Convert omega and s, per sample, to Hz and damping ratio. */
 static void

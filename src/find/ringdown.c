@@ -93,7 +93,7 @@ grow_windows(fitter *k, ss_window *core, int *ok)
         }
     ss_status st = fit_shared(k, FIT_FINE, ok);
     for (double limit = CORE * GROWTH; is_growing && limit < MOST; limit *= GROWTH) {
-        *ok = *ok && fabs(log(k->fit.w / start)) < M_LN2 / 2;   /* else windows are longer than the table */
+        *ok = *ok && fabs(log(k->fit.w / start)) < M_LN2 / 2;
         if (st != SS_OK || !*ok)
             return st;
         longest = periods(k, limit);
