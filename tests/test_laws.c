@@ -236,6 +236,30 @@ presliding_is_a_curve_of_the_way(void **state)
     run_free(&r);
 }
 
+/* With f_k = 0 nothing is left of g at speeds far beyond v_s, 0 in double precision from 28 v_s on: no bristle
+ * bends, and the mass swings freely. */
+static void
+bristles_without_friction_do_not_bend(void **state)
+{
+    static const char *const settings[][2] = { { "friction", "0" }, { "stribeck_velocity", "1e-4" },
+                                               { "base_velocity", "0" }, { "viscous_friction", "0" },
+                                               { "v0", "1" }, { NULL, NULL } };
+    (void)state;
+    ss_scene s = scene_with("lugre", settings);
+    const double omega = sqrt(s.stiffness / s.mass);
+    s.settle = 0;
+    s.duration = 1 / omega;
+    s.rate = 50 / s.duration;
+    for (size_t m = 0; m < 2; m++) {
+        run r = run_of(&s, m == 0 ? "taylor" : "rk8pd", 1e-12);
+        for (size_t i = 0; i < r.n; i++) {
+            near("x", r.sample[i].x * omega, sin(omega * r.sample[i].t), 1e-11);
+            assert_true(r.sample[i].y == 0);
+        }
+        run_free(&r);
+    }
+}
+
 /* --- a contact's loss in a cycle: 4 f (X - b - f / K) --------------------------------------------- */
 
 static ss_steady
@@ -415,6 +439,7 @@ main(void)
         cmocka_unit_test(motions_are_those_of_the_law),
         cmocka_unit_test(the_force_of_dahl_is_an_exponential_of_the_way),
         cmocka_unit_test(presliding_is_a_curve_of_the_way),
+        cmocka_unit_test(bristles_without_friction_do_not_bend),
         cmocka_unit_test(a_contact_loses_what_its_slips_take),
         cmocka_unit_test(a_multiplier_is_carried_across_a_gap),
         cmocka_unit_test(stiff_bristles_are_coulombs),

@@ -358,6 +358,28 @@ the_jacobian_is_that_of_the_rates(void **unused)
     }
 }
 
+/* V = 2 V0 exp(-(mu0 + b s)/a) sinh(f/(N a)), the regularised law solved for V, where both parts of sinh count. */
+static void
+the_speed_is_that_of_the_law(void **unused)
+{
+    (void)unused;
+    ss_scene s = scene_of(0, 0);
+    ss_scene_set(&s, "reference_friction", .02, NULL);
+    const double a = ss_scene_get(&s, "direct_effect"), b = ss_scene_get(&s, "evolution_effect");
+    const double V0 = ss_scene_get(&s, "reference_velocity"), U = s.base_velocity;
+    state m = ss_state_of(&s, 1e-12);
+    m.model->equilibrium(&m);
+    for (int i = 0; i < 9; i++) {
+        m.q[1] = i / 3 - 1;
+        m.q[2] = (i % 3 - 1) / 2.;
+        double w = m.f0 / (ss_scene_get(&s, "normal_force") * a) + m.q[1], theta = log(V0 / U) + m.q[2];
+        double V = 2 * V0 * exp(-(.02 + b * theta) / a) * sinh(w), dqdt[3];
+        near("V", m.model->speed(&m) / V, 1, 1e-13);
+        m.model->rates(&m, 0, m.q, dqdt);
+        near("V - U", dqdt[0] / U, V / U - 1, 1e-13 * (V / U + 1));
+    }
+}
+
 int
 main(void)
 {
@@ -376,6 +398,7 @@ main(void)
         cmocka_unit_test(explicit_methods_refuse_millions_of_steps),
         cmocka_unit_test(has_no_belt_and_no_moving_base),
         cmocka_unit_test(the_jacobian_is_that_of_the_rates),
+        cmocka_unit_test(the_speed_is_that_of_the_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

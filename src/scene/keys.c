@@ -1,6 +1,5 @@
 /* keys.c -- the keys that scenes of every model have, those of the model between them, and how a name is
  * found among the keys. */
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include "scene/model.h"
@@ -108,17 +107,16 @@ ss_key_of_any(const char *name)
     return k;
 }
 
+enum { LONGEST = 64 };              /* letters that are looked at; keys have less than half of them */
+
 /* The number of letters to insert, delete or replace between two words (Levenshtein 1966). */
 static size_t
 distance(const char *a, const char *b)
 {
-    enum { LONGEST = 64 };
-    size_t row[LONGEST + 1], n = strlen(b);
-    if (strlen(a) > LONGEST || n > LONGEST)
-        return SIZE_MAX;
+    size_t row[LONGEST + 1], m = strnlen(a, LONGEST), n = strnlen(b, LONGEST);
     for (size_t j = 0; j <= n; j++)
         row[j] = j;
-    for (size_t i = 1; a[i - 1] != '\0'; i++) {
+    for (size_t i = 1; i <= m; i++) {
         size_t diagonal = row[0];
         row[0] = i;
         for (size_t j = 1; j <= n; j++) {
@@ -153,7 +151,7 @@ const char *
 ss_key_unknown(char text[KEY_UNKNOWN_ROOM], const char *name)
 {
     const char *best = nearest_key(name);
-    size_t length = strlen(name), off = distance(name, best);
+    size_t length = strnlen(name, LONGEST), off = distance(name, best);
     if (off < length && off <= (length / 3 > 2 ? length / 3 : 2))
         snprintf(text, KEY_UNKNOWN_ROOM, "unknown key '%.64s'; the nearest is '%s'", name, best);
     else

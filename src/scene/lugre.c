@@ -3,7 +3,7 @@
  * g(v) = f_k + (f_s - f_k) exp(-(v/v_s)^2).
  *
  * There is no stick and no event.  |v| has a kink at v = 0, so modes are the signs of v, and the law is
- * smooth within each.  Without friction there are no bristles: z stays 0. */
+ * smooth within each.  Where g is 0 there are no bristles: z stays 0. */
 #include <string.h>
 #include "scene/models.h"
 
@@ -39,7 +39,7 @@ static double
 bristle_rate(const ss_scene *s, int way, double v, double z)
 {
     double slope, rate = slip_rate(s, way, v, &slope);
-    return static_friction(s) > 0 ? v - rate * z : 0;
+    return slope != 0 ? v - rate * z : 0;
 }
 
 static double
@@ -69,11 +69,7 @@ static void
 jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[])
 {
     const ss_scene *s = m->scene;
-    double slope, rate = slip_rate(s, m->mode, q[1], &slope), by_v = 0, by_z = 0;
-    if (static_friction(s) > 0) {
-        by_v = 1 - slope * q[2];
-        by_z = -rate;
-    }
+    double slope, by_z = -slip_rate(s, m->mode, q[1], &slope), by_v = slope != 0 ? 1 - slope * q[2] : 0;
     const double row[9] = {
         0, 1, 0,
         -s->stiffness / s->mass, -(s->damping + force(s, 1, 0, by_v)) / s->mass, -force(s, 0, 1, by_z) / s->mass,
@@ -99,8 +95,8 @@ series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
         rate[n] = m->mode * s->own[STIFFNESS] * v[n];
         if (n > 0)
             rate[n] -= inner_products(g, rate, n) + g[n] * rate[0];
-        rate[n] = g[0] > 0 ? rate[n] / g[0] : 0;
-        double by_time = static_friction(s) > 0 ? v[n] - product_term(rate, z, n) : 0;
+        rate[n] /= g[0];
+        double by_time = g[0] > 0 ? v[n] - product_term(rate, z, n) : 0;
         double a = (force_of_base[n] - s->stiffness * c[n][0] - s->damping * v[n]
                     - force(s, v[n], z[n], by_time)) / s->mass;
         c[n][MAX_DIM] = a;
