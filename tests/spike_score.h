@@ -88,12 +88,11 @@ score_distance(const score_scene *s, double t, double a)
 }
 
 static inline ss_status
-spikes_of(ss_spikes **out, const double *x, size_t n, double rate, const ss_span *gap, size_t n_gaps,
-          ss_error *err)
+spikes_of(ss_spikes **out, const double *x, size_t n, double rate, const ss_span *gap, size_t n_gaps)
 {
     row_source source;
-    ss_status st = ss_row_source_init(&source, x, n, rate, gap, n_gaps, err);
-    return st == SS_OK ? ss_spikes_find(out, &source, err) : st;
+    ss_row_source_init(&source, x, n, rate, gap, n_gaps);
+    return ss_spikes_find(out, &source);
 }
 
 /* The noise comes from the seed; snr infinite: none. */
@@ -107,7 +106,7 @@ score_find(const score_scene *s, double snr, unsigned long seed)
     memcpy(x, s->a, s->n * sizeof *x);
     if (isfinite(snr) && ss_noise_add_once(x, s->n, ss_noise_rms(x, s->n, snr), seed, NULL) != SS_OK)
         exit(2);
-    if (spikes_of(&found, x, s->n, s->scene.rate, NULL, 0, NULL) != SS_OK)
+    if (spikes_of(&found, x, s->n, s->scene.rate, NULL, 0) != SS_OK)
         exit(2);
     free(x);
     return found;

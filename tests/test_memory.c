@@ -521,18 +521,17 @@ static ss_status
 searches(int variant)
 {
     ss_spikes *spikes = NULL;
-    ss_bursts *bursts = NULL;
+    ss_bursts bursts = { .n = 0 };
     ss_drop *drops = NULL;
     size_t n;
     const double *a = cycles->values + 2 * cycles->n, *f = cycles->values + 3 * cycles->n;
-    double rate = cycles->head->rate;
     row_source source;
-    assert_int_equal(ss_row_source_init(&source, a, cycles->n, rate, NULL, 0, NULL), SS_OK);
-    ss_status st = variant == 0 ? ss_spikes_find(&spikes, &source, &err)
-        : variant == 1 ? ss_bursts_find(&bursts, &source, 20, &err)
-        : ss_drops_find(&drops, &n, f, cycles->n, rate, &(ss_drop_opts){ .height = 1 }, &err);
+    ss_row_source_init(&source, a, cycles->n, cycles->head->rate, NULL, 0);
+    ss_status st = variant == 0 ? ss_spikes_find(&spikes, &source)
+        : variant == 1 ? ss_bursts_find(&bursts, &source, 20)
+        : ss_drops_find(&drops, &n, f, cycles->n, 1, 0.25);
     ss_spikes_free(spikes);
-    ss_bursts_free(bursts);
+    free(bursts.burst);
     free(drops);
     return st;
 }

@@ -35,84 +35,52 @@ keep_clearer(scale_row *best, scale_row *r)
     *best = *r;
 }
 
-/* Find the clearest row, *best, and the number of rows.  The heads come first. */
+/* Find the clearest row, *best, of so many.  The heads come first. */
 static ss_status
-find_clearest(scale_row *best, row_source *source, size_t rows, ss_error *err)
+find_clearest(scale_row *best, row_source *source, size_t rows)
 {
     ss_status st = SS_OK;
-    *best = (scale_row){ .rms = 1 };
     for (size_t i = 0; i < rows; i++) {
         const scale_row *head = ss_row_head(source, label_of(source, i));
         if (head != NULL)
             keep_clearer(best, &(scale_row){ .f = head->f, .rms = head->rms_of_all, .top = head->top, .n = head->n });
     }
     if (best->n > 0)
-        st = ss_row_new(best, source, best->f, NULL, err);
+        st = ss_row_new(best, source, best->f, NULL);
     for (size_t i = 0; st == SS_OK && i < rows; i++) {
         scale_row r = { 0 };
         if (ss_row_head(source, label_of(source, i)) != NULL)
             continue;
-        st = ss_row_new(&r, source, label_of(source, i), NULL, err);
+        st = ss_row_new(&r, source, label_of(source, i), NULL);
         if (st == SS_OK)
             keep_clearer(best, &r);
     }
     return st;
 }
 
-/* Find the peaks of the row that are above the threshold and within range. */
-static ss_status
-collect_bursts(ss_bursts *found, scale_row *r, double threshold, double range)
-{
-    size_t n = 0;
-    if (r->n > 1)
-        qsort(r->peak, r->n, sizeof *r->peak, stronger_first);
-    found->burst = malloc((r->n + 1) * sizeof *found->burst);
-    if (found->burst == NULL)
-        return SS_ENOMEM;
-    found->f = r->f;
-    found->next = -INFINITY;
-    found->floor = r->n > 0 ? 20 * log10(threshold * r->rms / r->top) : 0;
-    for (; n < r->n && r->peak[n].level > threshold * r->rms; n++) {
-        double level = 20 * log10(r->peak[n].level / r->top);
-        if (level < -range) {
-            found->next = level;
-            break;
-        }
-        found->burst[found->n++] = (ss_burst){ r->peak[n].t, level, r->peak[n].level / r->rms };
-    }
-    qsort(found->burst, found->n, sizeof *found->burst, ss_ascending);
-    return SS_OK;
-}
-
 ss_status
-ss_bursts_find(ss_bursts **out, row_source *source, double range, ss_error *err)
+ss_bursts_find(ss_bursts *out, row_source *source, double range)
 {
     scale_row best = { .rms = 1 };
     double length = (double)(source->n - 1) / source->rate;
     double shortest = ROW_CENTER / (M_PI * ROW_HIGHEST * source->rate);
     double octaves = source->constant ? -1 : log2(length / (LONGEST * shortest));
-    size_t rows = octaves >= 0 ? (size_t)(octaves * ROW_VOICES) + 1 : 0;
-    ss_bursts *found = calloc(1, sizeof *found);
-    if (found == NULL)
-        return SS_ENOMEM;
-    ss_status st = find_clearest(&best, source, rows, err);
-    if (st == SS_OK)
-        st = collect_bursts(found, &best, ss_row_threshold(length, shortest, rows), range);
+    size_t rows = octaves >= 0 ? (size_t)(octaves * ROW_VOICES) + 1 : 0, n = 0;
+    ss_status st = find_clearest(&best, source, rows);
+    double noise = ss_row_threshold(length, shortest, rows) * best.rms;
     ss_row_source_free(source);
-    free(best.peak);
-    if (st != SS_OK) {
-        ss_bursts_free(found);
-        return st;
+    if (best.n > 0)
+        qsort(best.peak, best.n, sizeof *best.peak, stronger_first);
+    *out = (ss_bursts){ .burst = best.peak, .f = best.f, .next = -INFINITY,
+                        .floor = best.n > 0 ? 20 * log10(noise / best.top) : 0 };
+    for (; n < best.n && best.peak[n].level > noise && isinf(out->next); n++) {
+        const double level = best.peak[n].level = 20 * log10(best.peak[n].level / best.top);
+        if (level < -range)
+            out->next = level;
+        else
+            out->n++;
     }
-    *out = found;
-    return SS_OK;
-}
-
-void
-ss_bursts_free(ss_bursts *found)
-{
-    if (found == NULL)
-        return;
-    free(found->burst);
-    free(found);
+    if (out->n > 0)
+        qsort(out->burst, out->n, sizeof *out->burst, ss_ascending);
+    return st;
 }

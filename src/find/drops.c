@@ -18,14 +18,11 @@
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/error.h"
 #include "base/gauss.h"
 #include "base/list.h"
 #include "find/judgement.h"
-#include "signal/gaps.h"
 
 #define ERROR 0.03
 
@@ -34,10 +31,6 @@
 #define STANDS_OUT 5.0          /* standard deviations of the noise, and */
 #define GLITCH 0.05             /* part of the median drop, by both of which a wrong sample differs from its
                                    neighbours */
-
-typedef struct fall {
-    size_t high, low;           /* the turning points, in samples */
-} fall;
 
 /* The standard deviation of white noise whose second differences are those of x, by their median;
  * scratch holds n. */
@@ -76,7 +69,7 @@ running_median(double *y, const double *x, size_t n, size_t half, double *window
 /* Find the falls of y by more than height from one turning point to the next, which y leaves by reload; at the
  * end, if to_end, what has not been left yet counts.  fall has room for n / 2 + 1; returns their number. */
 static size_t
-find_falls(fall *out, const double *y, size_t n, double height, double reload, int to_end)
+find_falls(ss_drop *out, const double *y, size_t n, double height, double reload, int to_end)
 {
     size_t high = 0, low = 0, count = 0;
     int falls = 0;
@@ -90,19 +83,19 @@ find_falls(fall *out, const double *y, size_t n, double height, double reload, i
             low = i;
         } else if (falls && y[i] - y[low] > reload) {
             if (y[high] - y[low] > height)
-                out[count++] = (fall){ high, low };
+                out[count++] = (ss_drop){ high, low };
             falls = 0;
             high = i;
         }
     }
     if (to_end && falls && y[high] - y[low] > height)
-        out[count++] = (fall){ high, low };
+        out[count++] = (ss_drop){ high, low };
     return count;
 }
 
 /* The number of falls by more than h, and their median; scratch has room for n / 2 + 1, as fall has. */
 static size_t
-count_falls(const double *y, size_t n, double h, fall *of, double *scratch, double *median)
+count_falls(const double *y, size_t n, double h, ss_drop *of, double *scratch, double *median)
 {
     size_t count = find_falls(of, y, n, h, h, 0);
     for (size_t i = 0; i < count; i++)
@@ -119,7 +112,7 @@ ss_drops_typical(const double *x, size_t n, ss_typical *out)
     if (n < NARROWEST)
         return SS_OK;
     double *y = malloc((2 * n + NARROWEST) * sizeof *y), *scratch = y + n, low, high, median;
-    fall *of = malloc((n / 2 + 1) * sizeof *of);
+    ss_drop *of = malloc((n / 2 + 1) * sizeof *of);
     ss_status st = y != NULL && of != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK) {
         double noise = noise_rms(x, n, scratch);
@@ -148,7 +141,7 @@ ss_drops_without_glitches(double *y, const double *x, size_t n, const ss_drop *d
     if (scratch == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < n_drops; i++)
-        scratch[i] = drop[i].height;
+        scratch[i] = x[drop[i].high] - x[drop[i].low];
     double height = n_drops > 0 ? gsl_stats_median(scratch, 1, n_drops) : 0;
     double most = STANDS_OUT * noise_rms(x, n, scratch) + GLITCH * height;
     running_median(y, x, n, NARROWEST / 2, scratch);
@@ -158,64 +151,28 @@ ss_drops_without_glitches(double *y, const double *x, size_t n, const ss_drop *d
     return SS_OK;
 }
 
-/* Find the falls of x into *of, by a running median that is as wide as the noise asks for; y, window and *of
- * have room for n, n + NARROWEST and n / 2 + 1. */
-static size_t
-find_smoothed(fall *of, const double *x, size_t n, const ss_drop_opts *opts, double *y, double *window)
+ss_status
+ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double height, double reload)
 {
-    double reload = opts->reload > 0 ? opts->reload : DROPS_RELOAD * opts->height;
+    double *y = malloc((2 * n + NARROWEST) * sizeof *y), *window = y + n;
+    ss_drop *of = *out = malloc((n / 2 + 1) * sizeof *of);
+    if (y == NULL || of == NULL) {
+        free(y);
+        return SS_ENOMEM;
+    }
     running_median(y, x, n, NARROWEST / 2, window);
-    size_t count = find_falls(of, y, n, opts->height, reload, 1);
-    if (count == 0)
-        return 0;
+    size_t count = find_falls(of, y, n, height, reload, 1);
     for (size_t i = 0; i < count; i++)
         window[i] = (double)(of[i].low - of[i].high);
-    double length = gsl_stats_select(window, 1, count, count / 2);
+    double length = count > 0 ? gsl_stats_select(window, 1, count, count / 2) : 0;
     /* the median of m Gaussians has pi/2 the variance of their mean */
-    double left = ERROR * opts->height / (2 * SIGMAS), noise = noise_rms(x, n, window);
+    double left = ERROR * height / (2 * SIGMAS), noise = noise_rms(x, n, window);
     double wide = fmin(M_PI / 2 * noise * noise / (left * left), length / 2);
-    if (wide <= NARROWEST)
-        return count;
-    running_median(y, x, n, (size_t)(wide / 2), window);
-    return find_falls(of, y, n, opts->height, reload, 1);
-}
-
-ss_status
-ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
-              const ss_drop_opts *opts, ss_error *err)
-{
-    if (out == NULL || n_drops == NULL || x == NULL || opts == NULL)
-        return SS_FAIL_NULL(err);
-    if (n == 0 || n > SIZE_MAX / 64)
-        return ss_fail(err, SS_EINVAL, "a record of %zu samples is out of range 1 ... %zu", n, SIZE_MAX / 64);
-    if (!(rate >= 1e-100 && rate <= 1e100))
-        return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
-    if (!(opts->height > 0 && isfinite(opts->height)))
-        return ss_fail(err, SS_EINVAL, "the height of a drop must be more than 0");
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
-    double *bridged = malloc((3 * n + NARROWEST) * sizeof *bridged), *y = bridged + n;
-    fall *of = malloc((n / 2 + 1) * sizeof *of);
-    ss_drop *drop = NULL;
-    size_t kept = 0;
-    if (bridged != NULL && of != NULL) {
-        memcpy(bridged, x, n * sizeof *x);
-        ss_gaps_bridge(bridged, n, rate, opts->gap, opts->n_gaps);
-        size_t count = find_smoothed(of, bridged, n, opts, y, y + n);
-        drop = malloc((count + 1) * sizeof *drop);
-        for (size_t i = 0; drop != NULL && i < count; i++) {
-            ss_drop d = { (double)of[i].high / rate, (double)of[i].low / rate, y[of[i].high] - y[of[i].low] };
-            /* a part of a fall over a gap is not known */
-            if (!ss_gaps_near(opts->gap, opts->n_gaps, 0.5 * (d.t + d.end), 0.5 * (d.end - d.t)))
-                drop[kept++] = d;
-        }
+    if (wide > NARROWEST) {
+        running_median(y, x, n, (size_t)(wide / 2), window);
+        count = find_falls(of, y, n, height, reload, 1);
     }
-    free(of);
-    free(bridged);
-    if (drop == NULL)
-        return ss_fail_memory(err, NULL);
-    *out = drop;
-    *n_drops = kept;
+    free(y);
+    *n_drops = count;
     return SS_OK;
 }

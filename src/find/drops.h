@@ -5,27 +5,17 @@
 #include <stddef.h>
 #include <stickslip/signal.h>
 
-#define DROPS_RELOAD 0.25       /* part of the height asked for: a rise by it ends a fall of ss_drops_find */
+#define DROPS_RELOAD 0.25       /* part of the height asked for: a rise by it ends a fall of ss_drops_find then */
 
-/* A fall. */
+/* A fall: the samples of its maximum and of the minimum behind it. */
 typedef struct ss_drop {
-    double t, end;              /* [s] from the first sample: the maximum and the minimum of the fall */
-    double height;              /* > 0, in the unit of x */
+    size_t high, low;
 } ss_drop;
 
-typedef struct ss_drop_opts {
-    double height;              /* > 0, in the unit of x */
-    double reload;              /* the rise that ends a fall, in the unit of x; 0: height / 4 */
-    const ss_span *gap;
-    size_t n_gaps;
-} ss_drop_opts;
-
-/* Find all falls of x by more than height, in time order.  The caller frees *out with free().  A
- * fall ends where x has risen again by reload, so a slow drift is no fall.  Single wrong samples
- * have no effect; white noise changes heights by some 3 % of height.  A fall that a gap cuts is
- * left out. */
-ss_status ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double rate,
-                        const ss_drop_opts *opts, ss_error *err);
+/* Find all falls of n finite samples x by more than height > 0, in time order.  The caller frees *out with free().
+ * A fall ends where x has risen again by reload, so a slow drift is no fall.  Single wrong samples
+ * have no effect; white noise changes heights by some 3 % of height. */
+ss_status ss_drops_find(ss_drop **out, size_t *n_drops, const double *x, size_t n, double height, double reload);
 
 typedef struct ss_typical {
     double height;              /* it separates falls from noise; 0: falls have no typical height */

@@ -10,7 +10,7 @@
 #define EVENT_CLEAR 6.0         /* [dB] above threshold or the next weaker one: an event is no swell of noise */
 
 /* Find all spikes of a source, whose memory is freed.  n = 0 if no |W| exceeds the noise. */
-ss_status ss_spikes_find(ss_spikes **out, row_source *source, ss_error *err);
+ss_status ss_spikes_find(ss_spikes **out, row_source *source);
 void ss_spikes_free(ss_spikes *found);          /* NULL is allowed */
 
 /* The spikes of a transition. */
@@ -23,15 +23,9 @@ typedef struct ss_spike_group {
  * the strongest.  A spike nearer to onset or end than its scale is that of onset or end. */
 ss_spike_group ss_spikes_within(const ss_spikes *found, double onset, double end, double range);
 
-typedef struct ss_burst {
-    double t;                   /* [s] from the first sample */
-    double level;               /* [dB] re the strongest, <= 0 */
-    double snr;                 /* |W| over the rms of the noise */
-} ss_burst;
-
 typedef struct ss_bursts {
     size_t n;
-    ss_burst *burst;            /* in time order */
+    peak *burst;                /* in time order, each with its level re the strongest [dB]; to be freed */
     double f;                   /* label of the scale that shows the events best [Hz] */
     double next;                /* [dB] re the strongest, of the strongest event beyond range; -infinity
                                    if there is none above the noise */
@@ -41,8 +35,7 @@ typedef struct ss_bursts {
 /* Find the events of a source that is quiet for most of the time; its memory is freed.  They may have any
  * length and shape.  They are the maxima of |W| at the scale where they exceed the noise most, at most range dB
  * below the strongest. */
-ss_status ss_bursts_find(ss_bursts **out, row_source *source, double range, ss_error *err);
-void ss_bursts_free(ss_bursts *found);          /* NULL is allowed */
+ss_status ss_bursts_find(ss_bursts *out, row_source *source, double range);
 const char *ss_spike_kind_name(ss_spike_kind kind);     /* "glitch", "jump", "kink", "bend" */
 
 #endif

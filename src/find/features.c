@@ -156,8 +156,7 @@ find(search *s, double *x, size_t column, ss_error *err)
     st = find_repetition(s);
     if (st == SS_OK && known != NULL && (st = ss_map_begin(s->map, x, NULL)) == SS_OK)
         st = ss_ringing_places(s);
-    if (st == SS_OK)
-        st = ss_row_source_init(s->rows, s->x, s->n, s->rate, s->gap, s->n_gaps, NULL);
+    ss_row_source_init(s->rows, s->x, s->n, s->rate, s->gap, s->n_gaps);
     if (known != NULL) {
         s->rows->known = known->head;
         s->rows->n_known = known->n_heads;
@@ -166,7 +165,7 @@ find(search *s, double *x, size_t column, ss_error *err)
     s->rows->at = s->at;
     s->rows->keeps_heads = isnan(s->out->number[SS_REPETITION_FREQUENCY].value);  /* single events may be sought */
     if (st == SS_OK)
-        st = ss_spikes_find(&s->out->spikes, s->rows, NULL);
+        st = ss_spikes_find(&s->out->spikes, s->rows);
     if (st == SS_OK && known == NULL)
         st = ss_map_begin(s->map, x, NULL);
     if (st == SS_OK)

@@ -45,13 +45,11 @@ passage(const double *x, size_t from, size_t to)
 /* 1: falls are quicker than the rises between them by a factor, so they are slips; -1: slower; 0: neither.
  * The sign test decides at three standard deviations; if there are few, all must be quicker by QUICK. */
 static int
-compare_falls(const double *x, double rate, const ss_drop *drop, size_t n, double factor)
+compare_falls(const double *x, const ss_drop *drop, size_t n, double factor)
 {
     double signs = 0, clear = 0, all = 0;
     for (size_t i = 1; i < n; i++, all++) {
-        size_t before = (size_t)(drop[i - 1].end * rate + 0.5), low = (size_t)(drop[i].end * rate + 0.5);
-        size_t high = (size_t)(drop[i].t * rate + 0.5);
-        double fall = passage(x, high, low), rise = passage(x, before, high);
+        double fall = passage(x, drop[i].high, drop[i].low), rise = passage(x, drop[i - 1].low, drop[i].high);
         signs += (factor * fall < rise) - (fall > factor * rise);
         clear += (QUICK * fall < rise) - (fall > QUICK * rise);
     }
@@ -77,16 +75,17 @@ is_clipped(const double *x, size_t n)
     return highs >= FEW || lows >= FEW;
 }
 
-/* The transitions are the falls, with a loading for each. */
-static ss_status
-set_falls(search *s, const double *x, const ss_drop *drop, size_t n)
+/* Keep the falls that no gap cuts, of n.  Returns their number. */
+static size_t
+keep_whole(const search *s, ss_drop *drop, size_t n)
 {
-    ss_status st = ss_transitions_new(s->out, n);
-    for (size_t i = 0; st == SS_OK && i < n; i++) {
-        s->out->transition[i].onset = drop[i].t;
-        s->out->transition[i].end = drop[i].end;
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++) {
+        double t = (double)drop[i].high / s->rate, end = (double)drop[i].low / s->rate;
+        if (!ss_gaps_near(s->gap, s->n_gaps, 0.5 * (t + end), 0.5 * (end - t)))
+            drop[kept++] = drop[i];
     }
-    return st == SS_OK ? ss_loading_find(s, x, drop, n) : st;
+    return kept;
 }
 
 /* Find the falls of x, which is the signal or its negative: those by the height that is asked for, or else by the
@@ -113,12 +112,13 @@ find_falls(search *s, double *x, int *decided)
         double reload = asked > 0 ? DROPS_RELOAD * asked : typical.height;
         free(drop);
         drop = NULL;
-        st = ss_drops_find(&drop, &n, x, s->n, s->rate,
-                           &(ss_drop_opts){ typical.height, reload, s->gap, s->n_gaps }, NULL);
-        if (st == SS_OK)
+        st = ss_drops_find(&drop, &n, x, s->n, typical.height, reload);
+        if (st == SS_OK) {
+            n = keep_whole(s, drop, n);
             st = ss_drops_without_glitches(y, x, s->n, drop, n);
+        }
         if (st == SS_OK && asked == 0)
-            quicker = compare_falls(y, s->rate, drop, n, has_both ? QUICK : SLOWER);
+            quicker = compare_falls(y, drop, n, has_both ? QUICK : SLOWER);
         if (st != SS_OK || quicker >= 0 || !named || is_turned)
             break;
         is_turned = 1;
@@ -138,7 +138,7 @@ find_falls(search *s, double *x, int *decided)
         else if (quicker <= 0)
             say(s->out, SS_SLIPS, "the force falls no quicker than it rises");
         else
-            st = set_falls(s, x, drop, n);
+            st = ss_loading_find(s, y, drop, n);
         if (asked == 0)
             s->out->number[SS_SLIPS].error = 0.5 * fabs((double)typical.more - (double)typical.less);
     }

@@ -75,8 +75,8 @@ find_falls(fall *f, const search *s, const double *y, const ss_drop *drop, size_
     int signs = 0, sign;
     ss_status st = SS_OK;
     for (size_t i = 0; i < n; i++) {
-        f[i].high = (size_t)(drop[i].t * s->rate + 0.5);
-        f[i].low = (size_t)(drop[i].end * s->rate + 0.5);
+        f[i].high = drop[i].high;
+        f[i].low = drop[i].low;
         f[i].rise = (ss_window){ i > 0 ? f[i - 1].low : 0, f[i].high + 1 };
         for (size_t k = 0; i == 0 && k < f[i].high; k++)    /* there is no fall before the first */
             f[i].rise.first = y[k] < y[f[i].rise.first] ? k : f[i].rise.first;
@@ -256,11 +256,12 @@ slope_of(const double *y, const double *x, const fall *f, shape rises)
 }
 
 static ss_loading
-read_loading(const search *s, const double *y, const ss_drop *drop, const fall *f, int is_first, shape rises)
+read_loading(const search *s, const double *y, const fall *f, int is_first, shape rises)
 {
     const ss_slip *slip = &f->slip;
+    const double t = (double)f->high / s->rate, before = is_first ? t : (double)f[-1].high / s->rate;
     int is_between = !is_first && f[-1].slip.n > 0 && slip->n > 0;
-    ss_loading l = { drop->t, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
+    ss_loading l = { t, unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
                      unknown, 0, 0, 0 };
     if (slip->n > 0) {
         l.drop = times(slip->drop, s->largest);
@@ -272,8 +273,7 @@ read_loading(const search *s, const double *y, const ss_drop *drop, const fall *
         l.power = slip->power * s->largest * s->largest;
         l.n = slip->n;
     }
-    if (!is_first && ss_gaps_near(s->gap, s->n_gaps, 0.5 * (drop->t + drop[-1].t),
-                                  0.5 * (drop->t - drop[-1].t)))
+    if (!is_first && ss_gaps_near(s->gap, s->n_gaps, 0.5 * (t + before), 0.5 * (t - before)))
         return l;
     if (ss_window_length(f->stick) > 0 && rises.bend <= 1 / SIGMAS) {
         l.slope = times(slope_of(y, NULL, f, rises), s->rate * s->largest);
@@ -291,17 +291,16 @@ read_loading(const search *s, const double *y, const ss_drop *drop, const fall *
 }
 
 ss_status
-ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
+ss_loading_find(search *s, const double *y, const ss_drop *drop, size_t n)
 {
     ss_features *out = s->out;
-    double *y = malloc((s->n + n + 1) * sizeof *y), *scratch = y + s->n;
+    double *scratch = malloc((n + 1) * sizeof *scratch);
     ss_value *v = calloc(n + 1, sizeof *v);
     fall *f = calloc(n + 1, sizeof *f);
     out->loading = calloc(n + 1, sizeof *out->loading);
     ss_number damping = no_number;
-    ss_status st = out->loading != NULL && y != NULL && v != NULL && f != NULL ? SS_OK : SS_ENOMEM;
-    if (st == SS_OK)
-        st = ss_drops_without_glitches(y, x, s->n, drop, n);
+    ss_status st = out->loading != NULL && scratch != NULL && v != NULL && f != NULL ? ss_transitions_new(out, n)
+        : SS_ENOMEM;
     if (st == SS_OK)
         st = find_falls(f, s, y, drop, n, v, scratch, &damping);
     for (size_t i = 0; st == SS_OK && i < n; i++) {
@@ -317,12 +316,12 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
         double unused = is_falling(&damping) ? damping.value : 0;
         double damping_error = isfinite(damping.error) ? hypot(damping.error, unused) : 0;
         for (size_t i = 0; i < n; i++) {
-            if (f[i].slip.n > 0) {
+            const int is_slip = f[i].slip.n > 0;
+            if (is_slip)
                 widen_errors(&f[i], common, damping_error, rises.octave, s->n, shared, all);
-                out->transition[i].onset = f[i].slip.onset.value / s->rate;
-                out->transition[i].end = f[i].slip.end.value / s->rate;
-            }
-            out->loading[i] = read_loading(s, y, &drop[i], &f[i], i == 0, rises);
+            out->transition[i].onset = (is_slip ? f[i].slip.onset.value : (double)f[i].high) / s->rate;
+            out->transition[i].end = (is_slip ? f[i].slip.end.value : (double)f[i].low) / s->rate;
+            out->loading[i] = read_loading(s, y, &f[i], i == 0, rises);
         }
         for (size_t i = 0; i < SLIP_NUMBERS; i++)
             shared[i] = all[i] > 0 ? shared[i] / all[i] : 0;
@@ -332,6 +331,6 @@ ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n)
     }
     free(f);
     free(v);
-    free(y);
+    free(scratch);
     return st;
 }

@@ -5,8 +5,8 @@
 #include "find/search.h"
 #include "find/drops.h"
 
-/* Write the loadings before the n drops of x, which is the signal in s or its negative, into s->out, with
- * their medians. */
-ss_status ss_loading_find(search *s, const double *x, const ss_drop *drop, size_t n);
+/* Write n transitions, the drops of y, into s->out, and the loadings before them, with their medians.  y is the
+ * signal in s or its negative, without wrong samples. */
+ss_status ss_loading_find(search *s, const double *y, const ss_drop *drop, size_t n);
 
 #endif

@@ -77,10 +77,10 @@ ss_loading_medians(ss_features *out, const ss_drop *drop, const double *shared, 
     double falling = 0;
     for (size_t i = 0; i < out->n; i++) {
         slips += (size_t)isfinite(out->loading[i].drop.value);
-        falling += drop[i].end - drop[i].t;
+        falling += (double)(drop[i].low - drop[i].high);
     }
     int is_typical = 2 * slips >= out->n;
-    int is_short = out->n > 1 && falling <= SHORT * (drop[out->n - 1].end - drop[0].t);
+    int is_short = out->n > 1 && falling <= SHORT * (double)(drop[out->n - 1].low - drop[0].high);
     if (is_typical || is_short) {
         out->number[SS_LOADING_SLOPE] = median_over(out, offsetof(ss_loading, slope), 0, v, scratch);
         out->number[SS_LOADING_STIFFNESS] = median_over(out, offsetof(ss_loading, stiffness), 0, v, scratch);

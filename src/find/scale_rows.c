@@ -12,12 +12,9 @@
  * The record is continued oddly about its end points, so that it goes on with the same value and
  * slope; what is nearer to an end than sqrt(2) a is not used all the same. Nor is what lies within
  * the reach of a gap, where something of another value and slope may stand. */
-#include <float.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include "base/error.h"
 #include "find/scale_rows.h"
 #include "map/map.h"
 #include "signal/gaps.h"
@@ -80,31 +77,21 @@ converter_step(const row_source *source)
     return step;
 }
 
-ss_status
-ss_row_source_init(row_source *source, const double *x, size_t n, double rate, const ss_span *gap,
-                   size_t n_gaps, ss_error *err)
+void
+ss_row_source_init(row_source *source, const double *x, size_t n, double rate, const ss_span *gap, size_t n_gaps)
 {
     double lo = INFINITY, hi = -INFINITY;
-    if (n == 0 || n > SIZE_MAX / 64)
-        return ss_fail(err, SS_EINVAL, "a record of %zu samples is out of range 1 ... %zu", n, SIZE_MAX / 64);
-    if (!(rate >= 1e-100 && rate <= 1e100))
-        return ss_fail(err, SS_EINVAL, "rate %g Hz is out of range 1e-100 ... 1e100", rate);
     *source = (row_source){ .x = x, .n = n, .rate = rate, .gap = gap, .n_gaps = n_gaps };
     for (size_t i = 0; i < n; i++) {
-        if (!isfinite(x[i]))
-            return ss_fail(err, SS_EINVAL, "sample %zu is not a finite number", i + 1);
         if (missing(source, i))
             continue;
         lo = least(lo, x[i]);
         hi = most(hi, x[i]);
     }
-    if (hi - lo > DBL_MAX)
-        return ss_fail(err, SS_EINVAL, "the samples differ by more than a double holds");
     source->constant = !(hi > lo);
     if (hi > lo)
         source->rounding = fmax(PRECISION * (hi - lo), converter_step(source) / sqrt(12))
             / sqrt(rate);
-    return SS_OK;
 }
 
 /* The record less its first value, with margin samples more at either end: an odd continuation.  Beyond the
@@ -258,7 +245,7 @@ fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
 
 /* Prepare the rows of an octave and of those above it. */
 static ss_status
-open_octaves(row_source *source, double octave, ss_error *err)
+open_octaves(row_source *source, double octave)
 {
     ss_morlet_opts opts = ss_morlet_defaults;
     double longest = log2(MARGIN * (double)source->n / (ROW_REACH * source->rate));
@@ -272,7 +259,7 @@ open_octaves(row_source *source, double octave, ss_error *err)
     source->margin = (size_t)ceil(ROW_REACH * exp2(opts.m1) * source->rate);
     double *x = continued(source->x, source->n, source->margin);
     ss_status st = x == NULL ? SS_ENOMEM
-        : ss_map_of_samples(&source->rows, x, source->n + 2 * source->margin, source->rate, &opts, err);
+        : ss_map_of_samples(&source->rows, x, source->n + 2 * source->margin, source->rate, &opts, NULL);
     free(x);
     return st;
 }
@@ -287,12 +274,12 @@ make_room(row_source *source, size_t n)
 }
 
 ss_status
-ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud, ss_error *err)
+ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud)
 {
     double j = number_of(f), octave = floor(j / ROW_VOICES);
     ss_status st = SS_OK;
     if (source->rows == NULL || octave < source->octave || octave >= source->end)
-        st = open_octaves(source, octave, err);
+        st = open_octaves(source, octave);
     if (st != SS_OK)
         return st;
     size_t index = (size_t)(source->end * ROW_VOICES - 1 - j);          /* long to short */

@@ -52,17 +52,15 @@ typedef struct row_source {
     search_places at;
 } row_source;
 
-/* Prepare a source, and check the samples and the rate. */
-ss_status ss_row_source_init(row_source *source, const double *x, size_t n, double rate, const ss_span *gap,
-                             size_t n_gaps, ss_error *err);
+/* Prepare a source of n > 0 samples, whose differences are finite. */
+void ss_row_source_init(row_source *source, const double *x, size_t n, double rate, const ss_span *gap, size_t n_gaps);
 /* Free its memory.  It can be used again, and its heads stay. */
 void ss_row_source_free(row_source *source);
 
 /* Compute the row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows should be asked
  * for from short to long scales, as some octaves share spectra.  The noise is found where no spike of loud
  * is near; NULL: everywhere.  r->peak is to be freed with free(). */
-ss_status ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud,
-                     ss_error *err);
+ss_status ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud);
 
 /* The head of the row nearest to f; NULL: it is not known. */
 const scale_row *ss_row_head(const row_source *source, double f);

@@ -8,7 +8,6 @@
  */
 #include <math.h>
 #include <stdlib.h>
-#include "base/error.h"
 #include "base/list.h"
 #include "base/sort.h"
 #include "find/breakpoint.h"
@@ -173,7 +172,7 @@ add_row_spikes(spike_search *s, size_t i)
 }
 
 static ss_status
-search_rows(spike_search *s, double f, ss_error *err)
+search_rows(spike_search *s, double f)
 {
     row_source *src = s->source;
     double length = (double)(src->n - 1) / src->rate, shortest = ROW_CENTER / (2 * M_PI * f);
@@ -188,7 +187,7 @@ search_rows(spike_search *s, double f, ss_error *err)
         return SS_ENOMEM;
     for (size_t i = 0; i <= last; i++) {
         double label = f * exp2(-(double)i / ROW_VOICES);
-        ss_status st = ss_row_new(&s->row[i], src, label, s->found, err);
+        ss_status st = ss_row_new(&s->row[i], src, label, s->found);
         if (st != SS_OK)
             return st;
         s->n_rows = i + 1;
@@ -249,7 +248,7 @@ finish(spike_search *s)
 }
 
 ss_status
-ss_spikes_find(ss_spikes **out, row_source *source, ss_error *err)
+ss_spikes_find(ss_spikes **out, row_source *source)
 {
     spike_search s = { .source = source };
     s.found = calloc(1, sizeof *s.found);
@@ -257,7 +256,7 @@ ss_spikes_find(ss_spikes **out, row_source *source, ss_error *err)
         return SS_ENOMEM;
     ss_status st = SS_OK;
     if (!source->constant)
-        st = search_rows(&s, ROW_HIGHEST * source->rate / 2, err);
+        st = search_rows(&s, ROW_HIGHEST * source->rate / 2);
     ss_row_source_free(source);
     if (st == SS_OK)
         finish(&s);

@@ -81,25 +81,25 @@ stand_apart(const ss_bursts *found)
 static ss_status
 find_single(search *s)
 {
-    ss_bursts *found = NULL;
+    ss_bursts found;
     ss_coefficients_free(s->map);
     s->map = NULL;
-    ss_status st = ss_bursts_find(&found, s->rows, STRONG, NULL);
-    if (st == SS_OK && stand_apart(found) && (st = ss_transitions_new(s->out, found->n)) == SS_OK)
-        for (size_t i = 0; i < found->n; i++) {
+    ss_status st = ss_bursts_find(&found, s->rows, STRONG);
+    if (st == SS_OK && stand_apart(&found) && (st = ss_transitions_new(s->out, found.n)) == SS_OK)
+        for (size_t i = 0; i < found.n; i++) {
             ss_transition *tr = &s->out->transition[i];
-            size_t at = (size_t)round(found->burst[i].t * s->rate);
-            ss_window room = room_about(s, found, i);
-            tr->onset = tr->end = found->burst[i].t;
+            size_t at = (size_t)round(found.burst[i].t * s->rate);
+            ss_window room = room_about(s, &found, i);
+            tr->onset = tr->end = found.burst[i].t;
             if (room.first >= at || room.end <= at)
                 continue;
-            ss_window event = ss_extent(s->x, room, at, s->rate / found->f);
+            ss_window event = ss_extent(s->x, room, at, s->rate / found.f);
             if (event.first < at)
                 tr->onset = (double)event.first / s->rate;
             if (event.end > at)
                 tr->end = (double)event.end / s->rate;
         }
-    ss_bursts_free(found);
+    free(found.burst);
     return st;
 }
 

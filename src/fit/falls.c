@@ -93,8 +93,8 @@ copy_force(falls *out, const ss_features *f, const double *x, size_t n, double d
     for (size_t i = 0; st == SS_OK && i < n; i++)
         along[i] = direction * x[i];
     for (size_t i = 0; st == SS_OK && i < f->n; i++)
-        drop[i].height = along[(size_t)(f->transition[i].onset * out->rate)]
-                         - along[(size_t)fmin(f->transition[i].end * out->rate, (double)n - 1)];
+        drop[i] = (ss_drop){ (size_t)(f->transition[i].onset * out->rate),
+                             (size_t)fmin(f->transition[i].end * out->rate, (double)n - 1) };
     if (st == SS_OK)
         st = ss_record_noise(&r, 0);
     if (st == SS_OK)
