@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
-#include "fit/verdict.h"
+#include "fit/driven.h"
 #include "new_signal.h"
 #include "scene/model.h"
 #include "uniform.h"
@@ -114,6 +114,38 @@ drives_rate_and_state_as_it_simulates(void **unused)
     }
 }
 
+/* --- a converter ----------------------------------------------------------------------------- */
+
+/* Values that n_1, n_2 ... of n rows have are as good as n^2 / (n_1^2 + n_2^2 + ...) that are as frequent as each
+ * other: four are four. */
+static void
+counts_the_values_of_a_converter(void **unused)
+{
+    enum { N = 600, MOST = 4 };
+    static const size_t rows[2][MOST] = { { 150, 150, 150, 150 }, { 300, 200, 100 } };
+    double t[N], x[N], f[N];
+    ss_motion_opts opts;
+    (void)unused;
+    ss_motion_opts_init(&opts, sizeof opts);
+    for (int i = 0; i < 2; i++) {
+        double squares = 0;
+        driven d;
+        for (size_t k = 0, at = 0; k < MOST; k++) {
+            squares += (double)rows[i][k] * (double)rows[i][k];
+            for (size_t end = at + rows[i][k]; at < end; at++)
+                f[at] = 0.5 * (double)k;
+        }
+        for (int k = 0; k < N; k++) {
+            t[k] = k;
+            x[k] = sin(0.05 * k);
+        }
+        assert_int_equal(ss_driven_new(&d, t, x, f, N, &opts), SS_OK);
+        assert_true(fabs(d.codes - (double)(N * N) / squares) <= 1e-12);
+        assert_true(fabs(d.code * d.force - 0.5) <= 1e-12);
+        ss_driven_free(&d);
+    }
+}
+
 /* --- laws in closed form -------------------------------------------------------------------- */
 
 enum { ROWS = 3000 };
@@ -160,6 +192,8 @@ rank(const recording *r, size_t motion, const ss_motion_opts *opts)
     ss_error err = { 0 };
     if (ss_motion_ranking_new(&k, r->signal, motion, 2, opts, &err) != SS_OK)
         fail_msg("%s", err.text);
+    for (size_t i = 0; i < k->n; i++)           /* a correlation */
+        assert_false(fabs(k->row[i].repeat) > 1 + 1e-12);
     return k;
 }
 
@@ -536,6 +570,14 @@ does_not_judge_what_tells_nothing(void **unused)
     for (int i = 0; i < ROWS; i++)
         r.x[i] = 1;
     assert_answer(&r, SS_NOT_JUDGED, "the motion is constant");
+    for (int i = 0; i < ROWS; i++)          /* a law is known only where the half that it is fitted to has been */
+        r.x[i] = (i < ROWS / 2 ? 1 : 1.5) * moved[i];
+    ss_motion_opts opts;
+    ss_motion_opts_init(&opts, sizeof opts);
+    opts.folds = SS_FOLDS_HALVES;
+    ss_motion_ranking *k = rank(&r, 0, &opts);
+    assert_true(k->verdict == SS_NOT_JUDGED && strstr(k->answer, "the two halves visit other ranges") != NULL);
+    ss_motion_ranking_free(k);
     free(moved);
     ss_signal_free(r.signal);
 }
@@ -604,6 +646,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drives_as_it_simulates),
         cmocka_unit_test(drives_rate_and_state_as_it_simulates),
+        cmocka_unit_test(counts_the_values_of_a_converter),
         cmocka_unit_test(names_an_elastic_slider),
         cmocka_unit_test(finds_sign_velocity_and_delay),
         cmocka_unit_test(names_dahl),

@@ -183,6 +183,26 @@ samples_are_as_good_as_their_tolerance(void **state)
         }
 }
 
+/* A record of n samples often ends near an event; what lies behind it is not touched. */
+static void
+distances_from_events_end_with_the_record(void **state)
+{
+    enum { MOST = 400 };
+    double x[MOST], clear[MOST + SAMPLES_REACH], steps = 0;
+    (void)state;
+    for (size_t n = 2; n <= MOST; n += 6) {
+        ss_scene scene = shipped(COULOMB);
+        scene.settle = 0;
+        scene.rate = 200;
+        scene.duration = (double)n / scene.rate;
+        for (size_t i = n; i < n + SAMPLES_REACH; i++)
+            clear[i] = -1;
+        assert_int_equal(ss_samples_run(&scene, SS_ACCELERATION, SAMPLES_FINE, x, clear, n, &steps), SS_OK);
+        for (size_t i = 0; i < n + SAMPLES_REACH; i++)
+            assert_true(i < n ? clear[i] >= 0 && (clear[i] <= SAMPLES_REACH || isinf(clear[i])) : clear[i] == -1);
+    }
+}
+
 /* --- ranking ------------------------------------------------------------------------------- */
 
 static void
@@ -199,6 +219,8 @@ shipped_scenes_rank_themselves_first(void **state)
         assert_true(fabs(r->forcing_frequency / 2.5 - 1) <= 0.002);
         for (size_t k = 1; k < r->n; k++)
             assert_true(r->row[k].total >= r->row[k - 1].total);
+        if (i == COULOMB)                       /* a jumps at each stop, of which a half cycle has one */
+            assert_true(fabs(r->value[SS_BY_SPIKES] - 1) <= 0.1);
         for (size_t k = 0; k < r->n; k++)       /* without x and f there is no df/dx to miss */
             assert_true(ss_rank_score(&r->row[k], SS_BY_STIFFNESS) == 0);
         ss_ranking_free(r);
@@ -383,6 +405,31 @@ rows_are_sorted_by_the_sum_of_their_scores(void **state)
     ss_ranking_sort(&r);
     assert_true(row[0].scene == 1 && row[1].scene == 0 && row[2].scene == 2);
     assert_true(fabs(row[0].total - 1.8) <= 1e-15);
+}
+
+/* What is explained has a digit behind the point, and at least two of what is left, in per cent: 4.0, .016. */
+static void
+the_answer_names_what_explains_most(void **state)
+{
+    static const char *const names[] = { "one", "two", "three" };
+    static const char *const answer[] = { "none of these: no; three explains most, 96.0 %\n",
+                                          "one explains 99.984 % of the signal's power\n" };
+    const ss_ranking_text about = { "s", "a", "its unit", names, 1 };
+    (void)state;
+    for (int is_named = 0; is_named < 2; is_named++) {
+        ss_rank_row row[] = { { .scene = 0, .explained = is_named ? 0.99984 : 0.5 },
+                              { .scene = 2, .explained = 0.96 }, { .scene = 1, .explained = 0.9 } };
+        ss_ranking r = { .verdict = is_named ? SS_NAMED : SS_NONE_FITS, .why = "no", .forcing_frequency = 1,
+                         .n = 3, .row = row };
+        char *text = NULL;
+        size_t size;
+        FILE *out = open_memstream(&text, &size);
+        assert_non_null(out);
+        assert_int_equal(ss_ranking_write(&r, &about, NULL, out, SS_TSV, NULL), SS_OK);
+        fclose(out);
+        assert_non_null(strstr(text, answer[is_named]));
+        free(text);
+    }
 }
 
 /* --- fits ---------------------------------------------------------------------------------- */
@@ -647,6 +694,8 @@ main(void)
         cmocka_unit_test(a_lighter_mass_is_the_nearest_explanation),
         cmocka_unit_test(the_literal_law_is_ranked_as_the_scaled_one_that_equals_it),
         cmocka_unit_test(samples_are_as_good_as_their_tolerance),
+        cmocka_unit_test(distances_from_events_end_with_the_record),
+        cmocka_unit_test(the_answer_names_what_explains_most),
         cmocka_unit_test(shipped_scenes_rank_themselves_first),
         cmocka_unit_test(size_sign_and_offset_do_not_matter),
         cmocka_unit_test(what_has_no_transitions_is_not_named),

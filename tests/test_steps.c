@@ -8,6 +8,7 @@
 #include "fit/wander.h"
 #include "near.h"
 #include "pulled_rock.h"
+#include "uniform.h"
 #include "unit.h"
 
 /* mu0 .6, k 1e-3/um, Dc 10 um, load 1 -> 10 um/s at 10 s; by two independent methods, all digits shown agree, and the
@@ -62,6 +63,31 @@ whitens_what_wanders(void **state)
     assert_true(fabs(got - logarithms) < 1e-14);
     ss_wander_whiten(white, &by_rows, t, y, N, 1);
     assert_true(fabs(white[4] - (3 - exp(-.5) * .25) / sqrt(1 - exp(-1))) < 1e-14);
+}
+
+/* A noise of the first order whose memory is three rows, or three seconds, in rows that are .5 and 5 s apart: of n =
+ * 4,000 rows, phi = exp(-h/3) is known to ((1 - phi^2)/n)^1/2, and the memory to 9/(h phi) times that: .14 by rows, and
+ * .16 by time. */
+static void
+knows_whether_a_memory_counts_rows(void **state)
+{
+    enum { N = 4000 };
+    double t[N], y[N];
+    uint64_t seed = 3;
+    (void)state;
+    for (int by_rows = 0; by_rows < 2; by_rows++) {
+        wander found;
+        for (int i = 0; i < N; i++) {
+            t[i] = i / 2 * 5.5 + i % 2 * 0.5;
+            double normal = sqrt(-2 * log(1 - uniform(&seed))) * cos(2 * M_PI * uniform(&seed));
+            double keep = i == 0 ? 0 : exp((by_rows ? -1 : t[i - 1] - t[i]) / 3);
+            y[i] = (i == 0 ? 0 : keep * y[i - 1]) + sqrt(1 - keep * keep) * normal;
+        }
+        assert_int_equal(ss_wander_find(&found, t, y, N, 1), SS_OK);
+        assert_int_equal(found.by_rows, by_rows);
+        near("memory", found.memory, 3, 4 * .16);
+        near("the part that wanders", found.part, 1, .05);
+    }
 }
 
 static const rock usual = { .is_slip = 0, .a = .006, .b = .0085, .Dc = 8e-6, .k = 1500, .drift = 3,
@@ -326,6 +352,7 @@ main(void)
         cmocka_unit_test(slides_as_two_methods_say),
         cmocka_unit_test(a_soft_spring_runs_away),
         cmocka_unit_test(whitens_what_wanders),
+        cmocka_unit_test(knows_whether_a_memory_counts_rows),
         cmocka_unit_test(finds_the_truth_of_simulated_rocks),
         cmocka_unit_test(shares_what_steps_have_in_common),
         cmocka_unit_test(begins_in_a_hold),

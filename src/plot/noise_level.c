@@ -115,17 +115,21 @@ total_of(const uint64_t *count)
     return total;
 }
 
-/* Add the power spectrum of the latest levels of a scale, those above the median so far cut off. */
+/* End a part, and add the power spectrum of its levels, those above the median so far cut off. */
 static void
-add_part(noise_level *noise, struct of_scale *of)
+end_part(noise_level *noise, struct of_scale *of)
 {
+    const size_t n = of->levels, part = of->parts++;
     double *x = noise->forth.x, mean = 0;
+    of->levels = 0;
+    if (part >= ALL_PARTS && part % ALL_PARTS != 0)
+        return;
     const double median = (double)bin_of(quantile(of->count, total_of(of->count), 0.5));
     memset(x, 0, 2 * PART * sizeof *x);
-    for (size_t k = 0; k < of->levels; k++)
+    for (size_t k = 0; k < n; k++)
         mean += x[k] = fmin(of->level[k], median);
-    for (size_t k = 0; k < of->levels; k++)
-        x[k] -= mean / (double)of->levels;
+    for (size_t k = 0; k < n; k++)
+        x[k] -= mean / (double)n;
     ss_real_fft_run(&noise->forth);
     for (size_t k = 0; k <= PART; k++)
         of->spectrum[k] += x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1];
@@ -148,12 +152,8 @@ ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const do
         size_t bin = bin_of(level[k] * level[k]);
         of->count[bin] += step;
         of->level[of->levels++] = (double)bin;
-        if (of->levels < PART)
-            continue;
-        if (of->parts < ALL_PARTS || of->parts % ALL_PARTS == 0)
-            add_part(noise, of);
-        of->parts++;
-        of->levels = 0;
+        if (of->levels == PART)
+            end_part(noise, of);
     }
 }
 
@@ -176,8 +176,7 @@ static int
 has_structure(noise_level *noise, struct of_scale *of)
 {
     double *x = noise->back.x, most = 0;
-    if (of->levels > 0 && of->parts < ALL_PARTS)
-        add_part(noise, of);
+    end_part(noise, of);
     for (size_t k = 0; k <= PART; k++) {
         x[2 * k] = of->spectrum[k];
         x[2 * k + 1] = 0;

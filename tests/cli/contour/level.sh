@@ -17,3 +17,6 @@ for name in viridis viridis_r; do
     ss-contour --fill --palette $name one.tsv | sed -n -e '/^colours/p' -e '/^ground/p' -e '/rectangle.*ground_colour fs/p'
 done
 ss-contour --palette grey_r one.tsv | grep -c ground || true
+# the area within each line has its colour
+ss-contour --fill one.tsv | awk -F"'" '/^drawn/ { split($2, line, " ") } match($0, /palette cb -[0-9]+[.]5/) { on[substr($0, RSTART + 11, RLENGTH - 11)] = 1 }
+    END { for (i in line) { n++; filled += ("-" (line[i] - 1) ".5") in on }; print (n > 5), n - filled }'
