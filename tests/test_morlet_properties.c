@@ -262,6 +262,37 @@ long_dense_scales_are_as_exact_by_either_engine(void **state)
     test_free(x);
 }
 
+/* Any part of a row, read alone, by the spectra, against the whole row by the sum. */
+static void
+parts_of_dense_rows_are_those_of_the_sum(void **state)
+{
+    enum { N = 4000, PART = 29 };
+    static double x[N], w[2 * N], part[2 * PART];
+    ss_morlet_opts opts = ss_morlet_defaults;
+    ss_coefficients *sum, *fast;
+    (void)state;
+    make(TONE, x, N);
+    opts.dense = opts.voices = 1;
+    opts.accuracy = 1e-9;
+    opts.engine = SS_ENGINE_QUADRATURE;
+    assert_int_equal(ss_map_of_samples(&sum, x, N, 2000, &opts, NULL), SS_OK);
+    opts.engine = SS_ENGINE_FFT;
+    assert_int_equal(ss_map_of_samples(&fast, x, N, 2000, &opts, NULL), SS_OK);
+    for (size_t i = 0; i < sum->n_scales; i++) {
+        double most = 0;
+        assert_int_equal(ss_map_read(sum, &(ss_map_part){ i, 0, N, w, NULL }, 1, NULL), SS_OK);
+        for (size_t k = 0; k < N; k++)
+            most = fmax(most, hypot(w[2 * k], w[2 * k + 1]));
+        for (size_t first = 0; first + PART <= N; first += 331) {
+            assert_int_equal(ss_map_read(fast, &(ss_map_part){ i, first, PART, part, NULL }, 1, NULL), SS_OK);
+            for (size_t k = 0; k < 2 * PART; k++)
+                assert_true(fabs(part[k] - w[2 * first + k]) <= 2.1e-9 * most);
+        }
+    }
+    ss_coefficients_free(fast);
+    ss_coefficients_free(sum);
+}
+
 static void
 default_scales_are_four_cycles_a_record_to_the_highest_resolved(void **state)
 {
@@ -355,6 +386,25 @@ refuses_options_out_of_range(void **state)
         opts.octaves = b->octaves, opts.m0 = b->m0, opts.m1 = b->m1;
         if (ss_morlet_new(&plan, 1000, 2000, &opts, NULL) != SS_EINVAL)
             fail_msg("row %zu was accepted", i);
+    }
+}
+
+/* Both ends of a range belong to it. */
+static void
+takes_options_at_the_ends_of_their_ranges(void **state)
+{
+    const struct ss_morlet_ranges *in = &ss_morlet_ranges;
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        ss_morlet *plan;
+        ss_morlet_opts opts = ss_morlet_defaults;
+        opts.octaves = opts.force = opts.voices = 1;
+        opts.center = i == 0 ? in->center.from : i == 1 ? in->center.to : opts.center;
+        opts.voices = (int)(i == 2 ? in->voices.from : i == 3 ? in->voices.to : opts.voices);
+        opts.step = i == 4 ? in->step.from : i == 5 ? in->step.to : opts.step;
+        opts.accuracy = i == 6 ? in->accuracy.from : i == 7 ? in->accuracy.to : opts.accuracy;
+        plan = plan_of(3, 1, &opts);
+        ss_morlet_free(plan);
     }
 }
 
@@ -527,10 +577,12 @@ main(void)
         cmocka_unit_test(exact_steps_are_the_scale_times_the_step),
         cmocka_unit_test(dense_grid_has_a_coefficient_a_sample),
         cmocka_unit_test(long_dense_scales_are_as_exact_by_either_engine),
+        cmocka_unit_test(parts_of_dense_rows_are_those_of_the_sum),
         cmocka_unit_test(default_scales_are_four_cycles_a_record_to_the_highest_resolved),
         cmocka_unit_test(edges_are_within_the_cone),
         cmocka_unit_test(refuses_what_is_not_usable),
         cmocka_unit_test(refuses_options_out_of_range),
+        cmocka_unit_test(takes_options_at_the_ends_of_their_ranges),
         cmocka_unit_test(amplitudes_of_any_size_scale_the_coefficients),
         cmocka_unit_test(samples_below_2_to_the_minus_900_of_the_largest_count_as_zeros),
         cmocka_unit_test(refuses_coefficients_that_overflow),

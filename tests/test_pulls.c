@@ -439,6 +439,31 @@ a_clean_pull_keeps_the_closed_form(void **state)
     }
 }
 
+/* Samples are missing in the second half of one stick: that loading is not known, nor when its slip began since the
+ * last; all others are what they were, in closed form. */
+static void
+a_gap_in_a_stick_leaves_out_that_loading_alone(void **state)
+{
+    enum { RIG = 6, CUT = 4 };
+    const rig *r = &rigs[RIG];
+    ss_scene scene = scene_of(r);
+    record t = record_of(&scene, 300, 1, 1);
+    const double loading = r->stiffness * r->speed, period = length_of_slip(r) + length_of_stick(r);
+    char gap[100];
+    (void)state;
+    snprintf(gap, sizeof gap, "%.9g:%.9g", t.slip[CUT] - 0.3 * length_of_stick(r), t.slip[CUT] - 0.2 * length_of_stick(r));
+    assert_int_equal(ss_header_note(t.signal->head, "gaps", gap, NULL), SS_OK);
+    ss_features *f = features_of(t.signal);
+    assert_int_equal(f->n, t.n_slips);
+    for (size_t i = 0; i < f->n; i++) {
+        const ss_loading *l = &f->loading[i];
+        assert_true(i == CUT ? isnan(l->slope.value) : fabs(l->slope.value / loading - 1) <= 1e-4);
+        assert_true(i == 0 || i == CUT ? isnan(l->recurrence.value) : fabs(l->recurrence.value / period - 1) <= 1e-4);
+    }
+    ss_features_free(f);
+    ss_signal_free(t.signal);
+}
+
 /* What relaxes in 100 ms after each rise of half a second is no slip of a slider: the discharge of a capacitor,
  * in 20 ms or between a third and two thirds of what charges it, and a saw-tooth generator. */
 static double
@@ -996,6 +1021,7 @@ main(void)
         cmocka_unit_test(slips_of_a_clipped_pull_are_not_known),
         cmocka_unit_test(a_pull_without_its_mean_does_not_reverse),
         cmocka_unit_test(a_clean_pull_keeps_the_closed_form),
+        cmocka_unit_test(a_gap_in_a_stick_leaves_out_that_loading_alone),
         cmocka_unit_test(what_is_no_slip_has_no_friction),
         cmocka_unit_test(slips_that_disagree_on_the_rig_leave_it_open),
         cmocka_unit_test(what_falls_as_it_rises_does_not_slip),

@@ -399,6 +399,35 @@ counts_drops_by_their_height(void **state)
     }
 }
 
+/* Trapezoids without noise and upside down: a running median of five samples keeps them as they are, and each fall
+ * lasts from the last sample at its top to the first at its bottom. */
+static void
+drops_of_trapezoids_are_exact(void **state)
+{
+    enum { TOP = 9, FALL = 8, LOW = 11, RISE = 12, PERIOD = TOP + FALL + LOW + RISE - 2, TEETH = 15, N = TEETH * PERIOD + TOP };
+    static double x[N];
+    (void)state;
+    for (int is_down = 0; is_down < 2; is_down++) {
+        const double first = is_down ? TOP + FALL + LOW - 2 : TOP - 1, lasts = is_down ? RISE : FALL;
+        size_t n = 0;
+        ss_drop *drop = NULL;
+        for (size_t i = 0; i < N; i++) {
+            double at = (double)(i % PERIOD) - (TOP - 1), fallen = fmin(1, fmax(0, at / FALL));
+            double level = 1 - fallen + fmax(0, (at - FALL - LOW + 1) / RISE);
+            x[i] = is_down ? 3 - 2 * level : 1 + 2 * level;
+        }
+        assert_int_equal(ss_drops_find(&drop, &n, x, N, RATE, &(ss_drop_opts){ .height = 1.5 },
+                                       NULL), SS_OK);
+        assert_int_equal(n, TEETH);
+        for (size_t i = 0; i < n; i++) {
+            assert_true(fabs(drop[i].t * RATE - ((double)(i * PERIOD) + first)) < 1e-6);
+            assert_true(fabs((drop[i].end - drop[i].t) * RATE - lasts) < 1e-6);
+            assert_true(fabs(drop[i].height - 2) < 1e-12);
+        }
+        free(drop);
+    }
+}
+
 /* Falls are at 0.9 ... 1, 1.9 ... 2, ...: the gaps take away the first and the third, and one in a
  * climb none. */
 static void
@@ -521,6 +550,7 @@ main(void)
         cmocka_unit_test(finds_the_one_event),
         cmocka_unit_test(a_gap_is_no_event),
         cmocka_unit_test(counts_drops_by_their_height),
+        cmocka_unit_test(drops_of_trapezoids_are_exact),
         cmocka_unit_test(falls_over_gaps_are_left_out),
         cmocka_unit_test(a_slow_drift_is_no_drop),
         cmocka_unit_test(rests_of_a_coarse_converter_are_found),

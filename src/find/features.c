@@ -114,7 +114,8 @@ report_progress(const search *s, double part)
 static int
 report_transform(double done, void *user)
 {
-    return report_progress(user, TRANSFORMED * done) != SS_OK;
+    const search *s = user;
+    return s->found == NULL && report_progress(s, TRANSFORMED * done) != SS_OK;     /* a row is read again later */
 }
 
 /* Find the features of the samples x of a column; x loses its hum, if s->is_cleaned becomes 1.  SS_ESCALE: it is
