@@ -257,6 +257,29 @@ names_an_elastic_slider(void **unused)
     ss_signal_free(r.signal);
 }
 
+/* A slider behind a gap, whose place and stiffness a fit finds from a start that has been improved: other laws with a
+ * gap come near it. */
+static void
+names_a_slider_behind_a_gap(void **unused)
+{
+    const double gap = 1, reach = gap + 0.5;
+    recording r = record();
+    double y = 0;
+    (void)unused;
+    for (int i = 0; i < ROWS; i++) {
+        slider(&y, i > 0 ? r.x[i] - r.x[i - 1] : 0, reach);
+        r.f[i] = 3 * copysign(fmax(fabs(y) - gap, 0), y) / (reach - gap);
+    }
+    add_noise(r.f, 0.01, 1);
+    ss_motion_ranking *k = rank(&r, 0, NULL);
+    assert_named(k, "compliant-gap");
+    assert_number(k, "friction", 3, "kN");
+    assert_number(k, "contact_stiffness", 6, "kN/mm");
+    assert_number(k, "gap", gap, "mm");
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
 /* The force on what moves, by its velocity, and later than it by a row. */
 static void
 finds_sign_velocity_and_delay(void **unused)
@@ -602,6 +625,14 @@ names_none_of_these(void **unused)
     }
     add_noise(r.f, 0.005, 7);
     assert_answer(&r, SS_NONE_FITS, "times the noise");
+    y = z = 0;
+    for (int i = 0; i < ROWS; i++) {        /* no passage is like another: the noise is known by its roughness */
+        r.x[i] = 3 * pow(0.1, (double)i / ROWS) * sin(12 * M_PI * i / ROWS);
+        double dx = i > 0 ? r.x[i] - r.x[i - 1] : 0;
+        r.f[i] = slider(&y, dx, 0.1) / 0.1 + slider(&z, dx, 1);
+    }
+    add_noise(r.f, 0.01, 12);
+    assert_answer(&r, SS_NONE_FITS, "times the noise");
     for (int i = 0; i < ROWS; i++) {        /* a spring whose offset drifts: a hysteresis without end makes the drift */
         r.x[i] = sin(2 * M_PI * 7.3 * i / ROWS);
         r.f[i] = 80 * r.x[i] + 50 * cos(2 * M_PI * 7.3 * i / ROWS) + 6.7 * i / ROWS;
@@ -648,6 +679,7 @@ main(void)
         cmocka_unit_test(drives_rate_and_state_as_it_simulates),
         cmocka_unit_test(counts_the_values_of_a_converter),
         cmocka_unit_test(names_an_elastic_slider),
+        cmocka_unit_test(names_a_slider_behind_a_gap),
         cmocka_unit_test(finds_sign_velocity_and_delay),
         cmocka_unit_test(names_dahl),
         cmocka_unit_test(names_rate_and_state_where_the_speed_varies),
