@@ -2,9 +2,8 @@
  *
  * The positions of samples between points repeat, and so do their weights.  A table has the
  * weights of LANES positions side by side, for all points that any of these positions needs, with
- * zeros for the points that a position does not need.  Each weight is there twice, for re and im,
- * which are adjacent in the series and in the output.  The inner loop multiplies this table by
- * points, for ROWS repetitions of the pattern at once.  The carrier of a sample is the product of
+ * zeros for the points that a position does not need.  The inner loop multiplies this table by
+ * points, for several repetitions of the pattern at once.  The carrier of a sample is the product of
  * the carrier at its place in the pattern and that of its row, a repetition of the pattern; the
  * latter is a product of two tables.
  *
@@ -15,9 +14,6 @@
 #include <string.h>
 #include "base/versions.h"
 #include "map/dense.h"
-#ifdef HAVE_TARGETS
-#include <immintrin.h>
-#endif
 
 enum { LANES = 8, ROWS = 4, ROOT = LANES, GROUP_MAX = ROWS * LANES * DENSE_PHASES_MAX,
     LINE = 64,                  /* bytes of a cache line; a vector within one is read at once */
@@ -28,7 +24,7 @@ struct weights {
     size_t blocks, points;      /* the pattern repeats after so many blocks of LANES places, or points */
     int taps, lead;             /* taps of a block; tap 0 lies lead points before the place's own */
     size_t *late;               /* [blocks], points before the first of a block */
-    double *weight;             /* [blocks][taps][LANES][2] */
+    double *weight;             /* [blocks][taps][LANES] */
 };
 
 static size_t
@@ -57,7 +53,7 @@ ss_dense_new(const kaiser *ker, size_t phases)
         extra = span > extra ? span : extra;
     }
     size_t taps = (size_t)ker->taps + extra, late = blocks * sizeof(size_t);
-    weights *d = calloc(1, sizeof *d + late + LINE + blocks * taps * LANES * 2 * sizeof(double));
+    weights *d = calloc(1, sizeof *d + late + LINE + blocks * taps * LANES * sizeof(double));
     if (d == NULL)
         return NULL;
     d->phases = phases;
@@ -72,10 +68,8 @@ ss_dense_new(const kaiser *ker, size_t phases)
         size_t block = c / LANES, own = c / phases;
         d->late[block] = block * LANES / phases;
         ss_kaiser_weights(ker, (double)(c % phases) / (double)phases, weight);
-        for (size_t i = 0; i < (size_t)ker->taps; i++) {
-            size_t at = (block * taps + own - d->late[block] + i) * LANES + c % LANES;
-            d->weight[2 * at] = d->weight[2 * at + 1] = weight[i];
-        }
+        for (size_t i = 0; i < (size_t)ker->taps; i++)
+            d->weight[(block * taps + own - d->late[block] + i) * LANES + c % LANES] = weight[i];
     }
     return d;
 }
@@ -114,22 +108,8 @@ multiply(const double a[2], const double b[2], double e[2])
 typedef struct carrier {
     double near[ROOT * ROOT][2];        /* of each row, relative to the last of far before it */
     double (*far)[2];                   /* the carrier of every ROOT^2-th row */
-    double *places;                     /* [blocks][2][LANES][2]: re and re, -im and im */
+    double *places;                     /* [blocks][2][LANES]: re, im */
 } carrier;
-
-/* Write re, re, -im, im of the carrier of each row of a group. */
-static inline void
-row_carriers(const carrier *from, size_t group, double e[ROWS][4])
-{
-    for (size_t i = 0; i < ROWS; i++) {
-        size_t row = group * ROWS + i;
-        double turn[2];
-        multiply(from->far[row / (ROOT * ROOT)], from->near[row % (ROOT * ROOT)], turn);
-        e[i][0] = e[i][1] = turn[0];
-        e[i][2] = -turn[1];
-        e[i][3] = turn[1];
-    }
-}
 
 /* The powers 0 to ROOT - 1 of exp(2 pi i k c/m), each the product of two half as high: errors are some
  * eps. */
@@ -156,7 +136,7 @@ make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t 
         for (size_t j = 0; j < ROOT; j++)
             /* cppcheck-suppress uninitvar ; it is written here */
             multiply(coarse[i], fine[j], to->near[i * ROOT + j]);
-    to->far = (double (*)[2])(spare + 4 * width);
+    to->far = (double (*)[2])(spare + 2 * width);
     for (size_t i = 0; i * ROOT * ROOT < rows; i++)
         turn(turns, first + i * ROOT * ROOT * width, circle, to->far[i]);
     to->places = spare;
@@ -164,50 +144,37 @@ make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t 
     for (size_t m = 0; m < d->blocks; m++) {
         turn(turns, m * LANES, circle, coarse[0]);
         for (size_t i = 0; i < LANES; i++) {
-            double *at = to->places + 2 * (2 * m * LANES + i);
+            double *at = to->places + 2 * m * LANES + i;
             multiply(coarse[0], fine[i], e);
-            at[0] = at[1] = e[0] * factor;
-            at[2 * LANES] = -e[1] * factor;
-            at[2 * LANES + 1] = e[1] * factor;
+            at[0] = e[0] * factor;
+            at[LANES] = e[1] * factor;
         }
     }
 }
 
 /* --- the loop --------------------------------------------------------------------------------- */
 
-/* Write the groups g ... end - 1, each of ROWS rows. */
-typedef void write_groups(const weights *d, const double *series, size_t g, size_t end,
-                          const carrier *turning, double *w);
-
-#define SWAP_2 { x[1], x[0] }
-#define SWAP_4 { x[1], x[0], x[3], x[2] }
-#define SWAP_8 { x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6] }
-
-#define LOOP double_16
+#define LOOP write_128
 #define WIDTH 2
 #define TARGET FAST
-#define PAIR(p) (VECTOR){ (p)[0], (p)[1] }
 #include "map/dense_loop.h"
 
 #ifdef HAVE_TARGETS
-#define LOOP double_32
+#define LOOP write_256
 #define WIDTH 4
 #define TARGET FAST_FOR("avx2,fma")
-#define PAIR(p) (VECTOR){ (p)[0], (p)[1], (p)[0], (p)[1] }
 #include "map/dense_loop.h"
 
-#define LOOP double_64
+#define LOOP write_512
 #define WIDTH 8
 #define TARGET FAST_FOR("avx512f")
-#define PAIR(p) (VECTOR)_mm512_broadcast_f32x4(_mm_loadu_ps((const float *)(p)))
 #include "map/dense_loop.h"
-
 #endif
 
 size_t
 ss_dense_room(size_t n)
 {
-    return LINE / sizeof(double) + 4 * LANES * DENSE_PHASES_MAX
+    return LINE / sizeof(double) + 2 * LANES * DENSE_PHASES_MAX
         + 2 * ((n + GROUP_MAX) / (ROOT * ROOT * LANES) + 1) + 2 * GROUP_MAX;
 }
 
@@ -218,12 +185,11 @@ ss_dense_write(const weights *d, const double *series, size_t turns, size_t circ
     carrier turning;
     size_t group = ROWS * d->blocks * LANES, whole = n / group, rest = n - whole * group;
     double *last = spare + ss_dense_room(n) - 2 * GROUP_MAX;
-    write_groups *write = BEST_VERSION(double_16, double_32, double_64);
     ptrdiff_t point = (ptrdiff_t)(first / d->phases) - d->lead;
     make_carrier(&turning, d, turns, circle, first, (whole + 1) * ROWS, factor, aligned(spare));
-    write(d, series + 2 * point, 0, whole, &turning, w);
+    BEST_VERSION(write_128, write_256, write_512)(d, series + 2 * point, 0, whole, &turning, w);
     if (rest > 0) {
-        write(d, series + 2 * point, whole, whole + 1, &turning, last);
+        BEST_VERSION(write_128, write_256, write_512)(d, series + 2 * point, whole, whole + 1, &turning, last);
         memcpy(w + 2 * whole * group, last, 2 * rest * sizeof *w);
     }
 }
