@@ -208,6 +208,28 @@ the_force_of_dahl_is_an_exponential_of_the_way(void **state)
     run_free(&r);
 }
 
+/* --- a state variable: at a speed that is held theta = goal (1 - exp(-rate t)) ---------------------- */
+
+static void
+a_state_variable_relaxes_as_its_law_says(void **state)
+{
+    static const char *const law[] = { "scaled", "literal" };
+    const double goal[] = { 2.5, 1 }, rate[] = { 50, 2.5 * 50 };
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        const char *const settings[][2] = { { "law", law[i] }, { "friction", "2.5" }, { "alpha", "100" },
+                                            { "gamma", "50" }, { "mass", "1e15" }, { "base_amplitude", "0" },
+                                            { "v0", "0.01" }, { "duration", "0.05" }, { "settle", "0" },
+                                            { NULL, NULL } };
+        ss_scene s = scene_with("state-variable", settings);
+        run r = run_of(&s, NULL, 1e-12);
+        assert_true(r.n > 50);
+        for (size_t k = 0; k < r.n; k++)
+            near("theta", r.sample[k].f, goal[i] * tanh(1) * (1 - exp(-rate[i] * r.sample[k].t)), 1e-10);
+        run_free(&r);
+    }
+}
+
 /* --- LuGre: presliding (Canudas de Wit et al., fig. 2) ------------------------------------------------ */
 
 /* The paper pushes the mass by a ramp to 1.425 N and back, below the break-away force of 1.5 N.  The spring's
@@ -438,6 +460,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(motions_are_those_of_the_law),
         cmocka_unit_test(the_force_of_dahl_is_an_exponential_of_the_way),
+        cmocka_unit_test(a_state_variable_relaxes_as_its_law_says),
         cmocka_unit_test(presliding_is_a_curve_of_the_way),
         cmocka_unit_test(bristles_without_friction_do_not_bend),
         cmocka_unit_test(a_contact_loses_what_its_slips_take),

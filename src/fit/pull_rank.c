@@ -56,17 +56,16 @@ static void
 measure_change(trial *t, ss_rank_row *row, const ss_scene *scene, double known, double limit)
 {
     change c[PULLED_KEYS + 3];
-    double sum = 0, powers = 0, squares = 0, errors = 0;
+    double sum = 0, powers = 1, squares = 0, errors = 0;        /* the stiffness has a power of 1, frictions none */
     size_t n = 0;
-    for (; n < t->fit.n_keys; n++)
+    for (; n < t->fit.n_keys; n++) {
         c[n] = change_of_key(&t->fit.key[n], known);
+        sum += c[n].power * c[n].by;
+        powers += c[n].power * c[n].power;
+    }
     c[n++] = (change){ "stiffness", 0, 0, 0, 0, 1 };
     c[n++] = change_of_friction("friction", t->fit.friction, scene->friction);
     c[n++] = change_of_friction("static_friction", t->fit.static_friction, static_friction(scene));
-    for (size_t i = 0; i < n; i++) {
-        sum += c[i].power * c[i].by;
-        powers += c[i].power * c[i].power;
-    }
     const double stiffer = -sum / powers;
     for (size_t i = 0; i < n; i++) {
         double by = c[i].by + c[i].power * stiffer, data = c[i].data + c[i].power * stiffer;
@@ -158,6 +157,9 @@ refuse(ss_ranking *r, const trial *t, double noise)
     else if (!best->explains)
         ss_print_to(r->why, sizeof r->why, "within the spread each scene leaves at least %.3g %% of the power of "
                     "the falls, %.3g times the noise", 100 * of->left / of->power, ss_residue_excess(of, noise));
+    else if (isinf(best->most))
+        snprintf(r->why, sizeof r->why, "%s friction explains the falls, but the scene would need another %s",
+                 ss_model_name(best->fit.scene.model), best->most_name);
     else
         ss_print_to(r->why, sizeof r->why, "%s friction explains the falls, but the scene would need %.3g "
                     "times its %s", ss_model_name(best->fit.scene.model), exp(best->most), best->most_name);

@@ -68,6 +68,9 @@ answer() {
 }
 answer pull.tsv stiff.scene own.scene fast.scene
 answer pull.tsv stiff.scene fast.scene
+other friction 0 > smooth.scene         # no factor of 0 makes it what it is
+answer pull.tsv smooth.scene
+answer pull.tsv smooth.scene own.scene
 answer falling.tsv own.scene
 # of other laws, and beside scenes that are forced
 { sed s/coulomb/stribeck/ own.scene; echo stribeck_velocity = 3.3e-3; } > law.scene
