@@ -148,32 +148,15 @@ stream_windows(stage *st, int l, size_t reach, size_t margin)
     st->hop = st->length - st->overlap;
 }
 
-/* The scale an octave shorter than scale i, if its weights are the same, else NULL. */
-static const block_scale *
-same_weights(const struct blocks *b, const ss_morlet *plan, size_t i)
-{
-    size_t j = i + (size_t)plan->opts.voices;
-    if (j >= b->n_scales || b->scale[j].level < 0)
-        return NULL;
-    int l = b->scale[i].level, of = b->scale[j].level;
-    int same = b->stage[l].length == b->stage[of].length
-        && b->scale[i].kind == b->scale[j].kind && b->scale[i].points == b->scale[j].points
-        && ldexp(plan->scale[i].a, -l) == ldexp(plan->scale[j].a, -of);
-    return same ? &b->scale[j] : NULL;
-}
-
 static ss_status
-make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, const ss_scale *scale,
-             size_t length)
+make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, double a, size_t length)
 {
     const ss_morlet_opts *opts = &plan->opts;
-    band b = band_around(opts->center, half_width(opts), ldexp(scale->a, -r->level), plan->rate,
-                         (double)length);
+    band b = band_around(opts->center, half_width(opts), ldexp(a, -r->level), plan->rate, (double)length);
     double second = wavelet_second(opts);
     r->lo = b.lo;
     r->mid = r->kind != AT_POINTS ? b.mid : 0;
     r->terms = (size_t)(b.hi - b.lo) + 1;
-    r->owner = 1;
     r->weight = malloc(r->terms * sizeof *r->weight);
     if (r->weight == NULL)
         return SS_ENOMEM;
@@ -304,31 +287,11 @@ choose_stages(struct blocks *b, const ss_morlet *plan)
 
 /* --- tables ----------------------------------------------------------------------------------- */
 
-static ss_status
-all_weights(struct blocks *b, const ss_morlet *plan)
-{
-    ss_status st = SS_OK;
-    for (size_t i = b->n_scales; st == SS_OK && i-- > 0;) {       /* from short to long */
-        block_scale *r = &b->scale[i];
-        if (r->level < 0)
-            continue;
-        const block_scale *of = same_weights(b, plan, i);
-        if (of != NULL) {
-            r->lo = of->lo;
-            r->mid = of->mid;
-            r->terms = of->terms;
-            r->weight = of->weight;
-        } else
-            st = make_weights(plan, b->kernel, r, &plan->scale[i], b->stage[r->level].length);
-    }
-    return st;
-}
-
 /* The kernel's weights for the places of a scale, shared with scales that have the same pattern. */
 static ss_status
 places_of(struct blocks *b, block_scale *r)
 {
-    if (r->level < 0 || r->kind == AT_POINTS)
+    if (r->kind == AT_POINTS)
         return SS_OK;
     if (!b->kernel->prepared)
         ss_kaiser_prepare(b->kernel);
@@ -392,9 +355,14 @@ ss_blocks_new(ss_morlet *plan)
         plan->blocks = NULL;
         return SS_OK;
     }
-    ss_status st = all_weights(b, plan);
-    for (size_t i = 0; st == SS_OK && i < b->n_scales; i++)
-        st = places_of(b, &b->scale[i]);
+    ss_status st = SS_OK;
+    for (size_t i = b->n_scales; st == SS_OK && i-- > 0;) {
+        block_scale *r = &b->scale[i];
+        if (r->level >= 0)
+            st = make_weights(plan, b->kernel, r, plan->scale[i].a, b->stage[r->level].length);
+        if (st == SS_OK && r->level >= 0)
+            st = places_of(b, r);
+    }
     for (size_t l = 0; st == SS_OK && l + 1 < b->levels; l++)
         st = make_filter(&b->stage[l]);
     return st == SS_OK ? ss_blocks_plans_make(b, ss_blocks_room(b)) : st;
@@ -407,8 +375,7 @@ ss_blocks_free(struct blocks *b)
         return;
     ss_plans_free(b->plans);
     for (size_t i = 0; i < b->n_scales; i++)
-        if (b->scale[i].owner)
-            free(b->scale[i].weight);
+        free(b->scale[i].weight);
     for (size_t l = 0; l < b->levels; l++)
         free(b->stage[l].filter);
     for (size_t i = 0; i < b->n_places; i++)

@@ -23,7 +23,7 @@ typedef struct stage {
     fftw_plan forward, back;
 } stage;
 
-/* A scale and the weights of its terms, which scales of other octaves share. */
+/* A scale and the weights of its terms. */
 typedef struct block_scale {
     int level;                              /* -1: not here */
     enum { AT_POINTS, BETWEEN, EACH } kind; /* EACH: one a sample, at places that repeat */
@@ -32,7 +32,6 @@ typedef struct block_scale {
     ptrdiff_t lo, mid;                      /* the first term, and the one that becomes term 0 */
     size_t terms;
     double *weight;
-    int owner;                              /* of weight */
     const weights *places;                  /* of EACH, one of those below */
     fftw_plan inverse;
 } block_scale;
