@@ -114,6 +114,27 @@ long_maps_have_no_seams(void **state)
     ss_coefficients_free(coef);
 }
 
+/* A higher hill within the cone of influence: levels are those over the highest place outside. */
+static double
+hill_beside_the_cone(double t, double m)
+{
+    return fmax(hill(20, 0, -2, t, m), hill(0, 2, -4, t, m));
+}
+
+static void
+levels_are_over_the_largest_outside_the_cone(void **state)
+{
+    ss_coefficients *coef = map_of(hill_beside_the_cone, 0.25);
+    ss_maximum *peak = NULL;
+    size_t n = 0;
+    (void)state;
+    assert_int_equal(ss_maxima_find(&peak, &n, coef, 20, NULL), SS_OK);
+    assert_int_equal(n, 1);
+    assert_true(fabs(peak[0].t - 2) < 0.25 * 0x1p-4 && peak[0].level == 0);
+    free(peak);
+    ss_coefficients_free(coef);
+}
+
 static double
 slope(double t, double m)
 {
@@ -296,6 +317,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(prominence_is_the_fall_to_the_highest_saddle),
         cmocka_unit_test(long_maps_have_no_seams),
+        cmocka_unit_test(levels_are_over_the_largest_outside_the_cone),
         cmocka_unit_test(slopes_plateaus_and_borders_are_no_maxima),
         cmocka_unit_test(the_border_is_higher_ground),
         cmocka_unit_test(silence_has_no_maxima),

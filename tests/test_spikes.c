@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stickslip.h>
 #include "find/drops.h"
+#include "find/fitter.h"
 #include "find/hum.h"
 #include "find/rests.h"
 #include "spike_score.h"
@@ -481,6 +482,27 @@ a_slow_drift_is_no_drop(void **state)
     free(drop);
 }
 
+/* Windows of 200 and 220 samples, ten and eleven periods, are cut at a place: what is longer in all stays, and ends
+ * less than half a period from there. */
+static void
+windows_are_cut_where_more_is_left(void **state)
+{
+    static const size_t at[] = { 50, 90, 120, 150, 190 };
+    (void)state;
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+        ss_window window[] = { { 100, 300 }, { 500, 720 } };
+        fitter k = { .fit = { .w = 2 * M_PI / 20 }, .window = window, .n = 2 };
+        assert_int_equal(ss_sticks_split(&k, at[i]), 1);
+        for (size_t j = 0; j < 2; j++) {
+            size_t first = j == 0 ? 100 : 500, end = j == 0 ? 300 : 720, cut = first + at[i];
+            if (2 * at[i] > 210)
+                assert_true(window[j].first == first && window[j].end <= cut && window[j].end + 10 > cut);
+            else
+                assert_true(window[j].end == end && window[j].first >= cut && window[j].first < cut + 10);
+        }
+    }
+}
+
 /* Two rests between oscillations, all in counts of 1/500: ends are right within the samples that a count hides. */
 static void
 rests_of_a_coarse_converter_are_found(void **state)
@@ -549,6 +571,7 @@ main(void)
         cmocka_unit_test(drops_of_trapezoids_are_exact),
         cmocka_unit_test(falls_over_gaps_are_left_out),
         cmocka_unit_test(a_slow_drift_is_no_drop),
+        cmocka_unit_test(windows_are_cut_where_more_is_left),
         cmocka_unit_test(rests_of_a_coarse_converter_are_found),
         cmocka_unit_test(a_hum_is_subtracted_part_by_part),
     };

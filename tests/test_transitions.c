@@ -553,6 +553,36 @@ the_forcing_is_no_harmonic(void **state)
     ss_signal_free(signal);
 }
 
+/* Falls of a force at known times: their rate is one over the mean of the times between them, and its error that of
+ * a mean of so many, by their scatter. */
+static void
+the_rate_of_uneven_falls_has_the_error_of_a_mean(void **state)
+{
+    static const size_t each[] = { 410, 620, 500, 370, 580, 455 };
+    enum { TIMES = sizeof each / sizeof *each - 1, RATE = 1000, N = 3000, FALL = 5 };
+    ss_signal *signal = new_signal(N, RATE, 0, "force", "N");
+    ss_features *f = NULL;
+    double mean = 0, squares = 0;
+    (void)state;
+    for (size_t i = 0, from = 0, k = 0; i < N; i++) {
+        if (k <= TIMES && i == from + each[k])
+            from += each[k++];
+        double fallen = fmin(1, (double)(i - from) / FALL), before = k > 0 ? (double)each[k - 1] : 0;
+        signal->values[i] = 1000 + fmax((double)(i - from), before * (1 - fallen));
+    }
+    for (size_t k = 1; k <= TIMES; k++)
+        mean += (double)each[k] / RATE / TIMES;
+    for (size_t k = 1; k <= TIMES; k++)
+        squares += pow((double)each[k] / RATE - mean, 2);
+    assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+    const ss_number rate = f->number[SS_SLIP_RATE];
+    assert_int_equal(f->n, TIMES + 1);
+    assert_true(fabs(rate.value * mean - 1) < 1e-6);
+    assert_true(fabs(rate.error * mean * mean / sqrt(squares / (TIMES - 1) / TIMES) - 1) < 1e-3);
+    ss_features_free(f);
+    ss_signal_free(signal);
+}
+
 /* Of a force and a displacement that have nothing to do with each other there is none. */
 static void
 has_no_slope_without_a_spring(void **state)
@@ -798,6 +828,7 @@ main(void)
         cmocka_unit_test(the_ringing_of_a_sensor_is_no_contact),
         cmocka_unit_test(single_events_have_an_extent),
         cmocka_unit_test(no_slip_rate_where_repetitions_have_no_transition),
+        cmocka_unit_test(the_rate_of_uneven_falls_has_the_error_of_a_mean),
         cmocka_unit_test(has_no_slope_without_a_spring),
         cmocka_unit_test(reads_the_slope_of_force_over_displacement),
         cmocka_unit_test(gaps_leave_out_what_they_reach_and_nothing_else),

@@ -211,7 +211,7 @@ static ss_status
 read_all(coefficient_reader *r, FILE *in, const char *name)
 {
     struct opening o = { .kind = SS_KIND_COEFFICIENTS, .late_note = read_late_note, .user = r };
-    ss_error why = { 0 };
+    ss_error why;
     ss_status st = ss_reader_open(&r->in, in, name, &o, r->err);
     if (st != SS_OK)
         return st;

@@ -220,8 +220,7 @@ ss_meter_leg(meter *r, walk *w)
     size_t parts = still ? 1 : (size_t)ceil(w->h / ss_step_cap(&w->m.now));
     if (!w->m.now.model->linear && !still)
         parts *= 2;
-    static const double none[MAX_DIM] = { 0 };
-    point lo = point_of(w, 0, w->m.now.q, w->still ? none : w->e->dq0), first = lo;
+    point lo = point_of(w, 0, w->m.now.q, w->e->dq0), first = lo;
     widen_extremes(r, &lo);
     for (size_t i = 1; i <= parts; i++) {
         point hi = point_at(w, i < parts ? w->h * (double)i / (double)parts : w->h);
