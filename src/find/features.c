@@ -53,9 +53,9 @@ find_maxima(search *s)
         : n == 0 ? 0 : gsl_stats_select(level, 1, n, n / 2) * sqrt((l1 ? last->a : 1) / M_LN2);
     out->noise = rms * sqrt(s->rate);
     free(level);
+    const maxima_kind kind = { fmin(SLIGHT, s->opts->threshold), INFINITY, 1.5 * rms / (l1 ? sqrt(last->a) : 1) };
     if (st == SS_OK)
-        st = ss_maxima_above(&s->found, &s->n_found, s->map, fmin(SLIGHT, s->opts->threshold),
-                             1.5 * rms / (l1 ? sqrt(last->a) : 1), s->at, &s->top);
+        st = ss_maxima_of(&s->found, &s->n_found, s->map, &kind, &s->top);
     if (st != SS_OK)
         return st;
     out->maximum = malloc((s->n_found + 1) * sizeof *out->maximum);
@@ -155,19 +155,11 @@ find(search *s, double *x, size_t column, ss_error *err)
 
     /* what needs no map comes before the map takes its memory */
     st = find_repetition(s);
-    if (st == SS_OK && known != NULL && (st = ss_map_begin(s->map, x, NULL)) == SS_OK)
-        st = ss_ringing_places(s);
     ss_row_source_init(s->rows, s->x, s->n, s->rate, s->gap, s->n_gaps);
-    if (known != NULL) {
-        s->rows->known = known->head;
-        s->rows->n_known = known->n_heads;
-        s->rows->unit = known->largest / s->largest;
-    }
-    s->rows->at = s->at;
     s->rows->keeps_heads = isnan(s->out->number[SS_REPETITION_FREQUENCY].value);  /* single events may be sought */
     if (st == SS_OK)
         st = ss_spikes_find(&s->out->spikes, s->rows);
-    if (st == SS_OK && known == NULL)
+    if (st == SS_OK)
         st = ss_map_begin(s->map, x, NULL);
     if (st == SS_OK)
         st = find_maxima(s);
@@ -181,13 +173,11 @@ find(search *s, double *x, size_t column, ss_error *err)
         st = ss_slip_rate_find(s);
     if (st == SS_OK && s->part->period == 0)
         st = ss_numbers_find(s);
-    if (s->part->learnt != NULL) {
+    if (s->part->learnt != NULL)
         *s->part->learnt = (stream_lesson){
             .label = s->is_cleaned ? 0 : s->label, .rms = s->out->noise / sqrt(s->rate), .largest = s->largest,
             .highest = highest, .length = (double)s->n, .slow = s->slow, .cycles = s->cycles,
-            .repetition = s->out->number[SS_REPETITION_FREQUENCY], .n_heads = s->rows->n_heads };
-        memcpy(s->part->learnt->head, s->rows->head, sizeof s->rows->head);
-    }
+            .repetition = s->out->number[SS_REPETITION_FREQUENCY] };
     for (size_t i = 0; i < s->n && s->is_cleaned; i++)
         x[i] = s->x[i] * s->largest;
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
@@ -263,7 +253,6 @@ ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, c
         st = found == NULL ? ss_fail_memory(err, NULL) : n > 0 ? find(&s, x, column, err) : SS_ESCALE;
         again = s.is_cleaned && !s.is_second;
         ss_coefficients_free(s.map);
-        free(s.at.span);
         free(s.found);
     }
     if (st == SS_ESCALE && !(opts.fmin > 0)) {

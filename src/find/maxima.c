@@ -48,11 +48,13 @@ typedef struct hill {
 typedef struct peak {
     size_t row, k;              /* its coefficient */
     double level;               /* |W| > 0 */
+    double saddle;              /* where its pool ends; 0: it does not */
+    size_t pool;                /* leads to the highest peak of its pool */
 } peak;
 
 /* Between the basins of peaks p < q.  Of several between the same two, the highest counts. */
 typedef struct border {
-    uint64_t key;               /* |W| > 0, as its bits, which are ordered as the numbers are */
+    double level;               /* |W| > 0 */
     uint32_t p, q;
 } border;
 
@@ -67,7 +69,6 @@ typedef struct line {
 typedef struct flood {
     const ss_coefficients *map;
     size_t first, rows;         /* the rows that are searched */
-    search_places at;           /* the rest of the map is dry */
     double floor;               /* |W| >= 0; points that are not above it are dry: they belong to no basin */
     double outside, all;        /* the largest levels so far: outside the cone of influence, of all */
     line *line;                 /* one a row, and one behind the last */
@@ -112,9 +113,9 @@ scale_of(const flood *f, size_t row)
     return &f->map->scale[f->first + row];
 }
 
-/* Move all rows on to their points up to time t, and make room for them, if they are not dry. */
+/* Move all rows on to their points up to time t, and make room for them. */
 static ss_status
-next_strip(flood *f, double t, int is_dry)
+next_strip(flood *f, double t)
 {
     size_t n = 0;
     for (size_t row = 0; row < f->rows; row++) {
@@ -126,11 +127,9 @@ next_strip(flood *f, double t, int is_dry)
         l->lo = l->from > HALO ? l->from - HALO : 0;
         l->at = n;
         n += l->end - l->lo;
-        for (size_t k = 0; k < HALO && is_dry; k++)
-            l->before[k] = NONE;
     }
     f->line[f->rows].at = n;
-    if (n <= f->room || is_dry)
+    if (n <= f->room)
         return SS_OK;
     free(f->level);
     free(f->label);
@@ -323,7 +322,7 @@ climb(flood *f)
             if (list == NULL)
                 return;
             f->peak = list;
-            f->peak[f->n_peaks] = (peak){ f->first + row, k, f->level[h->top] };
+            f->peak[f->n_peaks] = (peak){ f->first + row, k, f->level[h->top], 0, f->n_peaks };
             h->peak = (uint32_t)f->n_peaks++;
         }
     }
@@ -358,13 +357,12 @@ keep_border(flood *f, border b)
 static void
 add_border(flood *f, uint32_t p, uint32_t q, double level)
 {
-    border found = { 0, p < q ? p : q, p < q ? q : p };
+    border found = { level, p < q ? p : q, p < q ? q : p };
     border *slot = &f->recent[((size_t)found.p * 31 + found.q) % RECENT];
     if (p == q || found.q == NONE || !(level > 0))
         return;
-    memcpy(&found.key, &level, sizeof level);
     if (slot->p == found.p && slot->q == found.q) {
-        slot->key = slot->key > found.key ? slot->key : found.key;
+        slot->level = slot->level > level ? slot->level : level;
         return;
     }
     if (slot->q > 0)
@@ -411,23 +409,15 @@ survey(flood *f)
     double total = 0, length = (double)f->map->n / f->map->head->rate;
     for (size_t row = 0; row < f->rows; row++)
         total += (double)scale_of(f, row)->n;
-    size_t strips = (size_t)(total / STRIP) + 1, place = 0;
+    const size_t strips = (size_t)(total / STRIP) + 1;
     ss_status st = SS_OK;
-    for (size_t i = 1; st == SS_OK && i <= strips;) {
-        double to = i < strips ? length * (double)i / (double)strips : INFINITY, next = INFINITY;
-        int is_dry = f->at.span != NULL && (place / 2 == f->at.n || place % 2 == 0);
-        if (f->at.span != NULL && place / 2 < f->at.n)
-            next = is_dry ? f->at.span[place / 2].from : f->at.span[place / 2].to;
-        place += next < to;
-        i += !(next < to);
-        st = next_strip(f, fmin(next, to), is_dry);
-        if (st != SS_OK || is_dry)
-            continue;
-        if ((st = read_strip(f)) == SS_OK)
+    for (size_t i = 1; st == SS_OK && i <= strips; i++) {
+        st = next_strip(f, i < strips ? length * (double)i / (double)strips : INFINITY);
+        if (st == SS_OK && (st = read_strip(f)) == SS_OK)
             climb(f);
         if (st == SS_OK && !f->failed)
             find_borders(f);
-        st = st != SS_OK ? st : f->failed ? SS_ENOMEM : ss_map_progress(f->map, (double)(i - 1) / (double)strips);
+        st = st != SS_OK ? st : f->failed ? SS_ENOMEM : ss_map_progress(f->map, (double)i / (double)strips);
     }
     for (size_t i = 0; i < RECENT; i++)
         if (f->recent[i].q > 0)
@@ -439,43 +429,35 @@ static int
 higher_first(const void *a, const void *b)
 {
     const border *p = a, *q = b;
-    return (p->key < q->key) - (p->key > q->key);
+    return (p->level < q->level) - (p->level > q->level);
 }
 
 /* --- pools --------------------------------------------------------------------------------- */
 
-/* The number of the highest peak in the pool of peak p.  pool[p] leads there; the way is halved for
- * the next call. */
+/* The number of the highest peak in the pool of peak p; the way there is halved for the next call. */
 static size_t
-highest_of(size_t *pool, size_t p)
+highest_of(peak *list, size_t p)
 {
-    while (pool[p] != p)
-        p = pool[p] = pool[pool[p]];
+    while (list[p].pool != p)
+        p = list[p].pool = list[list[p].pool].pool;
     return p;
 }
 
-/* Find the saddle of each peak, where its pool ends; 0 if it does not end. */
-static ss_status
-find_saddles(double *saddle, const flood *b)
+/* Find the saddles of the peaks. */
+static void
+find_saddles(flood *f)
 {
-    size_t *pool = malloc((b->n_peaks + 1) * sizeof *pool);
-    if (pool == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < b->n_peaks; i++) {
-        pool[i] = i;
-        saddle[i] = 0;
-    }
-    for (size_t i = 0; i < b->n_borders; i++) {
-        size_t p = highest_of(pool, b->border[i].p), q = highest_of(pool, b->border[i].q);
+    if (f->n_borders > 0)
+        qsort(f->border, f->n_borders, sizeof *f->border, higher_first);
+    for (size_t i = 0; i < f->n_borders; i++) {
+        size_t p = highest_of(f->peak, f->border[i].p), q = highest_of(f->peak, f->border[i].q);
         if (p == q)
             continue;
-        double level = b->peak[p].level, other = b->peak[q].level;
+        double level = f->peak[p].level, other = f->peak[q].level;
         size_t high = level > other || (level == other && p < q) ? p : q, low = high == p ? q : p;
-        pool[low] = high;
-        memcpy(&saddle[low], &b->border[i].key, sizeof *saddle);
+        f->peak[low].pool = high;
+        f->peak[low].saddle = f->border[i].level;
     }
-    free(pool);
-    return SS_OK;
 }
 
 /* --- maxima -------------------------------------------------------------------------------- */
@@ -497,47 +479,42 @@ earlier_first(const void *a, const void *b)
         : (p->level < q->level) - (p->level > q->level);
 }
 
-/* The maxima of the rows from first on, above a floor, of at least min_prominence and within range of the
- * highest of them, in dB re top, in time order.  *top, if 0, becomes ss_coefficients_max of these rows. */
+/* The maxima of these rows, in time order.  *top, if 0, becomes ss_coefficients_max of these rows. */
 static ss_status
-find(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t first, size_t rows, double floor,
-     double range, double min_prominence, search_places at, double *top)
+search_rows(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t first, size_t rows,
+            const maxima_kind *kind, double *top)
 {
     flood *f = calloc(1, sizeof *f);
-    double *saddle = NULL, highest = 0, highest_kept = -INFINITY;
+    double highest = 0, highest_kept = -INFINITY;
     ss_maximum *list = NULL;
     size_t count = 0, kept = 0;
     if (f == NULL || (f->line = calloc(rows + 1, sizeof *f->line)) == NULL) {
         free(f);
         return SS_ENOMEM;
     }
-    f->map = map, f->first = first, f->rows = rows, f->floor = floor, f->at = at, f->outside = -1;
+    f->map = map, f->first = first, f->rows = rows, f->floor = kind->floor, f->outside = -1;
     ss_status st = survey(f);
     if (st == SS_OK) {
         *top = *top > 0 ? *top : f->outside >= 0 ? f->outside : f->all;
-        saddle = malloc((f->n_peaks + 1) * sizeof *saddle);
+        find_saddles(f);
         list = malloc((f->n_peaks + 1) * sizeof *list);
-        st = saddle != NULL && list != NULL ? SS_OK : SS_ENOMEM;
+        st = list != NULL ? SS_OK : SS_ENOMEM;
     }
-    if (st == SS_OK && f->n_borders > 0)
-        qsort(f->border, f->n_borders, sizeof *f->border, higher_first);
-    if (st == SS_OK)
-        st = find_saddles(saddle, f);
     for (size_t i = 0; st == SS_OK && i < f->n_peaks; i++)
         highest = fmax(highest, f->peak[i].level);
     for (size_t i = 0; st == SS_OK && i < f->n_peaks; i++) {
         const peak *p = &f->peak[i];
         const ss_scale *scale = &map->scale[p->row];
         /* the highest alone has no saddle */
-        double below = saddle[i] > 0 || p->level == highest ? saddle[i] : floor;
+        double below = p->saddle > 0 || p->level == highest ? p->saddle : kind->floor;
         double fall = below > 0 ? 20 * log10(p->level / below) : INFINITY;
-        if (!(fall > 0 && fall >= min_prominence) || on_border(f, p->row, p->k))
+        if (!(fall > 0 && fall >= kind->prominence) || on_border(f, p->row, p->k))
             continue;
         list[count] = (ss_maximum){ ss_scale_b(scale, p->k), scale->f, 20 * log10(p->level / *top), fall };
         highest_kept = fmax(highest_kept, list[count++].level);
     }
     for (size_t i = 0; i < count; i++)
-        if (list[i].level >= highest_kept - range)
+        if (list[i].level >= highest_kept - kind->range)
             list[kept++] = list[i];
     ss_maximum *fitting = st == SS_OK ? realloc(list, (kept + 1) * sizeof *list) : NULL;
     if (fitting != NULL) {
@@ -548,24 +525,22 @@ find(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t first, size
         st = st == SS_OK ? SS_ENOMEM : st;
         free(list);
     }
-    free(saddle);
     free_all(f);
     return st;
 }
 
 ss_status
-ss_maxima_above(ss_maximum **out, size_t *n, const ss_coefficients *map, double min_prominence,
-                double floor, search_places at, double *top)
+ss_maxima_of(ss_maximum **out, size_t *n, const ss_coefficients *map, const maxima_kind *kind, double *top)
 {
     *top = 0;
-    return find(out, n, map, 0, map->n_scales, floor, INFINITY, min_prominence, at, top);
+    return search_rows(out, n, map, 0, map->n_scales, kind, top);
 }
 
 ss_status
-ss_maxima_of_row(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t row, double top,
-                 double range, double min_prominence, search_places at)
+ss_maxima_of_row(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t row, const maxima_kind *kind,
+                 double top)
 {
-    return find(out, n, map, row, 1, 0, range, min_prominence, at, &top);
+    return search_rows(out, n, map, row, 1, kind, &top);
 }
 
 ss_status
@@ -575,7 +550,8 @@ ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
     double top;
     if (out == NULL || n == NULL || coefficients == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_maxima_above(out, n, coefficients, min_prominence, 0, (search_places){ NULL, 0 }, &top);
+    const maxima_kind kind = { .prominence = min_prominence, .range = INFINITY };
+    ss_status st = ss_maxima_of(out, n, coefficients, &kind, &top);
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
 }
 
@@ -587,7 +563,7 @@ ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients
         return SS_FAIL_NULL(err);
     if (scale >= coefficients->n_scales)
         return ss_fail(err, SS_EINVAL, "scale %zu of %zu", scale + 1, coefficients->n_scales);
-    ss_status st = ss_maxima_of_row(out, n, coefficients, scale, ss_coefficients_max(coefficients), range,
-                                    min_prominence, (search_places){ NULL, 0 });
+    const maxima_kind kind = { .prominence = min_prominence, .range = range };
+    ss_status st = ss_maxima_of_row(out, n, coefficients, scale, &kind, ss_coefficients_max(coefficients));
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
 }

@@ -12,6 +12,7 @@
 #include <string.h>
 #include "base/sort.h"
 #include "find/judgement.h"
+#include "find/medians.h"
 
 #define BAND 5.0                /* standard deviations of the samples of a rest, either side of its level */
 #define AWAY (SIGMAS * BAND)    /* what leaves the band by less is no motion */
@@ -24,7 +25,7 @@ static ss_status
 find_level(const double *x, size_t n, double *level, double *deviation)
 {
     enum { PASSES = 12 };
-    double *sorted = malloc((n + 1) * sizeof *sorted), step = INFINITY;
+    double *sorted = malloc((n + 1) * sizeof *sorted);
     size_t held = (size_t)(PART * (double)n), best = 0;
     if (sorted == NULL)
         return SS_ENOMEM;
@@ -33,9 +34,7 @@ find_level(const double *x, size_t n, double *level, double *deviation)
     for (size_t i = 0; i + held < n; i++)
         if (sorted[i + held] - sorted[i] < sorted[best + held] - sorted[best])
             best = i;
-    for (size_t i = 1; i < n; i++)
-        if (sorted[i] > sorted[i - 1])
-            step = fmin(step, sorted[i] - sorted[i - 1]);
+    const double step = ss_smallest_change(sorted, n);
     *level = sorted[best + held / 2];
     *deviation = fmax(sorted[best + held] - sorted[best], step / 2);
     free(sorted);

@@ -145,16 +145,6 @@ leave_out_slips(fitter *k, int *ok)
     }
 }
 
-/* Does every window have enough samples for all columns?  A window with fewer is not tested. */
-static int
-are_long(const fitter *k)
-{
-    for (size_t i = 0; i < k->n; i++)
-        if (ss_window_length(k->window[i]) > 0 && ss_window_length(k->window[i]) <= VARPRO_COLUMNS)
-            return 0;
-    return 1;
-}
-
 /* Fit with a slow part that is a line, or a sinusoid of the forcing. */
 static ss_status
 fit_all(fitter *k, ringdown *r, double forcing)
@@ -180,7 +170,7 @@ fit_all(fitter *k, ringdown *r, double forcing)
     /* in the mean, the oscillation is larger than what noise alone would give */
     linear found = ss_varpro_project_all(&k->fit, k->window, k->n);
     int stands_out = found.ring > (double)found.windows * k->noise * ss_chisq2(FIT_CHANCE);
-    if (is_on || !are_long(k) || !stands_out) {
+    if (is_on || !stands_out) {
         for (size_t i = 0; i < k->n; i++)
             k->window[i].end = k->window[i].first;
         return SS_OK;

@@ -219,7 +219,8 @@ ss_ringing_find(search *s, double prominence)
     say(out, SS_TRANSITION_FREQUENCY, "no oscillation swells again and again");
     if (st != SS_OK || label == 0)
         return st;
-    st = ss_maxima_of_row(&swell, &n, s->map, scale_nearest(s, label), s->top, RANGE, s->opts->threshold, s->at);
+    const maxima_kind kind = { s->opts->threshold, RANGE, 0 };
+    st = ss_maxima_of_row(&swell, &n, s->map, scale_nearest(s, label), &kind, s->top);
     if (st == SS_OK)
         st = ss_transitions_new(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;
@@ -240,40 +241,6 @@ ss_ringing_find(search *s, double prominence)
     return st;
 }
 
-/* The row of the oscillation is above SIGMAS of the noise there, and above what contours show, or a wavelet's reach
- * away. */
-ss_status
-ss_ringing_places(search *s)
-{
-    const size_t index = scale_nearest(s, s->part->known->label);
-    const ss_scale *scale = &s->map->scale[index];
-    const double reach = ROW_REACH * scale->a;
-    double least = SIGMAS * s->part->known->rms / (s->opts->norm == SS_NORM_L1 ? sqrt(scale->a) : 1);
-    int wanted = 0;
-    double top = 0;
-    double *level = malloc((scale->n + 1) * sizeof *level);
-    ss_span *span = s->at.span = malloc((scale->n + 1) * sizeof *span);
-    ss_status st = level != NULL && span != NULL ? SS_OK : SS_ENOMEM;
-    if (st == SS_OK)
-        st = ss_map_read(s->map, &(ss_map_part){ index, 0, scale->n, NULL, level }, 1, NULL);
-    for (size_t k = 0; st == SS_OK && k < scale->n; k++)
-        top = fmax(top, level[k]);
-    least = fmax(least, top * pow(10, -SPAN / 20));
-    for (size_t k = 0; st == SS_OK && k < scale->n; k++) {
-        if (!(level[k] > least))
-            continue;
-        double from = fmax(0, ss_scale_b(scale, k) - reach), to = ss_scale_b(scale, k) + reach;
-        if (s->at.n == 0 || from > span[s->at.n - 1].to)
-            span[s->at.n++].from = from;
-        span[s->at.n - 1].to = to;
-        wanted |= level[k] > top * pow(10, -RANGE / 20) && k > 0 && k + 1 < scale->n
-            && level[k] > level[k - 1] && level[k] >= level[k + 1]
-            && ss_scale_b(scale, k) > s->part->from && ss_scale_b(scale, k) <= s->part->until;
-    }
-    free(level);
-    return st == SS_OK && !wanted && s->at.n > 0 ? SS_ESCALE : st;
-}
-
 /* --- ringing behind transitions that are known ----------------------------------------------- */
 
 /* Where ringing is sought behind transitions that end with their last spike, and behind the reversals of a
@@ -285,8 +252,7 @@ typedef struct span {
 static const span behind_spikes = { 0.5, 2.5, 0.5 };
 static const span behind_reversals = { 1, 5, 2 }, before_reversals = { -5, -1, 2 };
 
-/* The band is sought behind so many transitions in a row, at so many places of the record. */
-enum { STRETCH = 64, STRETCHES = 16 };
+enum { MANY = 1024 };           /* transitions, the first, behind which the band is sought */
 #define LOUDER 2.0              /* times the power before the reversals: ringing is so strong behind them */
 
 /* The end of a transition that is known by its spikes, or the onset of a reversal. */
@@ -302,13 +268,6 @@ point_at(const ss_scale *scale, double t)
     return (size_t)ceil(t / (scale->b_num / scale->b_den));
 }
 
-static ss_window
-stretch_of(const search *s, size_t k)
-{
-    size_t first = s->out->n * k / STRETCHES, end = s->out->n * (k + 1) / STRETCHES;
-    return (ss_window){ first, end < first + STRETCH ? end : first + STRETCH };
-}
-
 /* The mean square of |W| at a scale so far behind the transitions, over the root of the scale, which is that of the
  * amplitude; 0: fewer than half of the transitions last so long.  level has room for the scale. */
 static ss_status
@@ -317,38 +276,27 @@ power_behind(const search *s, span in, size_t index, double *level, double *powe
     const ss_features *out = s->out;
     const ss_scale *scale = &s->map->scale[index];
     const double period = 1 / scale->f, reach = ROW_REACH * scale->a;
-    ss_map_part part[STRETCHES];
+    const size_t n = out->n < MANY ? out->n : MANY;
+    const size_t first = point_at(scale, fmax(0, begin_of(s, 0) + in.settled * period));
+    size_t end = point_at(scale, fmax(0, begin_of(s, n - 1) + in.looked * period)) + 1, used = 0;
     double sum = 0;
-    size_t used = 0, all = 0, parts = 0, done = 0;
-    for (size_t k = 0; k < STRETCHES; k++) {
-        ss_window stretch = stretch_of(s, k);
-        if (ss_window_length(stretch) == 0)
+    end = end < scale->n ? end : scale->n;
+    const ss_map_part part = { index, first, end > first ? end - first : 0, NULL, level + first };
+    ss_status st = end > first ? ss_map_read(s->map, &part, 1, NULL) : SS_OK;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        double from = begin_of(s, i) + in.settled * period, to = begin_of(s, i) + in.looked * period;
+        double next = i + 1 < out->n ? out->transition[i + 1].onset : (double)s->n / s->rate, squares = 0;
+        const size_t start = point_at(scale, fmax(0, from));
+        size_t b = start;
+        if (from < 0 || to > (s->spiked ? next : out->transition[i].end) - in.left * period
+            || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from) + reach))
             continue;
-        size_t first = point_at(scale, fmax(0, begin_of(s, stretch.first) + in.settled * period));
-        size_t end = point_at(scale, begin_of(s, stretch.end - 1) + in.looked * period) + 1;
-        first = first > done ? first : done;
-        end = end < scale->n ? end : scale->n;
-        if (first >= end)
-            continue;
-        part[parts++] = (ss_map_part){ index, first, end - first, NULL, level + first };
-        done = end;
+        for (; b < end && ss_scale_b(scale, b) <= to; b++)
+            squares += level[b] * level[b];
+        sum += squares > 0 ? squares / (double)(b - start) : 0;
+        used += squares > 0;
     }
-    ss_status st = ss_map_read(s->map, part, parts, NULL);
-    for (size_t k = 0; st == SS_OK && k < STRETCHES; k++)
-        for (size_t i = stretch_of(s, k).first; i < stretch_of(s, k).end; i++) {
-            double from = begin_of(s, i) + in.settled * period, to = begin_of(s, i) + in.looked * period;
-            double next = i + 1 < out->n ? out->transition[i + 1].onset : (double)s->n / s->rate, squares = 0;
-            size_t first = point_at(scale, fmax(0, from)), b = first;
-            all++;
-            if (from < 0 || to > (s->spiked ? next : out->transition[i].end) - in.left * period
-                || ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from) + reach))
-                continue;
-            for (; b < scale->n && ss_scale_b(scale, b) <= to; b++)
-                squares += level[b] * level[b];
-            sum += squares > 0 ? squares / (double)(b - first) : 0;
-            used += squares > 0;
-        }
-    *power = 2 * used > all ? sum / (double)used / (s->opts->norm == SS_NORM_L1 ? 1 : scale->a) : 0;
+    *power = 2 * used > n ? sum / (double)used / (s->opts->norm == SS_NORM_L1 ? 1 : scale->a) : 0;
     return st;
 }
 

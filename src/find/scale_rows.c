@@ -162,47 +162,14 @@ number_of(double f)
     return round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f)));
 }
 
-/* The row nearest to f; NULL: there is none. */
-static const scale_row *
-row_of(const scale_row *row, size_t n, double f)
-{
-    for (size_t i = 0; i < n; i++)
-        if (number_of(row[i].f) == number_of(f))
-            return &row[i];
-    return NULL;
-}
-
-/* The translations of a scale outside the cone of influence; of a span, if there is one. */
+/* The translations of a scale outside the cone of influence. */
 static ss_window
-translations(const row_source *source, const ss_scale *scale, const ss_span *span)
+translations(const row_source *source, const ss_scale *scale)
 {
     double step = scale->b_num / scale->b_den, margin = (double)source->margin / source->rate;
     double from = sqrt(2) * scale->a, to = (double)(source->n - 1) / source->rate - from;
-    if (span != NULL)
-        from = fmax(from, span->from), to = fmin(to, span->to);
     double first = ceil((margin + from) / step), end = floor((margin + to) / step) + 1;
     return (ss_window){ (size_t)first, (size_t)fmax(first, end) };
-}
-
-/* Read these |W|, with one more on either side, into source->level, and add their peaks to the row. */
-static ss_status
-add_peaks(scale_row *r, const row_source *source, size_t index, ss_window win)
-{
-    const ss_scale *scale = &source->rows->scale[index];
-    const double *level = source->level, margin = (double)source->margin / source->rate;
-    const size_t first = win.first - 1;
-    const ss_map_part part = { index, first, win.end + 1 - first, NULL, source->level + first };
-    ss_status st = ss_map_read(source->rows, &part, 1, NULL);
-    for (size_t k = win.first; st == SS_OK && k < win.end; k++) {
-        if (!((level[k] > level[k - 1]) & (level[k] >= level[k + 1])))  /* one branch, which is seldom taken */
-            continue;
-        double t = ss_scale_b(scale, k) - margin;
-        if (ss_gaps_near(source->gap, source->n_gaps, t, ROW_REACH * r->a))
-            continue;
-        r->peak[r->n] = summit(level + k - 1, t, scale->b_num / scale->b_den);
-        r->top = most(r->top, r->peak[r->n++].level);
-    }
-    return st;
 }
 
 /* Find the peaks of a row and its noise.  Levels before t = 0 and behind the record are not the record's own. */
@@ -210,34 +177,34 @@ static ss_status
 fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
 {
     const ss_scale *scale = &source->rows->scale[index];
-    const ss_window all = translations(source, scale, NULL);
-    const size_t n = ss_window_length(all);
-    const scale_row *known = row_of(source->known, source->n_known, r->f);
-    double *level = source->level + all.first;
-    ss_status st = (r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak)) != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t i = 0; st == SS_OK && known != NULL && i < source->at.n; i++) {
-        ss_window win = translations(source, scale, &source->at.span[i]);
-        st = ss_window_length(win) > 0 ? add_peaks(r, source, index, win) : SS_OK;
-    }
-    if (st == SS_OK && known == NULL)
-        st = add_peaks(r, source, index, all);
+    const ss_window all = translations(source, scale);
+    const size_t n = ss_window_length(all), first = all.first - 1;
+    const double margin = (double)source->margin / source->rate, step = scale->b_num / scale->b_den;
+    double *level = source->level;
+    const ss_map_part part = { index, first, n + 2, NULL, level + first };
+    r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak);
+    ss_status st = r->peak != NULL ? ss_map_read(source->rows, &part, 1, NULL) : SS_ENOMEM;
     if (st != SS_OK) {
         free(r->peak);
         return st;
     }
-    if (known != NULL) {
-        r->rms = known->rms * source->unit;
-        r->top = most(r->top, known->top * source->unit);
-        return SS_OK;
+    for (size_t k = all.first; k < all.end; k++) {
+        if (!((level[k] > level[k - 1]) & (level[k] >= level[k + 1])))  /* one branch, which is seldom taken */
+            continue;
+        double t = ss_scale_b(scale, k) - margin;
+        if (ss_gaps_near(source->gap, source->n_gaps, t, ROW_REACH * r->a))
+            continue;
+        r->peak[r->n] = summit(level + k - 1, t, step);
+        r->top = most(r->top, r->peak[r->n++].level);
     }
-    r->rms = noise_of(source, loud, level, n, ss_scale_b(scale, all.first) - (double)source->margin / source->rate,
-                      scale->b_num / scale->b_den, r->a);
-    if (source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
+    level += all.first;
+    r->rms = noise_of(source, loud, level, n, ss_scale_b(scale, all.first) - margin, step, r->a);
+    if (source->keeps_heads && source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
         scale_row *head = &source->head[source->n_heads++];
         *head = *r;
         head->peak = NULL;
         head->rms_of_all = r->rms;
-        if (source->keeps_heads && loud != NULL && loud->n > 0)
+        if (loud != NULL && loud->n > 0)
             head->rms_of_all = rms_of(source, gsl_stats_select(level, 1, n, n / 2));
     }
     return SS_OK;
@@ -293,7 +260,10 @@ ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud)
 const scale_row *
 ss_row_head(const row_source *source, double f)
 {
-    return source->keeps_heads ? row_of(source->head, source->n_heads, f) : NULL;
+    for (size_t i = 0; i < source->n_heads; i++)
+        if (number_of(source->head[i].f) == number_of(f))
+            return &source->head[i];
+    return NULL;
 }
 
 void

@@ -46,10 +46,6 @@ typedef struct row_source {
     int keeps_heads;            /* 1: ss_row_head has the first rows */
     scale_row head[ROW_HEADS];  /* these rows, without their peaks */
     size_t n_heads;
-    const scale_row *known;     /* heads of a longer record: such rows have its noise and are read `at` places only */
-    size_t n_known;
-    double unit;                /* of their levels */
-    search_places at;
 } row_source;
 
 /* Prepare a source of n > 0 samples, whose differences are finite. */

@@ -42,7 +42,6 @@ typedef struct search {
     size_t n_found;
     column_quantity quantity;
     const struct stream_part *part;     /* all 0: the signal is no part */
-    search_places at;           /* where the map and the rows are read */
     double label;               /* of the oscillation that recurs [Hz]; 0: none is found */
     slow_part slow;             /* beside it */
     ss_cycles cycles;
@@ -99,8 +98,6 @@ typedef struct stream_lesson {
     slow_part slow;             /* beside the oscillation */
     ss_cycles cycles;
     ss_number repetition;
-    scale_row head[ROW_HEADS];  /* rows with spikes */
-    size_t n_heads;
 } stream_lesson;
 
 /* A signal that is a part of a longer one. */
@@ -108,8 +105,7 @@ typedef struct stream_part {
     double period;              /* [s] of the cycles of the longer one, or NaN if it does not repeat itself: of the
                                    part only the transitions are found; 0: not known */
     int is_contact;             /* what rings in the longer one is the contact's */
-    const stream_lesson *known; /* only what rings so is sought, where it swells; NULL: nothing is known */
-    double from, until;         /* [s] from the first sample: what swells at other times only is not wanted */
+    const stream_lesson *known; /* only what rings so is sought; NULL: nothing is known */
     stream_lesson *learnt;      /* to be filled in; may be NULL */
 } stream_part;
 /* As ss_features_find. */
@@ -125,10 +121,6 @@ void ss_loadings_forget(ss_features *out);
 
 /* Make room for n transitions of which nothing is known, in place of those before. */
 ss_status ss_transitions_new(ss_features *out, size_t n);
-
-/* Find where the oscillation that is known swells above the noise, into s->at, which the search frees.
- * SS_ESCALE: it does, but at no time that is wanted. */
-ss_status ss_ringing_places(search *s);
 
 /* Find the transitions, in time order, and the frequency and damping of their ringing, if they ring, into
  * s->out, which has spikes and repetition_frequency.  If there are none, s->out->n is 0. */

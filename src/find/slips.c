@@ -64,7 +64,7 @@ add_score(const varpro_factor *f, const linear *fitted, const varpro_sums *once,
     for (int p = 0; p < 2; p++) {
         for (int i = 0; i < VARPRO_COLUMNS; i++)
             of[i] = c[p] * once->g[at_cos][i] + s[p] * once->g[at_sin][i];
-        ss_varpro_substitute(f, of, y[p]);
+        ss_varpro_substitute(f, of, y[p], m);
         to->g[p] += c[p] * once->x[at_cos] + s[p] * once->x[at_sin];
         for (size_t i = 0; i < m; i++)
             to->g[p] -= y[p][i] * f->y[i];

@@ -160,11 +160,19 @@ ss_sticks_grow(fitter *k, const ss_window *core, size_t every, size_t limit)
 
 /* --- cutting windows ------------------------------------------------------------------------- */
 
+/* The fewest samples of a window: more than all columns. */
+static size_t
+least_length(const fitter *k)
+{
+    size_t least = periods(k, FIT_LEAST);
+    return least > VARPRO_COLUMNS ? least : VARPRO_COLUMNS + 1;
+}
+
 /* The window without the ends that are cut off; empty: it is shorter than the least length. */
 static ss_window
 keep_off(const fitter *k, ss_window win, size_t start, size_t end)
 {
-    if (ss_window_length(win) < start + end + periods(k, FIT_LEAST))
+    if (ss_window_length(win) < start + end + least_length(k))
         return (ss_window){ win.first, win.first };
     return (ss_window){ win.first + start, win.end - end };
 }
@@ -174,7 +182,7 @@ keep_off(const fitter *k, ss_window win, size_t start, size_t end)
 static ss_window
 part(const fitter *k, ss_window win, size_t at, int behind)
 {
-    size_t least = periods(k, FIT_LEAST), length = ss_window_length(win);
+    size_t least = least_length(k), length = ss_window_length(win);
     if (at >= length)
         return behind ? (ss_window){ win.first, win.first } : win;
     size_t kept = behind ? length - at : at, spare = kept > least ? kept - least : 0;
@@ -202,7 +210,7 @@ ss_sticks_split(fitter *k, size_t at)
 ss_window
 ss_sticks_trim(const fitter *k, ss_window win)
 {
-    size_t least = periods(k, FIT_LEAST), length = ss_window_length(win);
+    size_t least = least_length(k), length = ss_window_length(win);
     size_t spare = length > least ? length - least : 0, end = least_of(periods(k, FIT_TRIM_END), spare);
     return keep_off(k, win, least_of(periods(k, TRIM_START), spare - end), end);
 }

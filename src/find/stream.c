@@ -190,8 +190,6 @@ find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features 
     *start = now->head->start += (double)(s->seen - n) / s->head->rate;
     for (size_t c = 0; c < s->head->n_columns; c++)
         memcpy(now->values + c * n, s->x[c] + s->n - n, n * sizeof *now->values);
-    s->known.from = s->written - *start;
-    s->known.until = (double)(n - s->behind) / s->head->rate;
     st = ss_features_of_part(f, now, s->column, &s->opts, part, err);
     ss_signal_free(now);
     if (st == SS_OK)
@@ -224,7 +222,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     int finds_all = whole || s->known.period == 0;
     const stream_part afresh = { .learnt = whole ? &s->lesson : NULL };
     ss_status st = find_last(s, n, whole ? &afresh : &s->known, &f, &start, err);
-    if ((st == SS_OK || st == SS_ESCALE) && !whole && s->known.known != NULL && is_new(s, f, n)) {
+    if (st == SS_OK && !whole && s->known.known != NULL && is_new(s, f, n)) {
         stream_part part = s->known;
         part.known = NULL;
         s->is_changed = 1;
@@ -237,7 +235,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
         finds_all = 1;
     }
     if (st == SS_ESCALE && !last)
-        return SS_OK;                           /* too short as yet, or nothing is due */
+        return SS_OK;                           /* too short as yet */
     if (st != SS_OK)
         return st;
     for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)

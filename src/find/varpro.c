@@ -193,9 +193,8 @@ factorise(double (*g)[COLUMNS], double (*l)[COLUMNS], size_t n)
     }
 }
 
-/* The first n elements of l^-1 times `of`. */
-static void
-substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS], size_t n)
+void
+ss_varpro_substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS], size_t n)
 {
     for (size_t j = 0; j < n; j++) {
         double sum = of[j];
@@ -206,12 +205,6 @@ substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS],
             sum -= f->l[j][k] * to[k];
         to[j] = sum / f->l[j][j];
     }
-}
-
-void
-ss_varpro_substitute(const varpro_factor *f, const double of[COLUMNS], double to[COLUMNS])
-{
-    substitute(f, of, to, f->m + 2);
 }
 
 /* Kaufman: d r = -P (d Phi) c, Phi c the oscillation fitted and P what projects it out. */
@@ -238,7 +231,7 @@ ss_varpro_left(varpro_sums *sums)
     varpro_factor f;
     f.m = sums->m;
     factorise(sums->g, f.l, f.m);
-    substitute(&f, sums->x, f.y, f.m);
+    ss_varpro_substitute(&f, sums->x, f.y, f.m);
     return left_of(&f, sums->xx);
 }
 
@@ -256,7 +249,7 @@ ss_varpro_project(varpro *v, ss_window win)
         v->factored = n;
     }
     add_samples(v->x + win.first, v->x[win.first], v->table.row, n, x, &xx);
-    ss_varpro_substitute(f, x, f->y);
+    ss_varpro_substitute(f, x, f->y, f->m + 2);
     const size_t at_cos = f->m - 2, at_sin = f->m - 1;
     const double *y = f->y, *left = y + f->m, c = f->l[at_cos][at_cos], s = f->l[at_sin][at_sin];
     linear fit = { .windows = 1, .samples = n, .whole = xx, .rss = left_of(f, xx),

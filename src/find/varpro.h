@@ -92,9 +92,8 @@ void ss_varpro_sums_add(varpro *v, ss_window more, varpro_sums *sums);
 /* The residual sum of squares of the same fit, by the sums. */
 double ss_varpro_left(varpro_sums *sums);
 
-/* to = l^-1 of, of m + 2. */
-void ss_varpro_substitute(const varpro_factor *f, const double of[VARPRO_COLUMNS],
-                          double to[VARPRO_COLUMNS]);
+/* to = the first n elements of l^-1 of. */
+void ss_varpro_substitute(const varpro_factor *f, const double of[VARPRO_COLUMNS], double to[VARPRO_COLUMNS], size_t n);
 
 /* What the derivatives by w and s are along the last two of the orthonormal columns that l^-1 makes. */
 void ss_varpro_derivatives(const varpro_factor *f, double a, double b, double by_w[2], double by_s[2]);
