@@ -11,6 +11,7 @@
 #include "new_signal.h"
 #include "plot/extremes.h"
 #include "plot/isoline.h"
+#include "plot/map.h"
 #include "unit.h"
 #include "signal/noise.h"
 
@@ -106,6 +107,46 @@ a_flat_map_has_no_lines(void **state)
     for (double level = -1; level <= 1; level++)
         assert_int_equal(ss_isolines(&map, level, count_line, &t), SS_OK);
     assert_int_equal(t.lines, 0);
+}
+
+/* On a unit square, the lines of y + (x - 1/2)^2 are parabolas y = level - (x - 1/2)^2, that of 1 with its middle on
+ * the border.  Levels are all multiples of their step from the first on.  Each label lies on the line of its level, to
+ * (1/60)^2 / 4 of straight pieces, and .04 from the border. */
+static void
+labels_lie_on_their_lines_and_off_the_border(void **state)
+{
+    double at[N], height[N * N], x, y, level, drawn[20] = { 0 };
+    const map_axis axis = { .value = at, .n = N, .scale = ss_script_power(0), .digits = 9 };
+    const map_grid g = { axis, axis };
+    char *text = NULL, *line = NULL;
+    size_t size, levels = 0, labels = 0;
+    (void)state;
+    for (size_t i = 0; i < N; i++)
+        at[i] = (double)i / (N - 1);
+    for (size_t i = 0; i < N * N; i++)
+        height[i] = at[i / N] + pow(at[i % N] - 0.5, 2);
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    assert_int_equal(ss_map_write_lines(out, &g, height, NULL), SS_OK);
+    fclose(out);
+    char *label = strstr(text, "$label");
+    assert_non_null(label);
+    for (line = text; line != NULL && line[1] != '\0'; line = strchr(line + 1, '\n')) {
+        if (sscanf(line, "%lf %lf %lf", &x, &y, &level) != 3)
+            continue;
+        if (line < label) {
+            if (levels == 0 || drawn[levels - 1] != level)
+                drawn[levels++] = level;
+        } else {
+            assert_true(fabs(level - drawn[labels++]) < 1e-9);
+            assert_true(fabs(y + pow(x - 0.5, 2) - level) < 1. / 3600 / 4 + 1e-6);
+            assert_true(fmin(fmin(x, 1 - x), fmin(y, 1 - y)) > 0.04 - 1e-6);
+        }
+    }
+    assert_true(levels >= 4 && labels == levels);
+    for (size_t i = 0; i < levels; i++)
+        assert_true(fabs(drawn[i] - (double)(i + 1) * drawn[0]) < 1e-6);
+    free(text);
 }
 
 /* --- scripts ------------------------------------------------------------------------------- */
@@ -751,6 +792,7 @@ main(void)
         cmocka_unit_test(a_cone_has_a_circle),
         cmocka_unit_test(every_crossing_of_a_rough_map_is_passed_once),
         cmocka_unit_test(a_flat_map_has_no_lines),
+        cmocka_unit_test(labels_lie_on_their_lines_and_off_the_border),
         cmocka_unit_test(blocks_have_the_extremes_of_their_samples),
         cmocka_unit_test(a_long_path_looks_like_the_line),
         cmocka_unit_test(a_path_begins_and_ends_with_its_span),

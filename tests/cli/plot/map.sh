@@ -29,12 +29,14 @@ for z in stops,amplitude stops stick; do
     ss-sweep --shoot -m stops,stick,amplitude --vary base_frequency=0.8:1.2:5 --vary friction=0.2:1.2:11 den-hartog -o c.tsv
     draw --map base_frequency,friction,$z c.tsv | grep -o "title '[^']*'"
 done
-# a share that grows evenly up to 1 has even levels, and none at 1, where it stays; one in equal ratios has 1, 2, 5
+# a share that grows evenly up to 1 has even levels, and none at 1, where it stays: a region, which the key names; one in
+# equal ratios has 1, 2, 5
 for share in 'x / 16' 'exp(x / 2 - 8)'; do
     ss-sweep -m stick --vary friction=1:20:20 --vary base_frequency=2:8:3 coulomb 2> log |
         awk 'BEGIN { FS = OFS = "\t" } !/^#/ { x = $2; z = '"$share"'; $4 = z < 1 ? z : 1 } 1' > f.tsv
     draw --map friction,base_frequency,stick f.tsv |
-        awk '/^[$]|^EOD/ { on = $1 == "$label" } on && NF == 3 && $2 != "<<" { print $3 }' | sort -g | paste -sd ' '
+        awk '/^[$]|^EOD/ { on = $1 == "$label" } on && NF == 3 && $2 != "<<" { print $3 }
+             /^set key title/ { print $4 }' | sort -g | paste -sd ' '
 done
 # over one key: points of the strobe, and under them a line that is broken where there is no value
 ss-sweep --simulate --strobe 4 --max-cycles 100 -m x_phase,period,floquet --vary base_frequency=0.52:0.7:4 chaos -o d.tsv
