@@ -36,7 +36,7 @@
  * it does after the whole when it is shifted by a sample.
  *
  * Cycles may differ in turn: then several of them repeat far better than one, and these are the period.  How well,
- * is judged between samples, and a jump that lies between two is no difference.
+ * is judged between samples of a smoothed signal, and a jump that lies between two is no difference.
  *
  * A hum may make several cycles more alike than one.  What differs after a part of them is then its line alone.
  * It may also keep all lags at multiples of its own period: the rate of what is slow tells. */
@@ -67,10 +67,12 @@
 #define MANY 16                 /* cycles: fewer show no modulation; a decay that is slower does not count */
 #define PULLED 16               /* a hum pulls the lag by less than one part in so many */
 #define FINEST 0.03             /* of a sample: jumps that a filter has rounded draw lags to whole samples by so much */
-#define ALIKE 2e-3              /* of the variance: cycles that differ by less are alike */
+#define ROUGH 4.0               /* times: see roughness */
+#define ALIKE 2e-4              /* of the variance: cycles that differ by less are alike */
 #define CLEARER 4.0             /* by chance, cycles with noise or a clock that wanders differ by a factor of 2 */
 #define ONE 0.9                 /* of what differs: more is one line */
 #define LOW 2.5                 /* times the frequency: the lines of a motion itself may be strong up to there */
+#define SEEN 0.6                /* of the cycles: what repeats after more is seen by too few */
 #define MOST 64.0               /* periods that are looked at for that */
 #define SLOW 16.0               /* of a period: part of it that is averaged over */
 enum { FEWEST_SAMPLES = 64 };   /* of a record: fewer are no longer than what is read about a lag */
@@ -158,12 +160,11 @@ correlation(const view *v, size_t first, size_t lag, size_t m)
     return of.a > 0 && of.b > 0 ? of.ab / sqrt(of.a * of.b) : 0;
 }
 
-/* The square of the distance of x from the range of three others. */
+/* How far x lies above the range of three others; negative: below it. */
 static double
 beyond(double x, double a, double b, double c)
 {
-    double far = fmax(fmin(a, fmin(b, c)) - x, x - fmax(a, fmax(b, c)));
-    return far > 0 ? far * far : 0;
+    return fmax(0, x - fmax(a, fmax(b, c))) - fmax(0, fmin(a, fmin(b, c)) - x);
 }
 
 /* The vertex of the parabola through the values at -step, 0, step. */
@@ -339,6 +340,8 @@ parts_of(const cycle *c, size_t n)
     return 1;
 }
 
+static const char by_chance[] = "what repeats may repeat sooner: in so few cycles, several may be alike by chance";
+
 /* Find median and standard error of the frequencies of n cycles. */
 static void
 summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
@@ -399,7 +402,7 @@ describe(const cycle *c, size_t n, cycle *known, double *v, ss_cycles *out)
              || !(out->likeness >= CYCLES_ALIKE))
         out->why = "no cycle resembles the next one";
     else if (n_known <= FEW && 2 * sooner > n_known)
-        out->why = "what repeats may repeat sooner: in so few cycles, several may be alike by chance";
+        out->why = by_chance;
     else if (energy * energy < PART * squares || fades(c, n, ACTIVE * energy))
         out->why = "it rings once, or sounds in a small part of the record only";
     else if (repeats(c, n, &c->mean, sqrt(energy), CYCLES_ALIKE, v))
@@ -411,42 +414,110 @@ describe(const cycle *c, size_t n, cycle *known, double *v, ss_cycles *out)
     return parts_of(known, n_known);
 }
 
+/* Means of q samples each, m of them; NULL: no memory. */
+static double *
+block_means(const double *x, size_t m, size_t q)
+{
+    double *out = calloc(m + 1, sizeof *out);
+    for (size_t i = 0; out != NULL && i < m * q; i++)
+        out[i / q] += x[i] / (double)q;
+    return out;
+}
+
 /* Describe the cycles of this period.  *parts becomes the number of shorter cycles in each of them. */
 static ss_status
 find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
 {
     size_t q = period > POINTS ? (size_t)(period / POINTS) : 1, step = (size_t)period, found = 0;
     size_t reach = step + (size_t)(period * (1 + WIDTH)) + 2 * q + 4, most = n / step + 1;
-    double *averaged = calloc(n / q + 1 + most, sizeof *averaged);
+    double *averaged = block_means(x, n / q, q), *room = malloc(most * sizeof *room);
     cycle *c = malloc(2 * most * sizeof *c);
     *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
-    if (averaged != NULL && c != NULL) {
+    const int is_room = averaged != NULL && room != NULL && c != NULL;
+    if (is_room) {
         const view fine = { x, n }, coarse = { averaged, n / q };
-        for (size_t i = 0; i < n / q * q; i++)
-            averaged[i / q] += x[i] / (double)q;
         for (size_t i = 0; i + reach < n; i += step)
             c[found++] = measure(&fine, &coarse, q, i, period);
-        *parts = describe(c, found, c + most, averaged + n / q + 1, out);
+        *parts = describe(c, found, c + most, room, out);
     }
     free(averaged);
+    free(room);
     free(c);
-    return averaged != NULL && c != NULL ? SS_OK : SS_ENOMEM;
+    return is_room ? SS_OK : SS_ENOMEM;
 }
 
 /* --- what differs ---------------------------------------------------------------------------- */
 
-/* The frequency of the one line that is so large a part of what differs after so many samples [per sample], or 0. */
-static ss_status
-line_between(const view *v, size_t lag, double part, double *f)
+/* Means over m samples of n, one after the other: n - m + 1 of them. */
+static void
+average(double *x, size_t n, size_t m)
 {
-    const size_t m = (v->n - lag) / 2 * 2;
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        sum += x[i];
+        if (i + 1 >= m) {
+            const double oldest = x[i + 1 - m];
+            x[i + 1 - m] = sum / (double)m;
+            sum -= oldest;
+        }
+    }
+}
+
+/* Means over m samples of means over m of n; NULL: no memory. */
+static double *
+smoothed(const double *x, size_t n, size_t m)
+{
+    double *out = malloc((n + 1) * sizeof *out);
+    if (out == NULL)
+        return NULL;
+    memcpy(out, x, n * sizeof *x);
+    average(out, n, m);
+    average(out, n - m + 1, m);
+    return out;
+}
+
+/* The signal some lag later. */
+enum { TAPS = 8, BEFORE = TAPS / 2 - 1 };
+typedef struct later {
+    size_t lag;                 /* in whole samples */
+    double tap[TAPS];           /* Lanczos's, for a value between samples */
+} later;
+
+static later
+later_by(double lag)
+{
+    later by = { .lag = (size_t)lag };
+    for (int k = 0; k < TAPS; k++) {
+        double t = M_PI * (lag - (double)by.lag - (k - BEFORE));
+        by.tap[k] = t == 0 ? 1 : sin(t) / t * sin(2 * t / TAPS) / (2 * t / TAPS);
+    }
+    return by;
+}
+
+/* What a sample differs by from what is there later; a jump between two samples there is no difference. */
+static double
+off(const double *x, const later *by)
+{
+    const double *there = x + by->lag;
+    double at = 0;
+    for (int k = 0; k < TAPS; k++)
+        at += by->tap[k] * there[k - BEFORE];
+    return beyond(x[0], there[0], there[1], at);
+}
+
+/* The frequency of the one line that is so large a part of what differs after a lag [per sample], or 0. */
+static ss_status
+line_between(const view *v, double lag, double part, double *f)
+{
+    const later by = later_by(lag);
+    const size_t m = (v->n - by.lag - TAPS) / 2 * 2;
     real_fft r;
     double all = 0, line = 0, at = 0;
     size_t top = 1;
     if (ss_real_fft_new(&r, m, 0) != SS_OK)
         return SS_ENOMEM;
     for (size_t i = 0; i < m; i++)
-        r.x[i] = (v->x[i] - v->x[i + lag]) * (1 - cos(2 * M_PI * (double)i / (double)m));
+        r.x[i] = off(v->x + BEFORE + i, &by) * (1 - cos(2 * M_PI * (double)i / (double)m));
     ss_real_fft_run(&r);
     for (size_t k = 0; k <= m / 2; k++) {
         r.x[k] = r.x[2 * k] * r.x[2 * k] + r.x[2 * k + 1] * r.x[2 * k + 1];
@@ -460,43 +531,32 @@ line_between(const view *v, size_t lag, double part, double *f)
     return SS_OK;
 }
 
-/* The mean square by which samples lie beyond their neighbours, cubes through these included; infinite where a
- * sensor holds its samples, which differ by when that began. */
+/* How unlike samples and those some lag later may be where a signal repeats: ROUGH times as unlike as samples are to
+ * their neighbours with cubes through these. */
 static double
 roughness(const view *v)
 {
     double sum = 0;
-    size_t held = 0;
     for (size_t i = 3; i + 3 < v->n; i++) {
         const double *x = v->x + i;
-        sum += beyond(x[0], x[-1], x[1], 0.5625 * (x[-1] + x[1]) - 0.0625 * (x[-3] + x[3]));
-        held += x[0] == x[-1];
+        sum += pow(beyond(x[0], x[-1], x[1], 0.5625 * (x[-1] + x[1]) - 0.0625 * (x[-3] + x[3])), 2);
     }
-    return 2 * held > v->n ? INFINITY : sum / (double)v->n;
+    return ROUGH * sum / (double)v->n;
 }
 
-/* The same of samples and those about them some lag later, in a cycle that but a quarter are more unlike, so that
- * glitches do not count.  Of at most MOST cycles.  Between samples: Lanczos, 8 of them. */
+/* The mean square by which samples and those some lag later differ, in a cycle that but a quarter are more unlike, so
+ * that glitches do not count.  Of at most MOST cycles. */
 static double
 unlikeness(const view *v, double lag, double period)
 {
-    enum { TAPS = 8, BEFORE = TAPS / 2 - 1 };
-    const size_t whole = (size_t)lag, last = v->n - whole - TAPS;
-    double tap[TAPS], sum[(size_t)MOST] = { 0 };
+    const later by = later_by(lag);
+    const size_t last = v->n - by.lag - TAPS;
+    double sum[(size_t)MOST] = { 0 };
     size_t n = 0;
-    for (int k = 0; k < TAPS; k++) {
-        double t = M_PI * (lag - (double)whole - (k - BEFORE));
-        tap[k] = t == 0 ? 1 : sin(t) / t * sin(2 * t / TAPS) / (2 * t / TAPS);
-    }
     for (size_t i = BEFORE; i < last; n++) {
         const size_t first = i, end = (size_t)fmin((double)last, BEFORE + (double)(n + 1) * period);
-        for (; i < end; i++) {
-            const double *x = v->x + i + whole;
-            double at = 0;
-            for (int k = 0; k < TAPS; k++)
-                at += tap[k] * x[k - BEFORE];
-            sum[n] += beyond(v->x[i], x[0], x[1], at) / (double)(end - first);
-        }
+        for (; i < end; i++)
+            sum[n] += pow(off(v->x + i, &by), 2) / (double)(end - first);
     }
     gsl_sort(sum, 1, n);
     return gsl_stats_quantile_from_sorted_data(sum, 1, n, 0.75);
@@ -524,8 +584,8 @@ after(const view *v, double period, double cycles)
 }
 
 /* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as
- * many, and many, too, and not after others; and if half of what differs is one line, it is below what repeats, or
- * after many cycles no more is left of it: else a hum made it so. */
+ * many, and many, too, and not after others.  If half of what differs is one line, it is below what repeats, or not far
+ * above and after many cycles no more is left of it: else it is a hum's. */
 static ss_status
 cycles_in_turn(const view *v, double period, size_t *in_turn)
 {
@@ -534,16 +594,15 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
     double unlike[LOOKED_AT] = { 0 }, f = 0;
     size_t known = 2;
     *in_turn = 1;
-    if (v->n >= FEWEST_SAMPLES)
-        unlike[1] = after(v, period, 1);
-    if (!(unlike[1] > fmax(2 * roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
+    unlike[1] = after(v, period, 1);
+    if (!(unlike[1] > fmax(roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
         return SS_OK;
-    ss_status st = line_between(v, (size_t)(lag_near(v, period) + 0.5), 0.5, &f);
-    for (; known < LOOKED_AT && (double)known < 0.6 * most; known++)
+    ss_status st = line_between(v, lag_near(v, period), 0.5, &f);
+    for (; known < LOOKED_AT && (double)known < SEEN * most; known++)
         unlike[known] = after(v, period, (double)known);
     for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && *in_turn == 1; p++) {
         double bound = unlike[1] / CLEARER, last = after(v, period, floor(0.5 * most / (double)p) * (double)p);
-        int agree = last < bound && (f * period < 1 || last < 2 * unlike[p]);
+        int agree = last < bound && (f * period < 1 || (f * period < LOW && last < 2 * unlike[p]));
         for (size_t q = 2; agree && q <= 2 * p + 1 && q < known; q++)
             agree = (unlike[q] < bound) == (q % p == 0);
         if (agree)
@@ -552,35 +611,27 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
     return st;
 }
 
-/* The largest number of parts of the period after which the signal repeats itself but for a hum, whose frequency
- * *hum becomes; else 1.  A hum is a line that is high, or no multiple of what repeats as far as can be told. */
+/* The largest number of parts of the period after which the signal repeats itself, or does so but for a hum, whose
+ * frequency *hum becomes; else 1.  A hum is a line that is high, or no multiple of what repeats as far as can be told. */
 static ss_status
-parts_beside_hum(const view *v, double period, double *hum, size_t *parts)
+parts_of_period(const view *v, double period, double *hum, size_t *parts)
 {
+    const double rough = roughness(v);
     ss_status st = SS_OK;
-    for (*parts = MULTIPLES + 1; st == SS_OK && *hum == 0 && *parts > 1;) {
-        double f = 0, lag = floor(period / (double)--*parts + 0.5);
-        if (lag > 4 && relative(v, 0, (size_t)lag, v->n - (size_t)lag) < 1 - CYCLES_ALIKE)
-            st = line_between(v, (size_t)lag, ONE, &f);
+    for (*parts = MULTIPLES; st == SS_OK && *parts > 1; --*parts) {
+        double f = 0, lag = period / (double)*parts;
+        if (lag < 5)
+            continue;
+        if (unlikeness(v, lag, period) <= rough)
+            return SS_OK;
+        if (relative(v, 0, (size_t)(lag + 0.5), v->n - (size_t)(lag + 0.5)) < 1 - CYCLES_ALIKE)
+            st = line_between(v, lag, ONE, &f);
         double multiple = f * period, off = fabs(multiple - round(multiple)) * ((double)v->n - lag) / period;
         *hum = f * lag > LOW || (multiple > LOW && off > 0.5) ? f : 0;
+        if (*hum > 0)
+            return st;
     }
     return st;
-}
-
-/* Means over m samples of n, one after the other: n - m + 1 of them. */
-static void
-average(double *x, size_t n, size_t m)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) {
-        sum += x[i];
-        if (i + 1 >= m) {
-            const double oldest = x[i + 1 - m];
-            x[i + 1 - m] = sum / (double)m;
-            sum -= oldest;
-        }
-    }
 }
 
 /* A strong hum may keep all lags at multiples of its own period.  What is slow in the signal tells of that: where
@@ -589,14 +640,11 @@ static ss_status
 compare_slow(const double *x, size_t n, ss_cycles *found)
 {
     const size_t m = 1 + (size_t)(found->period.value / SLOW);
-    double *slow = malloc((n + 1) * sizeof *slow);
+    double *slow = smoothed(x, n, m);
     ss_cycles other;
     size_t parts;
     if (slow == NULL)
         return SS_ENOMEM;
-    memcpy(slow, x, n * sizeof *x);
-    average(slow, n, m);
-    average(slow, n - m + 1, m);
     ss_status st = find_at(slow, n - 2 * m + 2, found->period.value, &other, &parts);
     free(slow);
     if (st == SS_OK && fabs(other.frequency.value - found->frequency.value)
@@ -604,6 +652,36 @@ compare_slow(const double *x, size_t n, ss_cycles *found)
         found->frequency = other.frequency;
         found->period = other.period;
     }
+    return st;
+}
+
+/* Is the period one of several cycles that differ in turn, or are several cycles taken for one?  A sensor may hold its
+ * samples: one of each is looked at. */
+static ss_status
+compare_cycles(const double *x, size_t n, ss_cycles *out)
+{
+    size_t some = (size_t)fmin((double)n, MOST * out->period.value), changes = 1, parts = 1, in_turn = 1;
+    for (size_t i = 1; i < some; i++)
+        changes += x[i] != x[i - 1];
+    const size_t held = (size_t)fmin((double)some / (double)changes, 1 + out->period.value / SLOW), m = some / held;
+    const double period = out->period.value / (double)held;
+    if (m < FEWEST_SAMPLES)
+        return SS_OK;
+    double *means = block_means(x, m, held), *smooth = means != NULL ? smoothed(means, m, 2) : NULL, hum = 0;
+    const view first = { smooth, m - 2 };
+    ss_status st = smooth != NULL ? cycles_in_turn(&first, period, &in_turn) : SS_ENOMEM;
+    if (st == SS_OK && in_turn > 1 && 2 * (double)in_turn * period > SEEN * (double)m)
+        *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN }, .why = by_chance };
+    else if (st == SS_OK && in_turn > 1)
+        st = find_at(x, n, out->period.value * (double)in_turn, out, &parts);
+    parts = 1;
+    if (st == SS_OK && isfinite(out->period.value))
+        st = parts_of_period(&first, out->period.value / (double)held, &hum, &parts);
+    free(means);
+    free(smooth);
+    if (st == SS_OK && parts > 1)
+        st = find_at(x, n, out->period.value / (double)parts, out, &parts);
+    out->hum = isfinite(out->period.value) ? hum / (double)held : 0;
     return st;
 }
 
@@ -624,24 +702,12 @@ ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out)
         start.value /= (double)parts;
         st = find_at(x, n, start.value, out, &parts);
     } while (st == SS_OK && parts > 1);
-    if (st == SS_OK && about == 0 && isfinite(out->period.value)) {
-        const view first = { x, (size_t)fmin((double)n, MOST * out->period.value) };
-        double hum = 0;
-        size_t in_turn;
-        st = cycles_in_turn(&first, out->period.value, &in_turn);
-        if (st == SS_OK && in_turn > 1)
-            st = find_at(x, n, out->period.value * (double)in_turn, out, &parts);
-        parts = 1;
-        if (st == SS_OK && isfinite(out->period.value))
-            st = parts_beside_hum(&first, out->period.value, &hum, &parts);
-        if (st == SS_OK && parts > 1)
-            st = find_at(x, n, out->period.value / (double)parts, out, &parts);
-        out->hum = isfinite(out->period.value) ? hum : 0;
-    }
+    if (st == SS_OK && about == 0 && isfinite(out->period.value))
+        st = compare_cycles(x, n, out);
     if (st == SS_OK && about == 0 && isfinite(out->period.value))
         st = compare_slow(x, n, out);
-    double later = fmax(1, fmin(1 << LAGS, floor(0.25 * (double)n / out->period.value))) * out->period.value;
-    if (later + 0.5 < (double)n)        /* not NaN */
-        out->lasting = correlation(&(view){ x, n }, 0, (size_t)(later + 0.5), n - (size_t)(later + 0.5));
+    double behind = fmax(1, fmin(1 << LAGS, floor(0.25 * (double)n / out->period.value))) * out->period.value;
+    if (behind + 0.5 < (double)n)       /* not NaN */
+        out->lasting = correlation(&(view){ x, n }, 0, (size_t)(behind + 0.5), n - (size_t)(behind + 0.5));
     return st;
 }

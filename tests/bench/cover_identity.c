@@ -296,22 +296,27 @@ order(const void *a, const void *b)
     return (d > 0) - (d < 0);
 }
 
-/* The base's frequency over the number of its cycles after which the motion is the same; NaN: none up to 6. */
+/* The base's frequency over the number of its cycles after which the motion is the same; NaN: none up to 6.  What
+ * becomes less from cycle to cycle is how the motion settles, and no longer period. */
 static double
 repetition_of(const record *r)
 {
-    double cycle = 1 / (double)r->rig.f[0], end = (double)r->motion.end * (1 - 1e-12), x[14], most = largest(r->x, r->n);
+    enum { CYCLES = 14, COMPARED = 8 };
+    double cycle = 1 / (double)r->rig.f[0], end = (double)r->motion.end * (1 - 1e-12), x[CYCLES];
     size_t at = 0;
-    for (int j = 0; j < 14; j++) {
+    for (int j = 0; j < CYCLES; j++) {
         double out[4];
         rig_at(&r->motion, end - j * cycle, &at, out);
         x[j] = out[0];
     }
-    for (int p = 1; p <= 6; p++) {
+    for (int p = 1; p <= CYCLES - COMPARED; p++) {
         double off = 0;
-        for (int j = 0; j + p < 14 && j < 8; j++)
+        int settles = 1;
+        for (int j = 0; j < COMPARED; j++) {
+            settles &= j == 0 || fabs(x[j] - x[j + p]) > 1.001 * fabs(x[j - 1] - x[j - 1 + p]);
             off = fmax(off, fabs(x[j] - x[j + p]));
-        if (off < 1e-6 * most)
+        }
+        if (settles || off < 1e-5 * largest(r->x, r->n))
             return (double)r->rig.f[0] / p;
     }
     return NAN;
@@ -331,7 +336,8 @@ find_sticks(record *r)
         double t = (double)p->t - r->settle;
         if (t < 0 || p->mode == 0)
             continue;
-        reversals += before->mode != 0;
+        int is_brief = (double)(p->t - before->t) * r->rate < 1;    /* no sample shows that it stopped there */
+        reversals += before->mode != 0 || is_brief;
         r->slips += before->mode == 0;
         if (before->mode == 0 && (size_t)(t / half) < halves)
             longest[(size_t)(t / half)] = fmax(longest[(size_t)(t / half)], (double)(p->t - before->t));
