@@ -146,6 +146,33 @@ counts_the_values_of_a_converter(void **unused)
     }
 }
 
+/* --- turns ----------------------------------------------------------------------------------- */
+
+/* Where the force jumps as the motion turns, it may do so a row earlier or later: the rows before, behind and after
+ * this one tell nothing, also at the end of the record. */
+static void
+leaves_out_rows_about_a_jump(void **unused)
+{
+    enum { N = 600 };
+    static const int behind[] = { 300, N - 1 };           /* the row behind it */
+    double t[N], x[N], f[N];
+    ss_motion_opts opts;
+    (void)unused;
+    ss_motion_opts_init(&opts, sizeof opts);
+    for (size_t i = 0; i < 2; i++) {
+        driven d;
+        for (int k = 0; k < N; k++) {
+            t[k] = k;
+            x[k] = -pow(k - (behind[i] - 0.5), 2);        /* which cubics follow */
+            f[k] = k < behind[i] ? 1 : -1;
+        }
+        assert_int_equal(ss_driven_new(&d, t, x, f, N, &opts), SS_OK);
+        for (int k = N / 10; k + 1 < N; k++)
+            assert_int_equal(d.used[k], k < behind[i] - 1 || k > behind[i] + 1);
+        ss_driven_free(&d);
+    }
+}
+
 /* --- laws in closed form -------------------------------------------------------------------- */
 
 enum { ROWS = 3000 };
@@ -678,6 +705,7 @@ main(void)
         cmocka_unit_test(drives_as_it_simulates),
         cmocka_unit_test(drives_rate_and_state_as_it_simulates),
         cmocka_unit_test(counts_the_values_of_a_converter),
+        cmocka_unit_test(leaves_out_rows_about_a_jump),
         cmocka_unit_test(names_an_elastic_slider),
         cmocka_unit_test(names_a_slider_behind_a_gap),
         cmocka_unit_test(finds_sign_velocity_and_delay),

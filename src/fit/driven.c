@@ -213,9 +213,9 @@ ss_driven_new(driven *d, const double t[], const double motion[], const double f
         }
         memset(d->used + first, 0, end - first);
     }
-    for (size_t i = 1; i + 1 < n && d->most_delay > 0; i++)
+    for (size_t i = 1; i < n && d->most_delay > 0; i++)
         if (((d->v[i] > 0) != (d->v[i - 1] > 0) || fabs(d->v[i]) <= d->slow) && force_jumps(force, n, i))
-            memset(d->used + i - 1, 0, 3);      /* it may do so a row earlier or later */
+            memset(d->used + i - 1, 0, i + 1 < n ? 3 : 2);      /* it may do so a row earlier or later */
     const double time = d->length / d->speed;
     for (size_t i = 0; i < n; i++) {
         d->f[i] *= d->sign / d->force;
