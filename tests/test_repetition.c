@@ -9,6 +9,7 @@
 #include <gsl/gsl_rng.h>
 #include <stickslip.h>
 
+#include "find/cycles.h"
 #include "new_signal.h"
 #include "unit.h"
 
@@ -289,6 +290,46 @@ fill_in_step(gsl_rng *rng, double *x)
     return f;
 }
 
+/* Five cycles that decay, or grow, tenfold in energy from the first to the last are one ringing, a few less are not. */
+static void
+what_decays_tenfold_rings_once(void **state)
+{
+    enum { PERIOD = 160, SAMPLES = 63 * PERIOD / 10 };
+    static double x[SAMPLES];
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const int is_once = k % 2, grows = k / 2;
+        ss_cycles found;
+        for (size_t i = 0; i < SAMPLES; i++) {
+            double u = (double)i / PERIOD, at = 2 * M_PI * u;
+            x[grows ? SAMPLES - 1 - i : i] = pow(is_once ? 11 : 9, -u / 10)
+                * (sin(at) + 0.6 * sin(2 * at + 1) + 0.5 * cos(3 * at));
+        }
+        assert_int_equal(ss_cycles_find(x, SAMPLES, 0, &found), SS_OK);
+        assert_int_equal(found.n, 5);
+        assert_int_equal(found.why != NULL, is_once);
+    }
+}
+
+/* A thousand times as much in another unit: the period and its error, which the drift of the waveform makes, are
+ * those in samples. */
+static void
+units_do_not_matter(void **state)
+{
+    static double x[N];
+    ss_cycles found[2];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < N; i++) {
+            double u = (double)i / N, cycle = 20.3 * (u + 0.015 * (u * u - u));
+            x[i] = (k == 0 ? 1 : 1000) * (cycle - floor(cycle) + 0.3 * sin(4 * M_PI * cycle + 2 * u));
+        }
+        assert_int_equal(ss_cycles_find(x, N, 0, &found[k]), SS_OK);
+    }
+    assert_true(fabs(found[1].period.value / found[0].period.value - 1) < 1e-9);
+    assert_true(fabs(found[1].period.error / found[0].period.error - 1) < 1e-6);
+}
+
 /* share: of the draws that must have a number. */
 static void
 errors_cover(double (*fill)(gsl_rng *rng, double *x), const char *name, double share)
@@ -353,6 +394,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_repeats_that_does_not),
+        cmocka_unit_test(what_decays_tenfold_rings_once),
+        cmocka_unit_test(units_do_not_matter),
         cmocka_unit_test(errors_cover_drift),
         cmocka_unit_test(errors_cover_jitter),
         cmocka_unit_test(errors_cover_hum),

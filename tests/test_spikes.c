@@ -462,6 +462,19 @@ falls_over_gaps_are_left_out(void **state)
     ss_header_free(head);
 }
 
+/* One sample of three is as likely noise as wrong; among a hundred it is wrong. */
+static void
+a_wrong_sample_stands_out_of_many(void **state)
+{
+    double x[100] = { 0, 1 }, y[100];
+    (void)state;
+    assert_int_equal(ss_drops_without_glitches(y, x, 3, NULL, 0), SS_OK);
+    assert_true(y[0] == 0 && y[1] == 1 && y[2] == 0);
+    assert_int_equal(ss_drops_without_glitches(y, x, 100, NULL, 0), SS_OK);
+    for (size_t i = 0; i < 100; i++)
+        assert_true(y[i] == 0);
+}
+
 static void
 a_slow_drift_is_no_drop(void **state)
 {
@@ -570,6 +583,7 @@ main(void)
         cmocka_unit_test(counts_drops_by_their_height),
         cmocka_unit_test(drops_of_trapezoids_are_exact),
         cmocka_unit_test(falls_over_gaps_are_left_out),
+        cmocka_unit_test(a_wrong_sample_stands_out_of_many),
         cmocka_unit_test(a_slow_drift_is_no_drop),
         cmocka_unit_test(windows_are_cut_where_more_is_left),
         cmocka_unit_test(rests_of_a_coarse_converter_are_found),
