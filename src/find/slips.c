@@ -234,7 +234,6 @@ ss_slips_ring_on(fitter *k, int *is)
     tail *behind = malloc((k->n + 1) * sizeof *behind);
     if (behind == NULL)
         return SS_ENOMEM;
-    *is = 0;
     for (double late_by = 2; late_by <= LATEST && !*is; late_by *= 2) {
         size_t seen = 0, on = 0;
         find_tails(k, late_by, behind);

@@ -89,8 +89,7 @@ access_of(const h5_dataset *v, int rank, const hsize_t dims[])
     hid_t plist = H5Pcreate(H5P_DATASET_ACCESS);
     size_t rows = rank == 2 ? (size_t)dims[0] : 1;
     if (v->chunk > 0)
-        H5Pset_chunk_cache(plist, rows > 1 ? 128 * rows + 1 : 1,
-                           rows * (size_t)v->chunk * H5Tget_size(v->file_type), 1);
+        H5Pset_chunk_cache(plist, 128 * rows + 1, rows * (size_t)v->chunk * H5Tget_size(v->file_type), 1);
     return plist;
 }
 
