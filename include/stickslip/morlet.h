@@ -34,7 +34,7 @@ typedef enum ss_norm {
 typedef enum ss_detrend { SS_DETREND_NONE, SS_DETREND_MEAN, SS_DETREND_LINEAR } ss_detrend;
 
 typedef enum ss_engine {
-    SS_ENGINE_AUTO,             /* the cheapest one that keeps the accuracy */
+    SS_ENGINE_AUTO,             /* SS_ENGINE_FFT */
     SS_ENGINE_QUADRATURE,       /* the sum of the definition, truncated as far as accuracy allows */
     SS_ENGINE_FFT               /* spectra, by FFTW; but the sum for forced scales that are narrower
                                    than two samples or longer than two records */

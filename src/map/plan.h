@@ -108,10 +108,9 @@ void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
 
 /* Coefficients of a scale, factor times those in units of a^1/2 and of the record.  *most is the
  * largest |W| in these units of those computed before, which the accuracy counts by, too, and is
- * raised.  Then about what n of them cost [s], without making the wavelet. */
+ * raised. */
 void ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
                          wavelet *wave, span part, double factor, double *most, double *w);
-double ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n);
 /* The adjoint of a part's transform in units of a^1/2, times factor, to be added to the n samples x. */
 void ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave, span part,
                            double factor, const double *w, double *x);

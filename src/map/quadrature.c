@@ -26,10 +26,6 @@
 #include "base/error.h"
 #include "map/plan.h"
 
-/* The cost [s] of a coefficient and of each of its taps, measured by tests/bench/bench_morlet. */
-#define COST_PLACE 60e-9
-#define COST_TAP 0.8e-9
-
 enum { BLOCK = 64, ROOT = 8, LANES = 4 };     /* BLOCK = ROOT^2 */
 
 /* The wavelet of one scale at whole samples. */
@@ -334,20 +330,6 @@ ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wav
         double one[2] = { factor * w[2 * i], factor * w[2 * i + 1] };
         add_wavelet(&wave->ker, plan->n, ss_scale_spot(scale, part.first + i, plan->rate), one, x);
     }
-}
-
-/* The taps of a wavelet on one side in the first pass. */
-static double
-taps_tried(const ss_morlet *plan, const ss_scale *scale)
-{
-    kernel ker = kernel_of(&plan->opts, scale->a, plan->rate);
-    return (double)taps_for(&ker, fmax(plan->opts.accuracy / 10, TAIL_FLOOR), plan->n);
-}
-
-double
-ss_quadrature_cost(const ss_morlet *plan, const ss_scale *scale, size_t n)
-{
-    return (double)n * (COST_PLACE + COST_TAP * (2 * taps_tried(plan, scale) - 1));
 }
 
 ss_status

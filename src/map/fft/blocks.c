@@ -47,11 +47,7 @@
 #define CUT 8.66
 #define BAND 1.99
 #define FILTER_CUT 8.3
-#define COST_POINT 4e-9         /* of a point of an FFT, with the work beside it [s] */
 #define IMAGES 5e-17            /* the bound of the images of an interpolation */
-
-/* The cost of a translation of each kind [s]. */
-static const double COST_OF[] = { 0, 8e-9, 1.3e-9 };
 
 enum {
     LEAST_SAMPLES = 4,          /* a level has at least so many */
@@ -197,28 +193,6 @@ points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, c
     return points <= LONGEST ? points : 0;
 }
 
-/* The time that FFTs save for scale i [s], over a record or over a window of a stream. */
-static double
-gain_of(const struct blocks *b, const ss_morlet *plan, size_t i)
-{
-    const block_scale *r = &b->scale[i];
-    const stage *st = &b->stage[r->level];
-    size_t n = plan->window ? ss_blocks_most(b, i) : plan->scale[i].n;
-    double points = (double)r->points * (plan->window ? 1 : (double)windows_for(st, st->n));
-    return ss_quadrature_cost(plan, &plan->scale[i], n) - COST_POINT * points
-        - COST_OF[r->kind] * (double)n;
-}
-
-/* The cost of the spectra of the levels in use [s]. */
-static double
-forward_cost(const struct blocks *b)
-{
-    double points = 0;
-    for (size_t l = 0; l < b->levels; l++)
-        points += (double)b->stage[l].windows * (double)b->stage[l].length;
-    return COST_POINT * points;
-}
-
 /* Choose the level and M of scale i.  M is 0 if the scale cannot be computed here. */
 static void
 choose_points(struct blocks *b, const ss_morlet *plan, size_t i)
@@ -238,31 +212,23 @@ choose_points(struct blocks *b, const ss_morlet *plan, size_t i)
         r->hop = st->hop << r->level;
 }
 
-/* Choose the scales that are computed here: those that can be, in a stream only the longest.  With AUTO
- * the choice is of those for which it is cheaper, and of none if a record's gain is less than the cost of
- * its spectra. */
+/* Choose the scales that are computed here: those that can be, in a stream only the longest. */
 static void
 choose_rows(struct blocks *b, const ss_morlet *plan)
 {
-    int automatic = plan->opts.engine == SS_ENGINE_AUTO, others = 0;
-    double gain = 0;
+    int others = 0;
     for (size_t i = 0; i < b->n_scales; i++) {
         block_scale *r = &b->scale[i];
         choose_points(b, plan, i);
-        double less = r->points > 0 ? gain_of(b, plan, i) : 0;
-        int dear = automatic && less < 0 && (r->kind == BETWEEN || !plan->window);
-        others |= r->points == 0 || dear;
-        if (r->points == 0 || dear || (plan->window && others)) {
+        others |= r->points == 0;
+        if (r->points == 0 || (plan->window && others)) {
             r->level = -1;
             continue;
         }
-        gain += less;
         b->stage[r->level].used = 1;
         b->longest = r->points > b->longest ? r->points : b->longest;
         b->levels = (size_t)r->level + 1 > b->levels ? (size_t)r->level + 1 : b->levels;
     }
-    if (automatic && !plan->window && gain < forward_cost(b))
-        b->levels = 0;
 }
 
 static void

@@ -5,9 +5,9 @@
 #include <stddef.h>
 #include "map/plan.h"
 
-/* Choose the scales that are transformed in blocks: of a stepped grid where that is cheaper, or the
- * engine is SS_ENGINE_FFT; of a stream, where plan->window is 1, the longest scales
- * down to the first that cannot be.  plan->blocks stays NULL if there are none.  SS_ENOMEM. */
+/* Choose the scales that are transformed in blocks: all that can be, unless the engine is
+ * SS_ENGINE_QUADRATURE; of a stream, where plan->window is 1, the longest scales down to the first that
+ * cannot be.  plan->blocks stays NULL if there are none.  SS_ENOMEM. */
 ss_status ss_blocks_new(ss_morlet *plan);
 void ss_blocks_free(struct blocks *blocks);           /* NULL is allowed */
 int ss_blocks_covers(const struct blocks *blocks, size_t i);     /* blocks may be NULL */
