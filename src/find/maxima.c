@@ -24,7 +24,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/largest.h"
 #include "base/list.h"
 #include "base/versions.h"
 #include "map/map.h"
@@ -34,7 +33,6 @@
 #define NONE UINT32_MAX         /* no peak: of a dry hill, or not known yet */
 
 enum {
-    RECENT = 1 << 12,           /* borders that are kept at hand while they may be met higher up */
     HALO = 3,                   /* neighbours of a point in a row beside it are within so many */
     STRIP = 1 << 20             /* points of a strip, about */
 };
@@ -52,7 +50,7 @@ typedef struct peak {
     size_t pool;                /* leads to the highest peak of its pool */
 } peak;
 
-/* Between the basins of peaks p < q.  Of several between the same two, the highest counts. */
+/* Between the basins of peaks p and q.  Of several between the same two, the highest counts. */
 typedef struct border {
     double level;               /* |W| > 0 */
     uint32_t p, q;
@@ -75,11 +73,10 @@ typedef struct flood {
     size_t room;
     double *level;              /* of a strip's points; 0: dry */
     uint32_t *label;            /* their hills */
-    uint32_t *turn;             /* see find_turns */
     size_t n_hills, hill_room, n_peaks, peak_room, n_borders, border_room;
     hill *hill;                 /* of a strip, row by row */
     peak *peak;
-    border *border, recent[RECENT];
+    border *border;
     int failed;                 /* 1: no memory for hills, peaks or borders */
 } flood;
 
@@ -89,7 +86,6 @@ free_all(flood *f)
     free(f->line);
     free(f->level);
     free(f->label);
-    free(f->turn);
     free(f->hill);
     free(f->peak);
     free(f->border);
@@ -133,25 +129,22 @@ next_strip(flood *f, double t)
         return SS_OK;
     free(f->level);
     free(f->label);
-    free(f->turn);
     f->room = n + n / 64 + f->rows * HALO;      /* strips differ, and the first has no halo */
     f->level = malloc(f->room * sizeof *f->level);
     f->label = malloc(f->room * sizeof *f->label);
-    f->turn = malloc((f->room + 1) * sizeof *f->turn);
-    return f->level != NULL && f->label != NULL && f->turn != NULL ? SS_OK : SS_ENOMEM;
+    return f->level != NULL && f->label != NULL ? SS_OK : SS_ENOMEM;
 }
 
+/* Set what is not above the floor to 0.  Returns the largest level. */
 VERSIONS static double
-top_of(const double *level, size_t n)
-{
-    return largest_of(level, n);
-}
-
-VERSIONS static void
 dry_below(double *level, size_t n, double floor)
 {
-    for (size_t k = 0; k < n; k++)
+    double most = 0;
+    for (size_t k = 0; k < n; k++) {
+        most = level[k] > most ? level[k] : most;
         level[k] = level[k] > floor ? level[k] : 0;
+    }
+    return most;
 }
 
 /* Read the levels of a strip, note the largest of them, and set those that are dry or in the cone of influence
@@ -174,12 +167,11 @@ read_strip(flood *f)
         const ss_scale *scale = scale_of(f, row);
         double *level = f->level + l->at;
         size_t n = l->end - l->lo, from = 0, to = n;
-        double top = top_of(level, n);
+        double top = dry_below(level, n, f->floor);
         for (size_t k = 0; k < n && top > f->outside; k++)
             if (level[k] > f->outside && !ss_coefficients_edge(map, f->first + row, l->lo + k))
                 f->outside = level[k];
         f->all = fmax(f->all, top);
-        dry_below(level, n, f->floor);
         while (from < to && ss_scale_edge(scale, l->lo + from, map->n, map->head->rate))
             level[from++] = 0;
         while (to > from && ss_scale_edge(scale, l->lo + to - 1, map->n, map->head->rate))
@@ -230,40 +222,38 @@ first_beside(const pair *p, size_t i, size_t j)
 
 /* --- hills and peaks ------------------------------------------------------------------------- */
 
-/* The points from k on, before n, from which on levels rise no more, and then rise again, by turns; the last
- * point is the end of both.  Returns their number, which is even.  No branch, as none could be foreseen. */
+/* Add the hill of the points from `first` up to end, of this peak, to those of a row.  Returns end. */
 static size_t
-find_turns(const double *level, size_t k, size_t n, uint32_t *turn)
+add_hill(flood *f, size_t first, size_t top, size_t end, uint32_t number)
 {
-    size_t count = 0, rose = 1;
-    for (; k + 1 < n; k++) {
-        size_t rises = level[k + 1] > level[k];
-        turn[count] = (uint32_t)k;
-        count += rises != rose;
-        rose = rises;
-    }
-    turn[count] = turn[count + rose] = (uint32_t)(n - 1);
-    return count + 1 + rose;
+    hill *list = longer(f, f->hill, &f->hill_room, f->n_hills, sizeof *list);
+    if (list == NULL)
+        return end;
+    f->hill = list;
+    for (size_t point = first; point < end; point++)
+        f->label[point] = (uint32_t)f->n_hills;
+    list[f->n_hills] = (hill){ (uint32_t)top, (uint32_t)end, (uint32_t)f->n_hills, number };
+    f->n_hills++;
+    return end;
 }
 
-/* Cut a row into hills: a top is the first of equals. */
+/* Cut a row into hills, which begin behind a valley: a top is the first of equals, and a valley the last. */
 static void
 cut(flood *f, line *l)
 {
-    size_t halo = l->from - l->lo, point = l->at, behind = l->at + l->end - l->lo;
-    size_t turns = point + halo < behind ? find_turns(f->level, point + halo, behind, f->turn) : 0;
+    const double *level = f->level;
+    size_t halo = l->from - l->lo, point = l->at;
+    const size_t behind = l->at + l->end - l->lo;
     l->hill = f->n_hills;
-    for (size_t i = 0; i < halo + turns / 2; i++) {
-        hill *list = longer(f, f->hill, &f->hill_room, f->n_hills, sizeof *list);
-        if (list == NULL)
-            return;
-        f->hill = list;
-        uint32_t number = (uint32_t)f->n_hills++;
-        uint32_t top = i < halo ? (uint32_t)(l->at + i) : f->turn[2 * (i - halo)];
-        uint32_t end = i < halo ? top + 1 : f->turn[2 * (i - halo) + 1] + 1;
-        f->hill[number] = (hill){ top, end, number, i < halo ? l->before[halo - 1 - i] : NONE };
-        for (; point < end; point++)
-            f->label[point] = number;
+    for (; halo > 0; halo--)
+        point = add_hill(f, point, point, point + 1, l->before[halo - 1]);
+    while (point < behind) {
+        size_t top = point, last;
+        while (top + 1 < behind && level[top + 1] > level[top])
+            top++;
+        for (last = top; last + 1 < behind && !(level[last + 1] > level[last]);)
+            last++;
+        point = add_hill(f, point, top, last + 1, NONE);
     }
 }
 
@@ -343,31 +333,17 @@ climb(flood *f)
 
 /* --- borders ------------------------------------------------------------------------------- */
 
-static void
-keep_border(flood *f, border b)
-{
-    border *list = longer(f, f->border, &f->border_room, f->n_borders, sizeof *list);
-    if (list == NULL)
-        return;
-    f->border = list;
-    f->border[f->n_borders++] = b;
-}
-
 /* Between two peaks; there is none if they are one, or if there is no peak, or if the border is dry. */
 static void
 add_border(flood *f, uint32_t p, uint32_t q, double level)
 {
-    border found = { level, p < q ? p : q, p < q ? q : p };
-    border *slot = &f->recent[((size_t)found.p * 31 + found.q) % RECENT];
-    if (p == q || found.q == NONE || !(level > 0))
+    if (p == q || p == NONE || q == NONE || !(level > 0))
         return;
-    if (slot->p == found.p && slot->q == found.q) {
-        slot->level = slot->level > level ? slot->level : level;
+    border *list = longer(f, f->border, &f->border_room, f->n_borders, sizeof *list);
+    if (list == NULL)
         return;
-    }
-    if (slot->q > 0)
-        keep_border(f, *slot);
-    *slot = found;
+    f->border = list;
+    list[f->n_borders++] = (border){ level, p, q };
 }
 
 /* Between the hills of each row, and of each two rows. */
@@ -419,9 +395,6 @@ survey(flood *f)
             find_borders(f);
         st = st != SS_OK ? st : f->failed ? SS_ENOMEM : ss_map_progress(f->map, (double)i / (double)strips);
     }
-    for (size_t i = 0; i < RECENT; i++)
-        if (f->recent[i].q > 0)
-            keep_border(f, f->recent[i]);
     return f->failed ? SS_ENOMEM : st;
 }
 

@@ -35,19 +35,6 @@ missing(const row_source *source, size_t i)
         && ss_gaps_near(source->gap, source->n_gaps, ((double)i + 0.5) / source->rate, 0);
 }
 
-/* The larger of two finite numbers; compilers make no call of it. */
-static inline double
-least(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double
-most(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 /* The step of the converter from which the samples come; 0: none is seen.  It is the smallest change, if
  * nearly all others are multiples of it.  So a signal of few levels that changes seldom counts as one of
  * steps. */
@@ -59,13 +46,13 @@ converter_step(const row_source *source)
     double step = INFINITY, lo = INFINITY, hi = -INFINITY;
     for (size_t i = 1; i < n; i++)
         if (x[i] != x[i - 1] && !missing(source, i) && !missing(source, i - 1))
-            step = least(step, fabs(x[i] - x[i - 1]));
+            step = fmin(step, fabs(x[i] - x[i - 1]));
     for (size_t i = 1; i < n; i++) {
         if (missing(source, i) || missing(source, i - 1))
             continue;
         double steps = fabs(x[i] - x[i - 1]) / step;
-        lo = least(lo, least(x[i], x[i - 1]));
-        hi = most(hi, most(x[i], x[i - 1]));
+        lo = fmin(lo, fmin(x[i], x[i - 1]));
+        hi = fmax(hi, fmax(x[i], x[i - 1]));
         changes += steps > 0;
         fit += steps > 0 && fabs(steps - round(steps)) < 0.1;   /* a fifth of them fits by chance */
         if (changes - fit > n / 10)
@@ -85,8 +72,8 @@ ss_row_source_init(row_source *source, const double *x, size_t n, double rate, c
     for (size_t i = 0; i < n; i++) {
         if (missing(source, i))
             continue;
-        lo = least(lo, x[i]);
-        hi = most(hi, x[i]);
+        lo = fmin(lo, x[i]);
+        hi = fmax(hi, x[i]);
     }
     source->constant = !(hi > lo);
     if (hi > lo)
@@ -178,28 +165,24 @@ fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
 {
     const ss_scale *scale = &source->rows->scale[index];
     const ss_window all = translations(source, scale);
-    const size_t n = ss_window_length(all), first = all.first - 1;
+    const size_t n = ss_window_length(all);
     const double margin = (double)source->margin / source->rate, step = scale->b_num / scale->b_den;
-    double *level = source->level;
-    const ss_map_part part = { index, first, n + 2, NULL, level + first };
-    r->peak = malloc((scale->n / 2 + 1) * sizeof *r->peak);
-    ss_status st = r->peak != NULL ? ss_map_read(source->rows, &part, 1, NULL) : SS_ENOMEM;
-    if (st != SS_OK) {
-        free(r->peak);
-        return st;
-    }
-    for (size_t k = all.first; k < all.end; k++) {
-        if (!((level[k] > level[k - 1]) & (level[k] >= level[k + 1])))  /* one branch, which is seldom taken */
+    double *more = malloc((n + 2) * sizeof *more), *level = more + 1;   /* more: one on either side */
+    r->peak = malloc((n / 2 + 1) * sizeof *r->peak);
+    ss_status st = more == NULL || r->peak == NULL ? SS_ENOMEM
+        : ss_map_read(source->rows, &(ss_map_part){ index, all.first - 1, n + 2, NULL, more }, 1, NULL);
+    for (size_t k = 0; st == SS_OK && k < n; k++) {
+        if (!((level[k] > more[k]) & (level[k] >= level[k + 1])))       /* one branch, which is seldom taken */
             continue;
-        double t = ss_scale_b(scale, k) - margin;
+        double t = ss_scale_b(scale, all.first + k) - margin;
         if (ss_gaps_near(source->gap, source->n_gaps, t, ROW_REACH * r->a))
             continue;
-        r->peak[r->n] = summit(level + k - 1, t, step);
-        r->top = most(r->top, r->peak[r->n++].level);
+        r->peak[r->n] = summit(more + k, t, step);
+        r->top = fmax(r->top, r->peak[r->n++].level);
     }
-    level += all.first;
-    r->rms = noise_of(source, loud, level, n, ss_scale_b(scale, all.first) - margin, step, r->a);
-    if (source->keeps_heads && source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
+    if (st == SS_OK)
+        r->rms = noise_of(source, loud, level, n, ss_scale_b(scale, all.first) - margin, step, r->a);
+    if (st == SS_OK && source->keeps_heads && source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
         scale_row *head = &source->head[source->n_heads++];
         *head = *r;
         head->peak = NULL;
@@ -207,7 +190,10 @@ fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
         if (loud != NULL && loud->n > 0)
             head->rms_of_all = rms_of(source, gsl_stats_select(level, 1, n, n / 2));
     }
-    return SS_OK;
+    if (st != SS_OK)
+        free(r->peak);
+    free(more);
+    return st;
 }
 
 /* Prepare the rows of an octave and of those above it. */
@@ -231,15 +217,6 @@ open_octaves(row_source *source, double octave)
     return st;
 }
 
-static ss_status
-make_room(row_source *source, size_t n)
-{
-    free(source->level);
-    source->level = malloc(n * sizeof *source->level);
-    source->room = source->level != NULL ? n : 0;
-    return source->level != NULL ? SS_OK : SS_ENOMEM;
-}
-
 ss_status
 ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud)
 {
@@ -250,10 +227,7 @@ ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud)
     if (st != SS_OK)
         return st;
     size_t index = (size_t)(source->end * ROW_VOICES - 1 - j);          /* long to short */
-    const ss_scale *scale = &source->rows->scale[index];
-    if (scale->n + 1 > source->room && (st = make_room(source, scale->n + 1)) != SS_OK)
-        return st;
-    *r = (scale_row){ .a = scale->a, .f = scale->f };
+    *r = (scale_row){ .a = source->rows->scale[index].a, .f = source->rows->scale[index].f };
     return fill_row(r, source, loud, index);
 }
 
@@ -271,9 +245,6 @@ ss_row_source_free(row_source *source)
 {
     ss_coefficients_free(source->rows);
     source->rows = NULL;
-    free(source->level);
-    source->level = NULL;
-    source->room = 0;
 }
 
 double

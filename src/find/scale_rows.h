@@ -41,8 +41,6 @@ typedef struct row_source {
     ss_coefficients *rows;
     double octave, end;
     size_t margin;
-    double *level;              /* room for so many of a scale_row */
-    size_t room;
     int keeps_heads;            /* 1: ss_row_head has the first rows */
     scale_row head[ROW_HEADS];  /* these rows, without their peaks */
     size_t n_heads;

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/largest.h"
 #include "base/versions.h"
 #include "io/reader.h"
 #include "map/map.h"
@@ -38,7 +37,9 @@ add_levels(extremes *r, const double *level, size_t n)
     double all = 0;
     for (size_t k = 0, m, i; k < n; k += m) {
         m = ss_extremes_next(r, n - k, &i);
-        double most = largest_of(level + k, m);
+        double most = 0;
+        for (size_t j = k; j < k + m; j++)
+            most = level[j] > most ? level[j] : most;
         r->most[i] = most > r->most[i] ? most : r->most[i];
         all = most > all ? most : all;
         r->n += m;
