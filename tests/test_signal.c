@@ -67,10 +67,12 @@ blanks_control_characters(void **state)
     (void)state;
     ss_header_add_column(head, "a\033[2J\302\2332J\303\233", "\033m\302\233\302\265", NULL);
     ss_header_add_column(head, "b\2332J", NULL, NULL);
+    ss_header_add_column(head, "c\200d", NULL, NULL);
     ss_header_note(head, "note", "\033]0;t\a\n\tu\302\205v\177", NULL);
     assert_string_equal(head->column[0].name, "a_[2J__2J\303\233");
     assert_string_equal(head->column[0].unit, " m  \302\265");
     assert_string_equal(head->column[1].name, "b__2J");
+    assert_string_equal(head->column[2].name, "c__d");
     assert_string_equal(ss_header_find_note(head, "note"), " ]0;t  \tu  v ");
     ss_header_note(head, "\200start", "\201", NULL);
     assert_string_equal(head->note[1], "??start:   ");
