@@ -258,9 +258,9 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
     double by_one = d[1] + d[3] - 2 * d[2], by_two = d[0] + d[4] - 2 * d[2];
     c.jump = by_one > 0 ? fmax(0, fmin(1, 2 - 0.5 * by_two / by_one)) : 0;
 
-    double slopes = difference(fine, first, 1, whole);
-    c.noise = slopes > 0 ? difference(fine, first, lag, whole) / (slopes * (double)whole) : 0;
-    if (first + 2 * lag + whole < fine->n && slopes > 0)
+    double slopes = difference(fine, first, 1, whole);      /* more than 0 in a cycle with energy */
+    c.noise = difference(fine, first, lag, whole) / (slopes * (double)whole);
+    if (first + 2 * lag + whole < fine->n)
         c.drift = (difference(fine, first, 2 * lag, whole) - difference(fine, first, lag, whole)) / 3 / slopes;
     /* a hum may pull the lag over twice as many cycles from twice the lag, by up to reach */
     size_t over = lag, reach = lag / PULLED, step = reach / 8 + 1;
