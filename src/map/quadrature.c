@@ -35,10 +35,6 @@ typedef struct kernel {
     double second;                      /* exp(-omega_c^2/2) if admissible, else 0 */
     size_t taps;                        /* tables are filled for |k| < taps */
     double *re, *im, *gauss;            /* T_k and exp(-(k d)^2/2) at index k, also negative */
-    struct answer {
-        double bound;
-        size_t n, taps;                 /* taps 0: none yet */
-    } last[2];                          /* results of taps_for for each pass */
 } kernel;
 
 static kernel
@@ -91,22 +87,11 @@ tail(const kernel *ker, double r)
 static size_t
 taps_for(const kernel *ker, double bound, size_t n)
 {
-    double r = 1;
-    while (tail(ker, r) > bound)
+    double r = 1 + floor(16 * fmax(sqrt(2 * log(fmax(0.2 / bound, 1))) - 1, 0)) / 16;
+    while (tail(ker, r) > bound)                /* it is more than 0.2 exp(-r^2/2) */
         r += 1. / 16;
     double taps = ceil(r / ker->d + 0.5);       /* 0.5 because |tau| <= 1/2 */
     return taps < (double)n ? (size_t)taps : n;
-}
-
-/* The same, with the last result of each pass kept: a stream computes one coefficient after the other,
- * nearly always with the same bound. */
-static size_t
-taps_of_pass(kernel *ker, int pass, double bound, size_t n)
-{
-    struct answer *last = &ker->last[pass];
-    if (last->taps == 0 || last->n != n || memcmp(&last->bound, &bound, sizeof bound) != 0)
-        *last = (struct answer){ bound, n, taps_for(ker, bound, n) };
-    return last->taps;
 }
 
 /* The sum of x_i g_i (re_i, im_i) over n taps, in lanes that a compiler may put into one register. */
@@ -284,7 +269,7 @@ ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *
         w[i] = 0;
 
     for (int pass = 0; pass < 2 && rec->x_max > 0; pass++) {
-        size_t to = taps_of_pass(ker, pass, fmax(bound, TAIL_FLOOR), n);
+        size_t to = taps_for(ker, fmax(bound, TAIL_FLOOR), n);
         if (to <= from)
             break;
         fill_tables(ker, to);
