@@ -266,11 +266,11 @@ falls_model(const double *u, double *residual, double *slopes, void *user)
 
 /* --- the fit ------------------------------------------------------------------------------- */
 
-/* Find f_s, which the force has at the onset, and the f_k with which the scene falls as far as the force does.
- * If f_s is little more than f_k, a scene may slide without falls; its least fall may be too high.  Then it
- * starts from this least fall. */
+/* Find f_s, which the force has at the onset but for a damper's drag, and the f_k with which the scene falls as far
+ * as the force does.  If f_s is little more than f_k, a scene may slide without falls; its least fall may be too high.
+ * Then it starts from this least fall. */
 static ss_status
-start_fall(problem *f, size_t i, double top, double *u, double *row)
+start_fall(problem *f, size_t i, double *u, double *row)
 {
     enum { PASSES = 8 };
     const fall *w = &f->r->fall[i];
@@ -279,7 +279,7 @@ start_fall(problem *f, size_t i, double top, double *u, double *row)
     for (int pass = 0; pass <= PASSES; pass++) {
         half = pass < PASSES || isinf(slips) ? half : slips;
         v[HALF] = log(half / height);
-        v[MIDDLE] = (top - half - w->middle) / height;
+        v[MIDDLE] = (w->top - half - w->middle) / height;
         ss_status st = pass < PASSES ? fall_time(f, u, i, &time) : SS_OK;
         if (pass < PASSES && st == SS_OK)
             st = fall_rows(f, u, i, time, row);
@@ -314,10 +314,8 @@ start(problem *f, double far, double *u, double *row)
     if (r->k_over_m.value > 0)
         u[MASS] = fmax(-far, fmin(log(stiffness / r->k_over_m.value / f->out->key[MASS].own), far));
     u[SPEED] = fmax(-far, fmin(log(speed), far));
-    const ss_scene s = scene_of(f, u);
-    const double drag = fabs(s.damping * s.surface_velocity) * sign(s.surface_velocity * pull_of(&s));
     for (size_t i = 0; st == SS_OK && i < r->n; i++)
-        st = start_fall(f, i, r->fall[i].top - drag, u, row);
+        st = start_fall(f, i, u, row);
     return st;
 }
 

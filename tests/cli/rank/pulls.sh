@@ -99,3 +99,10 @@ for damping in 3.1 3.3 3.7; do
     { cat hardly.scene; echo damping = $damping; } > own.scene
     answer hardly.tsv own.scene hardly.scene
 done
+# and with forces a millionth as large
+for scene in own hardly; do
+    awk '/^(mass|stiffness|static_friction|friction|damping)/ { $3 *= 1e-6 } { print }' $scene.scene > small
+    mv small $scene.scene
+done
+ss-sim -c t,s -s damping=3.3e-6 hardly.scene | ss-noise --snr 20 > hardly.tsv
+answer hardly.tsv own.scene hardly.scene
