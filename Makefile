@@ -175,8 +175,11 @@ $(BUILD)/bin/%: tools/%.sh data/report.css include/stickslip/status.h
 $(BUILD)/tests/%: $(BUILD)/tests/%.o $(STATIC)
 	$(CC) $(ALL_LDFLAGS) -o $@ $(filter %.o,$^) $(STATIC) $(CMOCKA_LIBS) $(LIBS)
 
-# The library's allocations in this test go through it.  Only the linkers of ELF have that.
-WRAPPED := malloc calloc realloc free strdup strndup open_memstream fftw_malloc fftw_free
+# The library's allocations in this test go through it, and what it asks GSL for.  Only the linkers of ELF have that.
+OF_GSL := vector matrix interp rng qrng multimin_fminimizer multilarge_nlinear multifit_linear \
+    odeiv2_step eigen_nonsymm integration_fixed
+WRAPPED := malloc calloc realloc free strdup strndup open_memstream fftw_malloc fftw_free \
+    $(foreach of,$(OF_GSL),gsl_$(of)_alloc gsl_$(of)_free)
 $(BUILD)/tests/test_memory: ALL_LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 
 $(BUILD)/tests/test_sim $(BUILD)/tests/test_sim_truth $(BUILD)/tests/test_taylor $(BUILD)/tests/test_trade \
