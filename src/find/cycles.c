@@ -70,7 +70,7 @@
 #define ROUGH 4.0               /* times: see roughness */
 #define ALIKE 2e-4              /* of the variance: cycles that differ by less are alike */
 #define CLEARER 4.0             /* by chance, cycles with noise or a clock that wanders differ by a factor of 2 */
-#define ONE 0.9                 /* of what differs: more is one line */
+#define ONE 0.8                 /* of what differs: more is one line */
 #define LOW 2.5                 /* times the frequency: the lines of a motion itself may be strong up to there */
 #define SEEN 0.6                /* of the cycles: what repeats after more is seen by too few */
 #define MOST 64.0               /* periods that are looked at for that */
@@ -562,11 +562,11 @@ unlikeness(const view *v, double lag, double period)
     return gsl_stats_quantile_from_sorted_data(sum, 1, n, 0.75);
 }
 
-/* The lag after which it is most like itself, near one that a hum or some cycles may have pulled. */
+/* The lag after which it is most like itself, near one that a hum may have pulled by a part of the period. */
 static double
-lag_near(const view *v, double about)
+lag_near(const view *v, double about, double period)
 {
-    const size_t off = (size_t)(about / PULLED) + 1, step = off / 8 + 1, m = v->n - (size_t)about - 2 * off - 4;
+    const size_t off = (size_t)(period / PULLED) + 1, step = off / 8 + 1, m = v->n - (size_t)about - 2 * off - 4;
     size_t lag = refine(v, 0, m, best_lag(v, 0, m, (size_t)about - off, (size_t)about + off, step), step);
     size_t likely = refine(v, 0, m, (size_t)(about + 0.5), 1);
     if (relative(v, 0, likely, m) < relative(v, 0, lag, m))
@@ -580,7 +580,7 @@ lag_near(const view *v, double about)
 static double
 after(const view *v, double period, double cycles)
 {
-    return unlikeness(v, lag_near(v, cycles * period), period);
+    return unlikeness(v, lag_near(v, cycles * period, period), period);
 }
 
 /* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as
@@ -597,7 +597,7 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
     unlike[1] = after(v, period, 1);
     if (!(unlike[1] > fmax(roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
         return SS_OK;
-    ss_status st = line_between(v, lag_near(v, period), 0.5, &f);
+    ss_status st = line_between(v, lag_near(v, period, period), 0.5, &f);
     for (; known < LOOKED_AT && (double)known < SEEN * most; known++)
         unlike[known] = after(v, period, (double)known);
     for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && *in_turn == 1; p++) {
