@@ -63,31 +63,16 @@ from_units(const ode *o, const double y[], double q[])
         q[i] = y[i] * o->unit[i];
 }
 
-static inline int
-rates_in_units(ode *o, double force, const double y[], double dydt[])
-{
-    const state *m = &o->base.m->now;
-    double q[MAX_DIM], dqdt[MAX_DIM];
-    o->base.rhs++;
-    from_units(o, y, q);
-    m->model->rates(m, force, q, dqdt);
-    to_units(o, dqdt, dydt);
-    return GSL_SUCCESS;
-}
-
-/* Most of the time of a run goes into these two functions, so that only scenes with a pull pay for it. */
+/* Most of the time of a run goes into this function. */
 static int
 rhs(double u, const double y[], double dydt[], void *params)
 {
     ode *o = params;
-    return rates_in_units(o, swing_force(&o->base.m->now, u), y, dydt);
-}
-
-static int
-rhs_with_pull(double u, const double y[], double dydt[], void *params)
-{
-    ode *o = params;
-    return rates_in_units(o, base_force(&o->base.m->now, u), y, dydt);
+    double q[MAX_DIM], dqdt[MAX_DIM];
+    from_units(o, y, q);
+    rates(o, u, q, dqdt);
+    to_units(o, dqdt, dydt);
+    return GSL_SUCCESS;
 }
 
 static int
@@ -361,7 +346,7 @@ ss_ode_new(engine **out, motion *of, const char *name, int multistep, double tol
         return ss_fail_memory(err, NULL);
     o->base = (engine){ .type = &ode_type, .m = of,
                         .lands_on_samples = multistep && m->model->next == NULL };
-    o->system = (gsl_odeiv2_system){ m->moves ? rhs_with_pull : rhs, jacobian, m->model->dim, o };
+    o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
     o->multistep = multistep;
     o->tol = tol;
     o->h_next = fmax(ss_step_cap(m), ss_step_floor(m));

@@ -330,12 +330,6 @@ base_turn(const state *m, double u)
 }
 
 static inline double
-swing_force(const state *m, double u)               /* of a base that is not pulled */
-{
-    return m->drive * cos(m->theta + m->omega * u);
-}
-
-static inline double
 measured_base(const state *m, double u)             /* [m] */
 {
     double s = u - m->u_piece;
@@ -367,7 +361,7 @@ base_force_by(const state *m, turn base, double u)
 static inline double
 base_force(const state *m, double u)
 {
-    return with_rest(m, swing_force(m, u), u);
+    return with_rest(m, m->drive * cos(m->theta + m->omega * u), u);
 }
 
 static inline double
