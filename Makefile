@@ -179,7 +179,7 @@ $(BUILD)/tests/%: $(BUILD)/tests/%.o $(STATIC)
 OF_GSL := vector matrix interp rng qrng multimin_fminimizer multilarge_nlinear multifit_linear \
     odeiv2_step eigen_nonsymm integration_fixed
 WRAPPED := malloc calloc realloc free strdup strndup open_memstream fftw_malloc fftw_free \
-    $(foreach of,$(OF_GSL),gsl_$(of)_alloc gsl_$(of)_free)
+    $(foreach of,$(OF_GSL),gsl_$(of)_alloc gsl_$(of)_free) H5Fclose
 $(BUILD)/tests/test_memory: ALL_LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 
 $(BUILD)/tests/test_sim $(BUILD)/tests/test_sim_truth $(BUILD)/tests/test_taylor $(BUILD)/tests/test_trade \

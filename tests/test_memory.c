@@ -6,6 +6,7 @@
  * a fit only takes longer.  What the library leaves to its caller is freed as a caller would, so that whatever is
  * still there at the end of a run has been lost. */
 #include <fftw3.h>
+#include <hdf5.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
@@ -184,6 +185,17 @@ WRAP(gsl_eigen_nonsymm_workspace, gsl_eigen_nonsymm, (size_t n), (n))
 WRAP(gsl_integration_fixed_workspace, gsl_integration_fixed,
      (const gsl_integration_fixed_type *type, size_t n, double a, double b, double alpha, double beta),
      (type, n, a, b, alpha, beta))
+
+static int closing_fails;
+herr_t __real_H5Fclose(hid_t);
+herr_t __wrap_H5Fclose(hid_t);
+
+herr_t
+__wrap_H5Fclose(hid_t file)
+{
+    herr_t done = __real_H5Fclose(file);
+    return closing_fails ? -1 : done;
+}
 
 /* --- what is called ------------------------------------------------------------------------ */
 
@@ -1019,9 +1031,26 @@ every_allocation_may_fail(void **state)
         }
 }
 
+/* What HDF5 cannot write as it closes a file, although no write has failed, is an error, and the file goes. */
+static void
+a_file_that_is_not_closed_is_not_written(void **state)
+{
+    char other[sizeof path + 2];
+    (void)state;
+    snprintf(other, sizeof other, "%s.2", path);
+    for (int fails = 0; fails < 2; fails++) {
+        closing_fails = fails;
+        ss_status st = ss_record_write(&(ss_record){ .signal = signal }, NULL, other, SS_H5, NULL);
+        closing_fails = 0;
+        assert_int_equal(st, fails ? SS_EIO : SS_OK);
+        assert_int_equal(unlink(other), fails ? -1 : 0);
+    }
+}
+
 int
 main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(every_allocation_may_fail) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(every_allocation_may_fail),
+                                        cmocka_unit_test(a_file_that_is_not_closed_is_not_written) };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
