@@ -786,6 +786,46 @@ gaps_leave_out_what_they_reach_and_nothing_else(void **state)
     }
 }
 
+/* A slider of friction 1 N on a spring of 4 N/m that is moved to and fro, as Jenkins's: where two of three steps of
+ * the force lack samples, whose displacement is not known, either, the others have the stiffness. */
+static void
+steps_with_gaps_have_no_stiffness(void **state)
+{
+    enum { HALF = 500, HALVES = 12, N = HALVES * HALF + 200 };
+    char gaps[400] = "";
+    ss_header *head = NULL;
+    ss_signal *signal = NULL;
+    ss_features *f = NULL;
+    ss_features_opts opts;
+    (void)state;
+    ss_features_opts_init(&opts, sizeof opts);
+    opts.displacement = 1;
+    assert_int_equal(ss_header_new(&head, 1000, 0, NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "force", "N", NULL), SS_OK);
+    assert_int_equal(ss_header_add_column(head, "x", "m", NULL), SS_OK);
+    assert_int_equal(ss_signal_new(&signal, head, N, NULL), SS_OK);
+    double *force = signal->values, *x = force + N;
+    for (size_t i = 0; i < N; i++) {
+        double to = 2 * (double)(i % HALF) / HALF - 1;
+        x[i] = i / HALF % 2 ? -to : to;
+        force[i] = i == 0 ? -1 : fmax(-1, fmin(1, force[i - 1] + 4 * (x[i] - x[i - 1])));
+    }
+    for (size_t k = 1; k < HALVES; k++)
+        if (k % 3 > 0) {
+            size_t first = k * HALF + 2, length = 30, end = strlen(gaps);
+            memset(force + first, 0, length * sizeof *force);
+            memset(x + first, 0, length * sizeof *x);
+            snprintf(gaps + end, sizeof gaps - end, "%s%zue-3:%zue-3", end > 0 ? " " : "", first, first + length);
+        }
+    assert_int_equal(ss_header_note(signal->head, "gaps", gaps, NULL), SS_OK);
+    assert_int_equal(ss_features_find(&f, signal, 0, &opts, NULL), SS_OK);
+    assert_true(fabs(f->number[SS_FRICTION].value - 1) < 1e-3);
+    assert_true(fabs(f->number[SS_LOADING_STIFFNESS].value - 4) < 1e-3);
+    ss_features_free(f);
+    ss_signal_free(signal);
+    ss_header_free(head);
+}
+
 static void
 refuses_what_is_out_of_range(void **state)
 {
@@ -803,6 +843,9 @@ refuses_what_is_out_of_range(void **state)
         assert_int_equal(ss_features_find(&f, signal, 0, &bad[i], NULL), SS_EINVAL);
     assert_int_equal(ss_features_find(&f, signal, 1, &good, NULL), SS_EINVAL);
     signal->values[3] = NAN;
+    assert_int_equal(ss_features_find(&f, signal, 0, &good, NULL), SS_EDATA);
+    signal->values[3] = 0;
+    ss_header_note(signal->head, "gaps", "1:2, 3:4", NULL);
     assert_int_equal(ss_features_find(&f, signal, 0, &good, NULL), SS_EDATA);
     ss_features_free(NULL);
     ss_signal_free(signal);
@@ -832,6 +875,7 @@ main(void)
         cmocka_unit_test(has_no_slope_without_a_spring),
         cmocka_unit_test(reads_the_slope_of_force_over_displacement),
         cmocka_unit_test(gaps_leave_out_what_they_reach_and_nothing_else),
+        cmocka_unit_test(steps_with_gaps_have_no_stiffness),
         cmocka_unit_test(refuses_what_is_out_of_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

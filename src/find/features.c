@@ -233,9 +233,10 @@ ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, c
         return st;
     const size_t n = signal->n;
     double *x = malloc((2 * n + 1) * sizeof *x);
-    if (x == NULL || ss_gaps_of(&gap, &n_gaps, signal->head, n) != SS_OK) {
+    st = x != NULL ? ss_gaps_of(&gap, &n_gaps, signal->head, n) : SS_ENOMEM;
+    if (st != SS_OK) {
         free(x);
-        return ss_fail_memory(err, NULL);
+        return ss_fail(err, st, "%s", ss_strerror(st));
     }
     memcpy(x, signal->values + column * n, n * sizeof *x);
     ss_features *found = NULL;
