@@ -408,6 +408,14 @@ takes_options_at_the_ends_of_their_ranges(void **state)
     }
 }
 
+/* Tables whose bytes are 24 more than a size_t counts. */
+static void
+wavelets_too_long_for_memory_are_none(void **state)
+{
+    (void)state;
+    assert_null(ss_wavelet_new(&ss_morlet_defaults, 1e25, 1, SIZE_MAX / 16 + 2));
+}
+
 /* --- extremes ------------------------------------------------------------------------------ */
 
 /* To the last bit, also where coefficients are subnormal; samples of 20 bits are exact there. */
@@ -583,6 +591,7 @@ main(void)
         cmocka_unit_test(refuses_what_is_not_usable),
         cmocka_unit_test(refuses_options_out_of_range),
         cmocka_unit_test(takes_options_at_the_ends_of_their_ranges),
+        cmocka_unit_test(wavelets_too_long_for_memory_are_none),
         cmocka_unit_test(amplitudes_of_any_size_scale_the_coefficients),
         cmocka_unit_test(samples_below_2_to_the_minus_900_of_the_largest_count_as_zeros),
         cmocka_unit_test(refuses_coefficients_that_overflow),

@@ -103,6 +103,8 @@ refuses_waves_out_of_range(void **state)
     assert_int_equal(s->n, 0);
     ss_signal_free(s);
     assert_int_equal(ss_wave_new(&s, SS_SINE, &huge, NULL), SS_EINVAL);
+    huge.rate = 1, huge.duration = (double)(SIZE_MAX / 64);     /* rounded up: no number of samples */
+    assert_int_equal(ss_wave_new(&s, SS_SINE, &huge, NULL), SS_EINVAL);
 }
 
 /* --- noise --------------------------------------------------------------------------------- */

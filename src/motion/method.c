@@ -8,7 +8,7 @@ enum { EXACT, TAYLOR, RK8PD, RKF45, RKCK, RK4, RK2, RK1IMP, RK2IMP, RK4IMP, BSIM
        METHODS };
 
 static const struct method list[METHODS] = {
-    [EXACT] = { "exact", CLOSED_FORM, 0, 0 },
+    [EXACT] = { .name = "exact", .kind = CLOSED_FORM },
     [TAYLOR] = { "taylor", SERIES, 0.4, 12 },
     [RK8PD] = { "rk8pd", ONE_STEP, 1, 13 },
     [RKF45] = { "rkf45", ONE_STEP, 1.1, 6 },

@@ -149,12 +149,10 @@ ss_h5_write_lists(h5_file *file, hid_t group, const h5_dataset v[], size_t n, si
 int
 ss_h5_write_piece(hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type, const void *values)
 {
-    hsize_t count[2] = { 1, 1 };
-    hsize_t dims[2] = { 0, 0 }, end = at[rank - 1] + n;
+    hsize_t count[2] = { 1, 1 }, dims[2], end = at[rank - 1] + n;
     hid_t space = H5Dget_space(id), memory = H5Screate_simple(1, &n, NULL);
     count[rank - 1] = n;
-    H5Sget_simple_extent_dims(space, dims, NULL);
-    if (dims[rank - 1] < end) {
+    if (H5Sget_simple_extent_dims(space, dims, NULL) == rank && dims[rank - 1] < end) {
         dims[rank - 1] = end;
         H5Sclose(space);
         space = H5Dset_extent(id, dims) >= 0 ? H5Dget_space(id) : -1;
