@@ -5,8 +5,10 @@
 #include <math.h>
 #include <stickslip.h>
 #include "find/drops.h"
+#include "find/extent.h"
 #include "find/fitter.h"
 #include "find/hum.h"
+#include "find/line.h"
 #include "find/rests.h"
 #include "spike_score.h"
 #include "uniform.h"
@@ -495,6 +497,29 @@ a_slow_drift_is_no_drop(void **state)
     free(drop);
 }
 
+/* An event of 100, with twice as much as counts as noise, a hundredth, before it, and just that behind it. */
+static void
+a_hundredth_of_an_event_counts_as_noise(void **state)
+{
+    double x[200] = { 0 };
+    (void)state;
+    x[100] = 100, x[97] = 2, x[103] = 1;
+    ss_window of = ss_extent(x, (ss_window){ 0, 200 }, 100, 10);
+    assert_true(of.first == 97 && of.end == 100);
+}
+
+/* 2^-20 a sample on an offset of 2^30, which take 50 of 53 bits. */
+static void
+an_offset_takes_no_digits_of_a_slope(void **state)
+{
+    double y[64];
+    (void)state;
+    for (int i = 0; i < 64; i++)
+        y[i] = 0x1p30 + i * 0x1p-20;
+    line l = ss_line_through(y, NULL, (ss_window){ 0, 64 });
+    assert_true(fabs(l.slope * 0x1p20 - 1) < 1e-9);
+}
+
 /* Windows of 200 and 220 samples, ten and eleven periods, are cut at a place: what is longer in all stays, and ends
  * less than half a period from there. */
 static void
@@ -585,6 +610,8 @@ main(void)
         cmocka_unit_test(falls_over_gaps_are_left_out),
         cmocka_unit_test(a_wrong_sample_stands_out_of_many),
         cmocka_unit_test(a_slow_drift_is_no_drop),
+        cmocka_unit_test(a_hundredth_of_an_event_counts_as_noise),
+        cmocka_unit_test(an_offset_takes_no_digits_of_a_slope),
         cmocka_unit_test(windows_are_cut_where_more_is_left),
         cmocka_unit_test(rests_of_a_coarse_converter_are_found),
         cmocka_unit_test(a_hum_is_subtracted_part_by_part),
