@@ -446,14 +446,14 @@ falls_over_gaps_are_left_out(void **state)
     assert_int_equal(ss_signal_new(&signal, head, N, NULL), SS_OK);
     ss_features_opts_init(&opts, sizeof opts);
     opts.drop = 0.4;
-    for (int line = 0; line < 2; line++) {
+    for (int by_line = 0; by_line < 2; by_line++) {
         double *x = signal->values;
         saw(x, N, height, 1);
         for (size_t g = 0; g < 3; g++) {
             size_t first = (size_t)(gap[g].from * RATE + 0.5), end = (size_t)(gap[g].to * RATE + 0.5);
             double left = x[first - 1], right = x[end];
             for (size_t i = first; i < end; i++)
-                x[i] = line ? left + (right - left) * (double)(i - first) / (double)(end - first) : 0;
+                x[i] = by_line ? left + (right - left) * (double)(i - first) / (double)(end - first) : 0;
         }
         assert_int_equal(ss_features_find(&found, signal, 0, &opts, NULL), SS_OK);
         assert_int_equal(found->n, 8);
