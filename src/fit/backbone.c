@@ -392,7 +392,7 @@ settle(decay *d)
     for (int pass = 0; st == SS_OK && pass < REFITS; pass++) {
         if (pass > 0)
             refit(d);
-        st = ss_blocks_smooth(d->block, d->n_blocks, 1, d->source->derivative);
+        st = ss_blocks_smooth(d->block, d->n_blocks, d->source);
     }
     return st;
 }
@@ -444,7 +444,8 @@ line_decay(double *w, const double *left, size_t n)
         z[i] = 0;
         for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++) {
             double was = re;
-            z[i] += isnan(left[k]) ? 0 : left[k] * re - left[k] * im * I;
+            if (!isnan(left[k]))
+                z[i] += left[k] * (re - im * I);
             re = re * c - im * s;
             im = was * s + im * c;
         }
@@ -596,7 +597,7 @@ find_levels(decay *d, const double *x, size_t n)
     if (d->n_blocks < FEW)
         return SS_OK;
     share_noise(d);
-    return ss_blocks_smooth(d->block, d->n_blocks, 0, 0);
+    return ss_blocks_smooth(d->block, d->n_blocks, d->source);
 }
 
 /* --- the whole ------------------------------------------------------------------------------- */

@@ -72,10 +72,6 @@ void ss_place_walk(place *at, double v);
 double ss_blocks_track(place *at, size_t n, size_t states, const double x[], double start[STATES][STATES],
                        place *end, int is_smooth);
 
-/* Draw smooth s and w, with errors, through n blocks whose noise is known: at, error and level; at.s and at.w
- * must be near.  has_phase 0: there is no w. */
-ss_status ss_blocks_smooth(block *b, size_t n, int has_phase, int derivative);
-
 /* What a derivative of x gives back of what damping takes from w^2, as it turns the phase by atan(s/w). */
 static inline double
 given_back(int derivative, double ds)
@@ -106,6 +102,9 @@ typedef struct decay_source {
     const char *beats;          /* not NULL: no mechanism, as the amplitude grows again */
 } decay_source;
 
+/* Draw smooth s and, if there is a phase, w, with errors, through n blocks whose noise is known: at, error and level;
+ * at.s and at.w must be near. */
+ss_status ss_blocks_smooth(block *b, size_t n, const decay_source *source);
 /* 0, 1, 2 for a unit of x, x' or x'', a length or an angle, -1: it is none; and its size in SI units, 0 of an
  * angle. */
 int ss_motion_order(const char *unit, double *size);

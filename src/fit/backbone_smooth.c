@@ -325,7 +325,7 @@ ss_place_see(place *at, const block *b, int track, double y, double rate, double
 }
 
 ss_status
-ss_blocks_smooth(block *b, size_t n, int has_phase, int derivative)
+ss_blocks_smooth(block *b, size_t n, const decay_source *source)
 {
     place *p = calloc(n, sizeof *p);
     double (*level)[3] = calloc(n, sizeof *level), (*lost)[2] = calloc(n, sizeof *lost);
@@ -339,8 +339,8 @@ ss_blocks_smooth(block *b, size_t n, int has_phase, int derivative)
         level[i][1] = asinh(b[i].at.s / (SMALL * unit));
     }
     for (int pass = 0, is_far = 0; has_room && (pass < 4 || (is_far && pass < PASSES)); pass++)
-        is_far = smooth_level(p, b, n, SMALL * unit, level, lost, derivative);
-    if (has_room && has_phase)
+        is_far = smooth_level(p, b, n, SMALL * unit, level, lost, source->derivative);
+    if (has_room && source->has_phase)
         smooth_phase(p, b, n, unit, lost);
     free(p);
     free(level);

@@ -315,9 +315,9 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
     return st;
 }
 
-/* Rank, or say why the n rows of time, motion and force show no law.  row: where each stands in the signal. */
+/* Rank, or say why the n rows of time, motion and force, those of the signal that are not missing, show no law. */
 static ss_status
-rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size_t n, const ss_signal *signal,
+rank_rows(ss_motion_ranking *r, double *const column[3], const char *missing, size_t n, const ss_signal *signal,
           const size_t of[2], const ss_motion_opts *opts)
 {
     driven d = { 0 }, rows = { 0 }, coarse = { 0 };
@@ -345,7 +345,8 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const size_t *row, size
         st = judge(r, &d, &rows, &coarse, turns, signal, of, opts);
     if (st == SS_OK && r->rows > 0)         /* to their places; what is missing leaves nothing */
         for (size_t i = signal->n, k = n; i-- > 0;)
-            r->predicted[i] = k > 0 && row[k - 1] == i ? r->predicted[--k] : signal->values[of[1] * signal->n + i];
+            r->predicted[i] = missing == NULL || !missing[i] ? r->predicted[--k]
+                : signal->values[of[1] * signal->n + i];
     ss_driven_free(&d);
     ss_driven_free(&rows);
     ss_driven_free(&coarse);
@@ -367,13 +368,13 @@ ss_motion_ranking_new(ss_motion_ranking **out, const ss_signal *signal, size_t m
     if (st != SS_OK)
         return st;
     const size_t of[2] = { motion, force }, all = signal->n;
-    size_t *row = malloc((all + 1) * sizeof *row), n = 0;
+    size_t n = 0;
     double *room = malloc((3 * all + 1) * sizeof *room), *const column[3] = { room, room + all, room + 2 * all };
     char *missing = NULL;
     ss_motion_ranking *r = calloc(1, sizeof *r);
     if (r != NULL)
         r->time = malloc((all + 1) * sizeof *r->time);
-    st = row != NULL && room != NULL && r != NULL && r->time != NULL ? SS_OK : SS_ENOMEM;
+    st = room != NULL && r != NULL && r->time != NULL ? SS_OK : SS_ENOMEM;
     if (st == SS_OK)
         st = ss_gaps_missing(&missing, signal);
     if (st != SS_OK)
@@ -390,15 +391,13 @@ ss_motion_ranking_new(ss_motion_ranking **out, const ss_signal *signal, size_t m
             continue;
         column[0][n] = t;
         column[1][n] = x;
-        column[2][n] = f;
-        row[n++] = i;
+        column[2][n++] = f;
     }
     if (st == SS_OK) {
-        st = rank_rows(r, column, row, n, signal, of, &opts);
+        st = rank_rows(r, column, missing, n, signal, of, &opts);
         if (st != SS_OK)
             ss_fail(err, st, "%s", ss_strerror(st));
     }
-    free(row);
     free(room);
     free(missing);
     if (st == SS_OK)

@@ -405,8 +405,8 @@ begin_two(const point *p, const block *b, size_t n, double ln_a, double w, doubl
         z[k] = cexp((1 - part) * (b[i].level + first * I) + part * (b[i + 1].level + next * I) - ln_a);
     }
     solve_two(c, z, TAKEN, NULL);
-    double complex root = csqrt(c[1] * c[1] / 4 + c[0]);
-    mode[0] = c[1] / 2 + root, mode[1] = c[1] / 2 - root;
+    mode[0] = c[1] / 2 + csqrt(c[1] * c[1] / 4 + c[0]);
+    mode[1] = c[1] - mode[0];
     solve_two(c, z, TAKEN, mode);
     double complex first = clog(mode[0]) / step, second = clog(mode[1]) / step, ratio = clog(c[1] / c[0]);
     memcpy(u, (double[UNKNOWNS]){ log(cabs(c[0])), carg(c[0]), cimag(first), -creal(first), -creal(second),
@@ -592,7 +592,7 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
             if (f->kind == SS_JENKINS) {
                 to->stir = pow(at[i].slip[c] * t, 2);
                 to->variance[1] += pow(at[i].slip[c], 2);
-                at[i].slip[c] = hypot(at[i].slip[c], at[i].local[c] / 2);
+                at[i].slip[c] = hypot(at[i].slip[c], at[i].local[c]);
                 at[i].lag[1] = hypot(at[i].lag[1], (at[next].lag[0] - at[from].lag[0]) * half);
             }
         }

@@ -13,7 +13,7 @@ model_word(size_t i)
 }
 
 static const scene_key of_motion[] = {
-    { "model", REQUIRED, 0, offsetof(ss_scene, model), "", 0, model_word },
+    { "model", REQUIRED, ANY_NUMBER, offsetof(ss_scene, model), "", 0, model_word },
     KEY_NUMBER(mass, REQUIRED, POSITIVE, "kg"),
     KEY_NUMBER(stiffness, REQUIRED, POSITIVE, "N/m"),
     KEY_NUMBER(friction, REQUIRED, NOT_NEGATIVE, "N"),
