@@ -330,6 +330,27 @@ finds_sign_velocity_and_delay(void **unused)
     ss_signal_free(r.signal);
 }
 
+/* A force that is later than the motion by half a row is that of the motion between rows. */
+static void
+finds_a_delay_of_half_a_row(void **unused)
+{
+    const double w = 2 * M_PI, half = 5. / ROWS;
+    recording r = record();
+    double y = 0, before = 0;
+    (void)unused;
+    for (int i = 0; i < ROWS; i++) {
+        double t = i / (ROWS / 10.) - half, x = 2 * sin(w * t) + 0.4 * sin(1.7 * w * t);
+        r.f[i] = 3 * slider(&y, i > 0 ? x - before : 0, 0.5) / 0.5;
+        before = x;
+    }
+    add_noise(r.f, 0.01, 13);
+    ss_motion_ranking *k = rank(&r, 0, NULL);
+    assert_named(k, "compliant");
+    assert_number(k, "delay", half, "s");
+    ss_motion_ranking_free(k);
+    ss_signal_free(r.signal);
+}
+
 /* Rate and state, whose age is integrated in steps of a twentieth of a row.  Where the speed is the same to and fro,
  * it is dry friction. */
 static void
@@ -709,6 +730,7 @@ main(void)
         cmocka_unit_test(names_an_elastic_slider),
         cmocka_unit_test(names_a_slider_behind_a_gap),
         cmocka_unit_test(finds_sign_velocity_and_delay),
+        cmocka_unit_test(finds_a_delay_of_half_a_row),
         cmocka_unit_test(names_dahl),
         cmocka_unit_test(names_rate_and_state_where_the_speed_varies),
         cmocka_unit_test(names_dry_friction),
