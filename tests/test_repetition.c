@@ -430,7 +430,7 @@ static void
 errors_cover_hum_in_step(void **state)
 {
     (void)state;
-    errors_cover(fill_in_step_with_hum, "hum in step", 0.6, 0.003, 0.6);
+    errors_cover(fill_in_step_with_hum, "hum in step", 0.8, 0.003, 1);
 }
 
 static void

@@ -32,8 +32,7 @@
  *   their means repeat: the cycle is that of a hum or a ringing.
  *
  * Where jumps lie between samples, the peak of the autocorrelation may be at the length of several
- * cycles.  Then a part of that length is the period, if the signal repeats after the part as well as
- * it does after the whole when it is shifted by a sample.
+ * cycles.  Then a part of that length is the period, if the signal repeats after the part as well as after the whole.
  *
  * Cycles may differ in turn: then several of them repeat far better than one, and these are the period.  How well,
  * is judged between samples of a smoothed signal, and a jump that lies between two is no difference.
@@ -67,8 +66,8 @@
 #define MANY 16                 /* cycles: fewer show no modulation; a decay that is slower does not count */
 #define PULLED 16               /* a hum pulls the lag by less than one part in so many */
 #define FINEST 0.03             /* of a sample: jumps that a filter has rounded draw lags to whole samples by so much */
-#define ROUGH 4.0               /* times: see roughness */
-#define ALIKE 2e-4              /* of the variance: cycles that differ by less are alike */
+#define ROUGH 4.0               /* times: see least_unlike */
+#define ALIKE 5e-4              /* of the variance: cycles that differ by less are alike */
 #define CLEARER 4.0             /* by chance, cycles with noise or a clock that wanders differ by a factor of 2 */
 #define ONE 0.8                 /* of what differs: more is one line */
 #define LOW 2.5                 /* times the frequency: the lines of a motion itself may be strong up to there */
@@ -99,9 +98,6 @@ typedef struct cycle {
     double bend;                /* error of the lag between samples, by two parabolas [samples] */
     double jump;                /* 1: the difference grows with the distance from the lag, as of a signal that
                                    jumps; 0: with its square */
-    int may_be_sooner;          /* it is alike after some part of its length, if less so */
-    unsigned parts;             /* bit p: it repeats after 1/p of its length as well as after all of it, to
-                                   within a sample */
 } cycle;
 
 /* --- one cycle and the next ------------------------------------------------------------------ */
@@ -243,15 +239,6 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
     double d[5];
     for (size_t k = 0; k < 5; k++)
         d[k] = relative(fine, first, lag + k - 2, whole);
-    double as_well = fmax(fmin(d[1], d[3]), (1 + SIGMAS * 2 / sqrt((double)whole)) * d[2]);
-    for (size_t p = 2; p <= PARTS && lag >= 4 * p; p++) {
-        size_t off = lag / p / PULLED + 1, by = off / 8 + 1, from = lag / p - off, to = lag / p + 1 + off;
-        size_t part = best_lag(fine, first, whole, from, to, by);
-        double there = part > from && part + by <= to ? relative(fine, first, part, whole) : 1;
-        double exact = fmin(relative(fine, first, lag / p, whole), relative(fine, first, lag / p + 1, whole));
-        c.parts |= (unsigned)(there <= as_well || exact <= fmin(d[1], d[3])) << p;
-        c.may_be_sooner |= there < 1 - CYCLES_ALIKE;
-    }
     double near = vertex(d[1], d[2], d[3], 1), far = vertex(d[0], d[2], d[4], 2);
     c.rate = 1 / ((double)lag + near);
     c.bend = fabs(near - far) / 3;
@@ -326,20 +313,6 @@ repeats(const cycle *c, size_t n, const double *field, double scale, double like
     return 0;
 }
 
-/* The number of parts of a cycle that repeat as well as the cycle does when it is shifted by a sample. */
-static size_t
-parts_of(const cycle *c, size_t n)
-{
-    for (size_t p = PARTS; p > 1 && n > 0; p--) {
-        size_t so = 0;
-        for (size_t i = 0; i < n; i++)
-            so += c[i].parts >> p & 1;
-        if (4 * so >= 3 * n)
-            return p;
-    }
-    return 1;
-}
-
 static const char by_chance[] = "what repeats may repeat sooner: in so few cycles, several may be alike by chance";
 
 /* Find median and standard error of the frequencies of n cycles. */
@@ -374,12 +347,12 @@ summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
     out->period = (ss_value){ 1 / f, out->frequency.error / (f * f) };
 }
 
-/* Describe n cycles; known and v have room for n.  Returns the number of shorter cycles in each of them. */
-static size_t
+/* Describe n cycles; known and v have room for n. */
+static void
 describe(const cycle *c, size_t n, cycle *known, double *v, ss_cycles *out)
 {
     double energy = 0, squares = 0;
-    size_t n_known = 0, alike = 0, sooner = 0;
+    size_t n_known = 0, alike = 0;
     for (size_t i = 0; i < n; i++) {
         energy += c[i].energy / (double)n;
         squares += c[i].energy * c[i].energy / (double)n;
@@ -392,7 +365,6 @@ describe(const cycle *c, size_t n, cycle *known, double *v, ss_cycles *out)
             continue;
         known[n_known++] = c[i];
         alike += c[i].likeness > CYCLES_UNLIKE;
-        sooner += c[i].may_be_sooner && c[i].parts == 0;
     }
     out->symmetry = n_known > 0 ? median_of(known, n_known, &known->symmetry, v) : 0;
     out->likeness = n_known > 0 ? median_of(known, n_known, &known->likeness, v) : 0;
@@ -401,8 +373,6 @@ describe(const cycle *c, size_t n, cycle *known, double *v, ss_cycles *out)
     else if ((double)(out->n - alike) > fmax(SPOILT, PART * (double)out->n) || n_known < 2
              || !(out->likeness >= CYCLES_ALIKE))
         out->why = "no cycle resembles the next one";
-    else if (n_known <= FEW && 2 * sooner > n_known)
-        out->why = by_chance;
     else if (energy * energy < PART * squares || fades(c, n, ACTIVE * energy))
         out->why = "it rings once, or sounds in a small part of the record only";
     else if (repeats(c, n, &c->mean, sqrt(energy), CYCLES_ALIKE, v))
@@ -411,7 +381,6 @@ describe(const cycle *c, size_t n, cycle *known, double *v, ss_cycles *out)
         out->why = "its cycles swell and fade in turn: it is modulated";
     else
         summarise(known, n_known, v, out);
-    return parts_of(known, n_known);
 }
 
 /* Means of q samples each, m of them; NULL: no memory. */
@@ -424,9 +393,9 @@ block_means(const double *x, size_t m, size_t q)
     return out;
 }
 
-/* Describe the cycles of this period.  *parts becomes the number of shorter cycles in each of them. */
+/* Describe the cycles of this period. */
 static ss_status
-find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
+find_at(const double *x, size_t n, double period, ss_cycles *out)
 {
     size_t q = period > POINTS ? (size_t)(period / POINTS) : 1, step = (size_t)period, found = 0;
     size_t reach = step + (size_t)(period * (1 + WIDTH)) + 2 * q + 4, most = n / step + 1;
@@ -438,7 +407,7 @@ find_at(const double *x, size_t n, double period, ss_cycles *out, size_t *parts)
         const view fine = { x, n }, coarse = { averaged, n / q };
         for (size_t i = 0; i + reach < n; i += step)
             c[found++] = measure(&fine, &coarse, q, i, period);
-        *parts = describe(c, found, c + most, room, out);
+        describe(c, found, c + most, room, out);
     }
     free(averaged);
     free(room);
@@ -532,16 +501,16 @@ line_between(const view *v, double lag, double part, double *f)
 }
 
 /* How unlike samples and those some lag later may be where a signal repeats: ROUGH times as unlike as samples are to
- * their neighbours with cubes through these. */
+ * their neighbours with cubes through these, or ALIKE. */
 static double
-roughness(const view *v)
+least_unlike(const view *v)
 {
     double sum = 0;
     for (size_t i = 3; i + 3 < v->n; i++) {
         const double *x = v->x + i;
         sum += pow(beyond(x[0], x[-1], x[1], 0.5625 * (x[-1] + x[1]) - 0.0625 * (x[-3] + x[3])), 2);
     }
-    return ROUGH * sum / (double)v->n;
+    return fmax(ROUGH * sum / (double)v->n, ALIKE * moments_of(v, 0, 0, v->n).a);
 }
 
 /* The mean square by which samples and those some lag later differ, in a cycle that but a quarter are more unlike, so
@@ -550,7 +519,7 @@ static double
 unlikeness(const view *v, double lag, double period)
 {
     const later by = later_by(lag);
-    const size_t last = v->n - by.lag - TAPS;
+    const size_t last = (size_t)fmin((double)(v->n - by.lag - TAPS), BEFORE + MOST * period);
     double sum[(size_t)MOST] = { 0 };
     size_t n = 0;
     for (size_t i = BEFORE; i < last; n++) {
@@ -571,6 +540,8 @@ lag_near(const view *v, double about, double period)
     size_t likely = refine(v, 0, m, (size_t)(about + 0.5), 1);
     if (relative(v, 0, likely, m) < relative(v, 0, lag, m))
         lag = likely;
+    if (fabs((double)lag - about) > (double)off)        /* where all is smooth, it is most like itself at once */
+        return about;
     return (double)lag + vertex(relative(v, 0, lag - 1, m), relative(v, 0, lag, m), relative(v, 0, lag + 1, m), 1);
 }
 
@@ -595,7 +566,7 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
     size_t known = 2;
     *in_turn = 1;
     unlike[1] = after(v, period, 1);
-    if (!(unlike[1] > fmax(roughness(v), ALIKE * moments_of(v, 0, 0, v->n).a)))
+    if (!(unlike[1] > least_unlike(v)))
         return SS_OK;
     ss_status st = line_between(v, lag_near(v, period, period), 0.5, &f);
     for (; known < LOOKED_AT && (double)known < SEEN * most; known++)
@@ -611,25 +582,36 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
     return st;
 }
 
-/* The largest number of parts of the period after which the signal repeats itself, or does so but for a hum, whose
- * frequency *hum becomes; else 1.  A hum is a line that is high, or no multiple of what repeats as far as can be told. */
-static ss_status
-parts_of_period(const view *v, double period, double *hum, size_t *parts)
+/* The largest number of parts of the period after which the signal repeats itself as well as after all of it; else 1.
+ * *some: 1 if it is at least alike after some part. */
+static size_t
+parts_of(const view *v, double period, int *some)
 {
-    const double rough = roughness(v);
-    ss_status st = SS_OK;
-    for (*parts = MULTIPLES; st == SS_OK && *parts > 1; --*parts) {
-        double f = 0, lag = period / (double)*parts;
-        if (lag < 5)
+    const double as_well = fmax(least_unlike(v), 1.5 * after(v, period, 1));
+    *some = 0;
+    for (size_t p = PARTS; p > 1; p--) {
+        double lag = period / (double)p, near = lag < 5 ? lag : lag_near(v, lag, lag);
+        if (near == lag)                        /* it is no more alike there than sooner or later */
             continue;
-        if (unlikeness(v, lag, period) <= rough)
-            return SS_OK;
-        if (relative(v, 0, (size_t)(lag + 0.5), v->n - (size_t)(lag + 0.5)) < 1 - CYCLES_ALIKE)
+        if (unlikeness(v, near, period) <= as_well)
+            return p;
+        *some |= relative(v, 0, (size_t)(near + 0.5), v->n - (size_t)(near + 0.5)) < 1 - CYCLES_ALIKE;
+    }
+    return 1;
+}
+
+/* The largest number of parts of the period after which the signal repeats itself but for a hum, whose frequency *hum
+ * becomes; else 1.  A hum is a line that is high, or no multiple of what repeats as far as can be told. */
+static ss_status
+parts_beside_hum(const view *v, double period, double *hum, size_t *parts)
+{
+    ss_status st = SS_OK;
+    for (*parts = MULTIPLES + 1; st == SS_OK && *hum == 0 && *parts > 1;) {
+        double f = 0, lag = period / (double)--*parts;
+        if (lag >= 5 && relative(v, 0, (size_t)(lag + 0.5), v->n - (size_t)(lag + 0.5)) < 1 - CYCLES_ALIKE)
             st = line_between(v, lag, ONE, &f);
         double multiple = f * period, off = fabs(multiple - round(multiple)) * ((double)v->n - lag) / period;
         *hum = f * lag > LOW || (multiple > LOW && off > 0.5) ? f : 0;
-        if (*hum > 0)
-            return st;
     }
     return st;
 }
@@ -642,10 +624,9 @@ compare_slow(const double *x, size_t n, ss_cycles *found)
     const size_t m = 1 + (size_t)(found->period.value / SLOW);
     double *slow = smoothed(x, n, m);
     ss_cycles other;
-    size_t parts;
     if (slow == NULL)
         return SS_ENOMEM;
-    ss_status st = find_at(slow, n - 2 * m + 2, found->period.value, &other, &parts);
+    ss_status st = find_at(slow, n - 2 * m + 2, found->period.value, &other);
     free(slow);
     if (st == SS_OK && fabs(other.frequency.value - found->frequency.value)
         > SIGMAS * hypot(other.frequency.error, found->frequency.error)) {
@@ -658,29 +639,36 @@ compare_slow(const double *x, size_t n, ss_cycles *found)
 /* Is the period one of several cycles that differ in turn, or are several cycles taken for one?  A sensor may hold its
  * samples: one of each is looked at. */
 static ss_status
-compare_cycles(const double *x, size_t n, ss_cycles *out)
+compare_cycles(const double *x, size_t n, double period, ss_cycles *out)
 {
-    size_t some = (size_t)fmin((double)n, MOST * out->period.value), changes = 1, parts = 1, in_turn = 1;
-    for (size_t i = 1; i < some; i++)
+    size_t seen = (size_t)fmin((double)n, MOST * period), changes = 1, in_turn = 1;
+    for (size_t i = 1; i < seen; i++)
         changes += x[i] != x[i - 1];
-    const size_t held = (size_t)fmin((double)some / (double)changes, 1 + out->period.value / SLOW), m = some / held;
-    const double period = out->period.value / (double)held;
-    if (m < FEWEST_SAMPLES)
+    const size_t held = (size_t)fmin((double)seen / (double)changes, 1 + period / SLOW), m = seen / held;
+    if (m < FEWEST_SAMPLES || (double)seen < 2.5 * period)
         return SS_OK;
     double *means = block_means(x, m, held), *smooth = means != NULL ? smoothed(means, m, 2) : NULL, hum = 0;
-    const view first = { smooth, m - 2 };
-    ss_status st = smooth != NULL ? cycles_in_turn(&first, period, &in_turn) : SS_ENOMEM;
-    if (st == SS_OK && in_turn > 1 && 2 * (double)in_turn * period > SEEN * (double)m)
+    const view v = { smooth, m - 2 };
+    int some = 0;
+    ss_status st = smooth != NULL ? SS_OK : SS_ENOMEM;
+    size_t parts = st == SS_OK ? parts_of(&v, period / (double)held, &some) : 1;
+    if (parts > 1)
+        st = find_at(x, n, period / (double)parts, out);
+    if (st == SS_OK && some && parts == 1 && out->n <= FEW && isfinite(out->period.value))
+        *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN }, .why = by_chance };
+    if (st == SS_OK && isfinite(out->period.value))
+        st = cycles_in_turn(&v, out->period.value / (double)held, &in_turn);
+    if (st == SS_OK && in_turn > 1 && 2 * (double)in_turn * out->period.value > SEEN * (double)seen)
         *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN }, .why = by_chance };
     else if (st == SS_OK && in_turn > 1)
-        st = find_at(x, n, out->period.value * (double)in_turn, out, &parts);
+        st = find_at(x, n, out->period.value * (double)in_turn, out);
     parts = 1;
     if (st == SS_OK && isfinite(out->period.value))
-        st = parts_of_period(&first, out->period.value / (double)held, &hum, &parts);
+        st = parts_beside_hum(&v, out->period.value / (double)held, &hum, &parts);
     free(means);
     free(smooth);
     if (st == SS_OK && parts > 1)
-        st = find_at(x, n, out->period.value / (double)parts, out, &parts);
+        st = find_at(x, n, out->period.value / (double)parts, out);
     out->hum = isfinite(out->period.value) ? hum / (double)held : 0;
     return st;
 }
@@ -689,7 +677,6 @@ ss_status
 ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out)
 {
     ss_value start = { about, NAN };
-    size_t parts = 1;
     *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
     ss_status st = about == 0 ? ss_period_find(x, n, &start) : SS_OK;
     if (st != SS_OK)
@@ -698,12 +685,9 @@ ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out)
         out->why = "no cycle resembles the next one";
         return SS_OK;
     }
-    do {
-        start.value /= (double)parts;
-        st = find_at(x, n, start.value, out, &parts);
-    } while (st == SS_OK && parts > 1);
-    if (st == SS_OK && about == 0 && isfinite(out->period.value))
-        st = compare_cycles(x, n, out);
+    st = find_at(x, n, start.value, out);
+    if (st == SS_OK && about == 0)
+        st = compare_cycles(x, n, isfinite(out->period.value) ? out->period.value : start.value, out);
     if (st == SS_OK && about == 0 && isfinite(out->period.value))
         st = compare_slow(x, n, out);
     double behind = fmax(1, fmin(1 << LAGS, floor(0.25 * (double)n / out->period.value))) * out->period.value;
