@@ -975,6 +975,26 @@ laws_are_named_rightly_or_not_at_all(void **state)
     assert_true(4 * right >= 3 * signals && 4 * found >= 3 * signals);
 }
 
+/* A force shows k/m and k U alone.  A mass e^.09 times that of the rig is right if it is e^-.06 of itself, and stiffness
+ * and 1/U are e^.03 times as large: the least sum of squares.  The rms is over five numbers. */
+static void
+a_scene_is_adjusted_by_the_least_change(void **state)
+{
+    ss_scene pull = scene_of(&rigs[4]), heavy = pull;
+    (void)state;
+    heavy.mass *= exp(.09);
+    record t = record_of(&pull, 60, 1, 1);
+    ss_ranking *r = ranking_of(t.signal, &heavy, 1);
+    const ss_scene *s = &r->row[0].adjusted;
+    print_message("changed by %g\n", r->row[0].value[SS_BY_ADJUSTMENT]);
+    assert_true(fabs(r->row[0].value[SS_BY_ADJUSTMENT] / sqrt((.06 * .06 + 2 * .03 * .03) / 5) - 1) < .02);
+    assert_true(fabs(log(s->mass / heavy.mass) + .06) < .001);
+    assert_true(fabs(log(s->stiffness / pull.stiffness) - .03) < .001);
+    assert_true(fabs(log(s->base_velocity / pull.base_velocity) + .03) < .001);
+    ss_ranking_free(r);
+    ss_signal_free(t.signal);
+}
+
 /* A law without sticks does not fit, nor does a base that vibrates; their scenes do not forbid the rest. */
 static void
 scenes_that_do_not_pull_stand_aside(void **state)
@@ -1009,6 +1029,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pulls_are_named_rightly_or_not_at_all),
         cmocka_unit_test(laws_are_named_rightly_or_not_at_all),
+        cmocka_unit_test(a_scene_is_adjusted_by_the_least_change),
         cmocka_unit_test(scenes_that_do_not_pull_stand_aside),
         cmocka_unit_test(falling_friction_is_not_named),
         cmocka_unit_test(events_of_pulls_are_found_and_their_errors_cover),
