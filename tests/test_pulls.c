@@ -975,7 +975,7 @@ laws_are_named_rightly_or_not_at_all(void **state)
     assert_true(4 * right >= 3 * signals && 4 * found >= 3 * signals);
 }
 
-/* A force shows k/m and k U alone.  A mass e^.09 times that of the rig is right if it is e^-.06 of itself, and stiffness
+/* A force shows k/m and k U alone.  A mass e^.09 times the rig's is right if it is e^-.06 of itself, and stiffness
  * and 1/U are e^.03 times as large: the least sum of squares.  The rms is over five numbers. */
 static void
 a_scene_is_adjusted_by_the_least_change(void **state)
