@@ -9,10 +9,9 @@
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
+#include "find/judgement.h"
 
-enum { DEGREE = 3, SAMPLES = 128 };
-
-#define ROUNDING 1e-6           /* of the range of the samples: no fit needs to be better */
+enum { DEGREE = BREAKPOINT_DEGREE, SAMPLES = 128 };
 
 /* A cubic through samples of one side, in the monic polynomials that are orthogonal over them. */
 typedef struct side {
@@ -130,6 +129,6 @@ ss_breakpoint(const double *x, size_t first, size_t last, double at, double reac
     for (size_t i = 0; i < p.n; i++)
         p.x[i] = (x[first + i] - low) / (high - low);
     double at_kink = least(&p, 1, lo, hi, &kink), at_jump = least(&p, 0, lo, hi, &jump);
-    double rounding = (double)p.n * ROUNDING * ROUNDING;
+    double rounding = (double)p.n * PRECISION * PRECISION;
     return (double)p.n * log((kink + rounding) / (jump + rounding)) > log((double)p.n) ? at_jump : at_kink;
 }

@@ -7,10 +7,9 @@
 #include "find/fitter.h"
 
 #include <stdlib.h>
-#include <string.h>
+#include "find/judgement.h"
 
 enum { CUTS = 3 };              /* of the start, each by FIT_TRIM_END more */
-#define WHITE 1.2               /* times the variance of white noise: more is coloured, less is chance */
 
 /* The variance of the samples, from the residuals of a fit. */
 static double
@@ -116,7 +115,9 @@ ss_errors_find(fitter *k, ss_value value[2])
             fit_otherwise(k, CUT_START, i * FIT_TRIM_END, cut, &total, cut_moved);
         fit_otherwise(k, CUT_END, FIT_TRIM_END, cut, &total, cut_moved);
         fit_otherwise(k, BENT, 0, cut, &total, bent_moved);
-        double excess = fmax(0, variance_of(k, &total) - WHITE * k->of->white * k->of->white);
+        /* by chance, the variance differs from that of white noise by the root of 2 over the samples */
+        double white = pow(k->of->white, 2) * (1 + SIGMAS * sqrt(2 / (double)total.samples));
+        double excess = fmax(0, variance_of(k, &total) - white);
         double in_band = excess * 0.5 * (double)total.samples / (double)total.windows;
         ss_value coloured[2];
         errors_of_fit(&total.normal, in_band, coloured);

@@ -22,7 +22,7 @@
 static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement = -1, .force = -1,
                                            .threads = 1 };
 
-#define SLIGHT 0.5              /* [dB] the least prominence of a maximum that shows an oscillation */
+#define FAINT 0.5               /* [dB] the least prominence of a maximum that shows an oscillation */
 
 /* Parts of the work that are done after each step, roughly. */
 #define TRANSFORMED 0.35
@@ -53,7 +53,7 @@ find_maxima(search *s)
         : n == 0 ? 0 : gsl_stats_select(level, 1, n, n / 2) * sqrt((l1 ? last->a : 1) / M_LN2);
     out->noise = rms * sqrt(s->rate);
     free(level);
-    const maxima_kind kind = { fmin(SLIGHT, s->opts->threshold), INFINITY, 1.5 * rms / (l1 ? sqrt(last->a) : 1) };
+    const maxima_kind kind = { fmin(FAINT, s->opts->threshold), INFINITY, 1.5 * rms / (l1 ? sqrt(last->a) : 1) };
     if (st == SS_OK)
         st = ss_maxima_of(&s->found, &s->n_found, s->map, &kind, &s->top);
     if (st != SS_OK)

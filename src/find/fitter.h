@@ -14,8 +14,6 @@
 
 #define FIT_CHANCE 1e-3         /* probability that a test errs */
 #define FIT_MISFIT 1e-3         /* part of the oscillation's amplitude: a misfit so small counts as noise */
-#define FIT_EXPLAINED 0.9       /* part of the sum of squares: a fit that explains so much is an oscillation
-                                   in any case */
 enum { FIT_FEW = 4 };           /* windows that a jackknife needs */
 #define FIT_FINE 1e-8           /* tolerance of the last fits */
 

@@ -57,7 +57,7 @@ ss_inertia_sign(int *sign, const double *x, ss_window room, const ss_slip *slip,
     fall f = { .lead = atan(loading / ((slip->top.value - slip->middle.value) * sqrt(slip->k_over_m.value))) };
     /* from half a slip before it to half a slip behind it */
     size_t first = (size_t)fmax((double)room.first, onset - length / 2);
-    size_t end = (size_t)fmin((double)room.end, onset + 1.5 * length + 1), each = (end - first) / MOST + 1;
+    size_t end = (size_t)fmin((double)room.end, slip->end.value + length / 2 + 1), each = (end - first) / MOST + 1;
     f.n = (end - first) / each;
     for (size_t i = 0; i < f.n; i++) {
         double mean = 0;

@@ -3,7 +3,7 @@
  * While the slider sticks, the drive loads the force along a line.  A first line is fitted to the
  * middle half of the rise from one fall to the next.  The median slope of these lines is used to fit
  * slips to the falls (slip.c).  The stick is the part of the rise that is in no slip and within SIGMAS
- * standard deviations of the line.  The line is then fitted to the whole stick.  A fall that the fit
+ * standard deviations of the line, but for two in a row.  The line is then fitted to the whole stick.  A fall that the fit
  * of a slip does not explain has no drop, duration and friction, and a stick beside it has no length.
  * Nor has any fall, unless the falls show the inertia of a mass (inertia.c).
  * Samples of a measured force are not independent, so the standard error of the slope counts fewer of
@@ -25,7 +25,6 @@
 #include "find/slip.h"
 #include "signal/gaps.h"
 
-#define AWAY 4                  /* samples in a row that are farther away than SIGMAS standard deviations end the line */
 #define HIDDEN 2.0              /* see common_misfit */
 #define MOST_DAMPING 0.5        /* of either sign, as friction may fall with speed */
 
@@ -130,7 +129,7 @@ follow(const double *y, const line *l, size_t i, size_t end)
 {
     size_t last = i, away = 0;
     int step = end > i ? 1 : -1;
-    while (i != end && away < AWAY) {
+    while (i != end && away < FEW) {
         i = step > 0 ? i + 1 : i - 1;
         int near = fabs(ss_line_off(l, y, i)) <= SIGMAS * l->rms;
         last = near ? i : last;

@@ -11,7 +11,6 @@
 
 #define NEAR 1.0                /* [octaves] the largest distance of a fit from the frequency that recurs */
 #define SHARPER 1.5             /* times the frequency of the oscillation: an event so sharp lies within it */
-#define KNOWN 0.75              /* part of the sticks: so many tell what the others are like */
 
 /* Convert omega and s, per sample, to Hz and damping ratio. */
 static void
@@ -234,9 +233,9 @@ clock_error(const search *s, const ringdown *r)
         }
     if (n < 3 || s->out->reverses)
         return wander;
-    double rho = fmax(0, fmin(0.9, products / squares)), correlated = (1 + rho) / (1 - rho);
+    double rho = fmax(0, fmin(1, products / squares)), correlated = fmin(n, (1 + rho) / (1 - rho));
     double beyond = fmax(0, chi2 - (n - 1)) / (weights - their_squares / weights);
-    if (n > KNOWN * (double)s->out->n)          /* else the others may be those that differ */
+    if (n > MOSTLY * (double)s->out->n)         /* else the others may be those that differ */
         wander = fmin(wander, sqrt(squares / (n - 1) / n * correlated));
     return fmax(wander, sqrt(beyond * their_squares * correlated) / weights);
 }

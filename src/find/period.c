@@ -10,15 +10,12 @@
 
 #include <math.h>
 #include "base/fft.h"
+#include "find/judgement.h"
 #include "map/map.h"
 
-#define NEARLY 0.9              /* part of the highest peak: the first peak that is so high is that of the
-                                   period */
-/* The least correlation that counts. That of white noise has the standard deviation n^-1/2: SIGMAS
- * of them are not reached by chance at any of 1e6 lags. Irregular slips reach 0.05, drifting ones
- * that still repeat 0.3. */
+/* The least correlation that counts, unless white noise, of standard deviation n^-1/2, reaches more at some of n
+ * lags. Irregular slips reach 0.05, drifting ones that still repeat 0.3. */
 #define LEAST 0.15
-#define SIGMAS 5.5
 
 /* Has n no prime factor above 5, so that its FFT is fast? */
 static int
@@ -86,7 +83,7 @@ follow(const double *r, size_t lag, double last, double most, double *height, do
 {
     double period = (double)lag, mm = 0, ml = 0, ll = 0, count = 0;
     for (double m = 1; m <= most && (m + 0.25) * period < last; m++) {
-        double at = peak_near(r, m * period, fmax(1, 0.125 * period / sqrt(m)));
+        double at = peak_near(r, m * period, fmax(1, JITTER * period / sqrt(m)));
         mm += m * m, ml += m * at, ll += at * at, count++;
         period = ml / mm;
         *height = r[(size_t)(at + 0.5)];
@@ -138,7 +135,7 @@ ss_period_find(const double *x, size_t n, ss_value *period)
     if (n < 8)
         return SS_OK;
     ss_status st = autocorrelation(&r, x, n);
-    size_t peak = st != SS_OK ? 0 : first_peak(r.x, n / 2, fmax(LEAST, SIGMAS / sqrt((double)n)));
+    size_t peak = st != SS_OK ? 0 : first_peak(r.x, n / 2, fmax(LEAST, sqrt(2 * log((double)n / FALSE_ALARMS) / (double)n)));
     if (peak > 0)
         period->value = follow(r.x, peak, 0.75 * (double)n, INFINITY, &height, &period->error);
     ss_real_fft_free(&r);

@@ -17,7 +17,6 @@
 #define BAND 5.0                /* standard deviations of the samples of a rest, either side of its level */
 #define AWAY (SIGMAS * BAND)    /* what leaves the band by less is no motion */
 #define PART 0.1                /* of the samples are at rest */
-#define CLEAR 0.05              /* of the largest sample: a wider band is none of a rest */
 
 /* Level and standard deviation of the samples that are at rest, from the narrowest interval with PART of all
  * on. */
@@ -74,6 +73,6 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
     }
     out->level = level;
     out->band = BAND * deviation;
-    out->is_doubtful |= out->band > CLEAR;
+    out->is_doubtful |= out->band > SLIGHT;     /* of the largest sample */
     return st;
 }

@@ -1,4 +1,4 @@
-/* reversals.c -- see reversals.h.
+/* reversals.c -- the reversals of a force that goes to and fro, and what they tell of friction.
  *
  * From a break-away to the next reversal the force stays at a level, which is read as the median.
  * Friction is half of the step from one level to the next, so that a constant in the force does not
@@ -19,8 +19,6 @@
 
 #define HALF 0.5                /* part of the level that a half-cycle passes; the least part of the time from one
                                    break-away to the next at or above the level */
-#define NEAR 0.05               /* part of the step, or of a level, within which a sample is near it; a force
-                                   that has broken away falls by as much */
 
 /* --- reversals ------------------------------------------------------------------------------- */
 
@@ -69,7 +67,7 @@ find_reversals(search *s, const double *x, double level)
             continue;
         if (open)
             out->transition[out->n++].end = (double)last / s->rate;
-        size_t at = break_away(x, side, i, s->n, NEAR * level);
+        size_t at = break_away(x, side, i, s->n, SLIGHT * level);
         open = i > 0 && !ss_gaps_near(s->gap, s->n_gaps, (double)at / s->rate, 1 / s->rate);
         out->transition[out->n].onset = (double)at / s->rate;
         sign = side;
@@ -104,7 +102,7 @@ find_plateau(const search *s, const ss_transition *t, int is_last, const double 
     plateau p = { { (size_t)(t->onset * s->rate + 0.5), (size_t)(t->end * s->rate + 0.5) + 1 }, 0, 0, 0 };
     double time = (is_last ? t->end : t[1].onset) - t->onset, there = 0;
     int sign = x[p.slip.first] > 0 ? 1 : -1;
-    double least = (1 - NEAR) * sign * select(x, p.slip, 0.5, copy);
+    double least = (1 - SLIGHT) * sign * select(x, p.slip, 0.5, copy);
     while (p.slip.first > 0 && sign * x[p.slip.first - 1] >= least)     /* a level that rises breaks away late */
         p.slip.first--;
     while (sign * x[p.slip.first] < least)
@@ -152,7 +150,7 @@ find_slope(const double *x, const double *z, double least, const plateau *a, con
 static ss_value
 find_stiffness(const double *x, const double *z, double least, const plateau *a, const plateau *b)
 {
-    double part = NEAR * fabs(b->level - a->level);
+    double part = SLIGHT * fabs(b->level - a->level);
     ss_value slope = find_slope(x, z, least, a, b, (double[]){ part, part });
     ss_value inner = find_slope(x, z, least, a, b, (double[]){ part + a->spread, part + b->spread });
     return (ss_value){ slope.value, hypot(slope.error, inner.value - slope.value) };

@@ -19,8 +19,7 @@
 /* Lengths in periods of the oscillation. */
 #define CORE 1.25               /* fits into a stick of two wherever that lies */
 #define MOST 16.0               /* the longest window: the oscillation has decayed by its end */
-#define APART 3.0               /* least periods in a transition or half-cycle of the base: a window of two,
-                                   and the slip */
+#define APART (FIT_LEAST + 1)   /* least periods in a transition or half-cycle of the base: a window and the slip */
 
 #define GROWTH 1.25             /* factor by which the longest window grows from one fit to the next */
 #define KEPT 0.6                /* the least part of the windows that is kept without micro-slips: a train
@@ -247,7 +246,7 @@ ss_ringdown_fit_each(ringdown *r, double *scatter)
         ss_window win = ss_sticks_place(&k, r->anchor[i], FIT_LEAST);
         linear fitted = fit_one(&k, win, r->each[i]);
         if (fabs(log(r->each[i][0].value / r->w)) < M_LN2 / 2
-            && fitted.ring > FIT_EXPLAINED * (fitted.ring + fitted.rss))
+            && fitted.ring > NEARLY * (fitted.ring + fitted.rss))
             r->window[i] = win;
         else
             r->each[i][0] = r->each[i][1] = nothing;

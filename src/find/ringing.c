@@ -11,8 +11,7 @@
 #include "signal/gaps.h"
 
 #define BAND 0.25               /* [octaves] the largest distance of maxima of one kind */
-#define OCTAVES 2.0             /* a contact may ring faster than the rig by so much, or more */
-#define RANGE 20.0              /* [dB] range of the swells in the row of the oscillation */
+#define OCTAVES 2               /* a contact may ring faster than the rig by so much, or more */
 
 /* The label of a maximum in terms of the sinusoid that makes it. */
 static double
@@ -161,8 +160,8 @@ fit_faster(search *s, const size_t *anchor, double f)
     const char **why = &s->out->number[SS_TRANSITION_FREQUENCY].why, *first = *why;
     ss_status st = SS_OK;
     s->must_show = 1;
-    for (double by = 1. / 3; st == SS_OK && s->rings_as != OF_CONTACT && by < OCTAVES + 0.1; by += 1. / 3)
-        st = ss_oscillation_fit(s, anchor, exp2(by) * f, 0);
+    for (int third = 1; st == SS_OK && s->rings_as != OF_CONTACT && third <= 3 * OCTAVES; third++)
+        st = ss_oscillation_fit(s, anchor, exp2(third / 3.) * f, 0);
     if (s->rings_as == OF_CONTACT) {
         know(s->out, SS_TRANSITION_FREQUENCY_RAW, unknown);
         s->label = 0;
@@ -219,7 +218,7 @@ ss_ringing_find(search *s, double prominence)
     say(out, SS_TRANSITION_FREQUENCY, "no oscillation swells again and again");
     if (st != SS_OK || label == 0)
         return st;
-    const maxima_kind kind = { s->opts->threshold, RANGE, 0 };
+    const maxima_kind kind = { s->opts->threshold, STRONG, 0 };
     st = ss_maxima_of_row(&swell, &n, s->map, scale_nearest(s, label), &kind, s->top);
     if (st == SS_OK)
         st = ss_transitions_new(out, n);

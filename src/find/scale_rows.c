@@ -15,15 +15,13 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
+#include "find/judgement.h"
 #include "find/scale_rows.h"
 #include "map/map.h"
 #include "signal/gaps.h"
 #include <stickslip/morlet.h>
 
-#define FALSE_ALARMS 0.01       /* maxima above the threshold that a record of noise has */
-#define PRECISION 1e-7          /* of a sample, relative to the largest change: weaker spikes do not count */
 #define ACCURACY 1e-10          /* of W: 200 dB */
-#define QUIET 3.0               /* scales from a spike within which it raises the level */
 #define TOGETHER 6.0            /* octaves above an octave that share its spectra */
 #define MARGIN 0.25             /* part of the record: octaves with longer margins share nothing */
 
@@ -117,13 +115,13 @@ rms_of(const row_source *source, double middle)
 }
 
 /* The rms of |W| in the n levels, of which one comes every step from t on, and which change places.  It is
- * found from the median of the levels that are farther than QUIET scales from all spikes found so far and
+ * found from the median of the levels that are farther than half a wavelet's reach from all spikes found so far and
  * out of the reach of gaps, or of all levels if there are none. */
 static double
 noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t n, double t,
          double step, double a)
 {
-    double quiet = QUIET * a;
+    double quiet = ROW_REACH / 2 * a;
     size_t left = 0, i = 0;
     int all = source->n_gaps == 0 && (loud == NULL || loud->n == 0);
     for (size_t k = 0; k < n && !all; k++) {

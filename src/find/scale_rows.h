@@ -59,7 +59,7 @@ ss_status ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes
 /* The head of the row nearest to f; NULL: it is not known. */
 const scale_row *ss_row_head(const row_source *source, double f);
 
-/* The level, in units of the noise's rms, that Gaussian noise is expected to reach FALSE_ALARMS (scale_rows.c)
+/* The level, in units of the noise's rms, that Gaussian noise is expected to reach FALSE_ALARMS
  * times in so many rows, the first of scale shortest, of a record of that length [s]. */
 double ss_row_threshold(double length, double shortest, size_t rows);
 

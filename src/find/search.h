@@ -13,7 +13,7 @@
 #include "find/window.h"
 
 #define SPAN 80.0               /* [dB] of the paper's contours */
-#define STRONG 20.0             /* [dB] range of the spikes that begin or end a transition, and of single events */
+#define STRONG 20.0             /* [dB] range of the swells, spikes and single events that make transitions */
 
 static const ss_value unknown = { NAN, NAN };
 static const ss_number no_number = { NAN, NAN, NAN, NULL };

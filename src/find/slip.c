@@ -23,7 +23,6 @@
 
 enum { ONSET, TOP, MIDDLE, SPEED, DAMPING, FITTED };    /* onset behind the first sample used; SPEED: w */
 #define DEEP 0.8                /* part of D: 10 and 90 % of the fall lie at f_k +- so much */
-#define SMALL 1e-6              /* part of a parameter, of 1 for damping: a step for slopes */
 
 typedef struct fall {
     const double *x;            /* n samples */
@@ -210,7 +209,7 @@ ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t l
     if (f.n < FEWEST)
         return SS_OK;
     const double D = p[TOP] - p[MIDDLE], w = p[SPEED];
-    const double step[FITTED] = { SMALL / w, SMALL * D, SMALL * D, SMALL * w, SMALL };
+    const double step[FITTED] = { PRECISION / w, PRECISION * D, PRECISION * D, PRECISION * w, PRECISION };
     double *left = malloc(f.n * sizeof *left);
     if (left == NULL)
         return SS_ENOMEM;

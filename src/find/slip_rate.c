@@ -10,12 +10,9 @@
 #include "find/search.h"
 #include "signal/gaps.h"
 
-#define JITTER 0.125            /* relative difference of a time or period from that at which transitions recur */
 #define EVEN 0.03               /* the same between events of one kind: begins and ends may be nearly even */
-#define MOST 0.75               /* the least part of the transitions that must recur */
 #define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
 #define BARE 0.999              /* likeness of cycles in which noise and hum hide no slip */
-#define ALIKE 0.05              /* relative scatter of falls that differ by chance only */
 
 typedef struct times {          /* at which slips, or what may be slips, begin [s] */
     double *t;
@@ -42,7 +39,7 @@ mean_rate(const search *s, times slip)
     return (ss_value){ 1 / mean, sqrt(scatter / (m - 1) + sample * sample / 6) / (mean * mean) };
 }
 
-/* Do MOST of the slips come so long before those `step` slips later, to within a part of it? */
+/* Do most of the slips come so long before those `step` slips later, to within a part of it? */
 static int
 recur(const search *s, times slip, size_t step, double time, double within)
 {
@@ -54,7 +51,7 @@ recur(const search *s, times slip, size_t step, double time, double within)
         all++;
         good += fabs(passed / time - 1) <= within;
     }
-    return all >= 2 && (double)good >= MOST * (double)all;
+    return all >= 2 && (double)good >= MOSTLY * (double)all;
 }
 
 /* The number of slips in a cycle, after which a period has passed.  0: they do not repeat with the cycle. */
@@ -184,7 +181,7 @@ doubt_repetition(search *s, times fall)
 {
     ss_features *out = s->out;
     if (slips_in_cycle(s, fall) < 2 || !recur(s, fall, 1, 1 / out->number[SS_SLIP_RATE].value, JITTER)
-        || !(out->number[SS_DROP].scatter <= ALIKE * out->number[SS_DROP].value))
+        || !(out->number[SS_DROP].scatter <= SLIGHT * out->number[SS_DROP].value))
         return;
     know(out, SS_REPETITION_FREQUENCY, unknown);
     say(out, SS_REPETITION_FREQUENCY,
@@ -268,7 +265,7 @@ hides_stops(const search *s, times place, const ss_rests *rests, double rate, do
         off += is_event(spike) && spike->level >= -range && (i == place.n || place.t[i] > spike->t + within)
             && !is_off_level(s, rests, spike->t, reach + EVEN / rate);
     }
-    return (double)off >= (1 - MOST) * rate * (double)s->n / s->rate;
+    return (double)off >= (1 - MOSTLY) * rate * (double)s->n / s->rate;
 }
 
 /* Count the onsets of motion behind rests. */

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 #include "base/sort.h"
+#include "find/judgement.h"
 
 #define BREAK 0.05              /* probability of cutting all windows although there is no micro-slip; it is
                                    FIT_CHANCE if neither part has the least length, as then all are refused */
@@ -221,7 +222,7 @@ rings_there(fitter *k, tail behind)
 {
     linear fitted = ss_varpro_project(&k->fit, behind.at);
     size_t m = ss_window_length(behind.at);
-    int is_one = fitted.ring > FIT_EXPLAINED * (fitted.ring + fitted.rss)
+    int is_one = fitted.ring > NEARLY * (fitted.ring + fitted.rss)
         || ss_sticks_belong(k, fitted.rss, m - ss_varpro_columns(&k->fit));
     return is_one && fitted.ring > LOUDER * LOUDER * (double)m * behind.left + k->noise * ss_chisq2(FIT_CHANCE);
 }

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 #define TRIM_START 0.1          /* periods at the start found that are left out, as at the end */
-enum { PLACES = 16, MOST_PLACES = 4 * PLACES };         /* places in the core, which is a period; in all */
+enum { PLACES = 16, ROOM = 4 * PLACES };         /* places in a period; for those in three */
 
 static size_t
 least_of(size_t a, size_t b)
@@ -79,13 +79,13 @@ ss_sticks_place(fitter *k, size_t anchor, double size_in_periods)
 {
     size_t size = periods(k, size_in_periods), step = 1 + periods(k, 1) / PLACES;
     size_t before = periods(k, 2), after = periods(k, 1), fewest = ss_varpro_columns(&k->fit) + 2;
-    linear fitted[MOST_PLACES];
-    ss_window place[MOST_PLACES], best = { 0, 0 };
+    linear fitted[ROOM];
+    ss_window place[ROOM], best = { 0, 0 };
     double most = 0, least = INFINITY;
     size_t n = 0;
     size = size > fewest ? size : fewest;
     for (size_t first = anchor > before ? anchor - before : 0;
-         first <= anchor + after && first + size <= k->of->n && n < MOST_PLACES; first += step) {
+         first <= anchor + after && first + size <= k->of->n && n < ROOM; first += step) {
         place[n] = (ss_window){ first, first + size };
         if (ss_sticks_is_barred(k, place[n]))
             continue;

@@ -2,7 +2,7 @@
  *
  * The last 64 periods of the lowest frequency are kept.  Each such window is searched once, as a recording of its
  * own, for numbers and for what repeats.  Rows come from searches in between, which know what repeats.  They take a
- * part of the window only: as many periods as show ENOUGH transitions, which were as good as the whole window on
+ * part of the window only: as many periods as show LEAST transitions, which were as good as the whole window on
  * signals with noise, where 5 were not.  Where nothing happened, a part that shows a transition is a reason to
  * search the whole window.  Each transition is written by the first search that finds its end farther back than a
  * wavelet of the lowest frequency reaches, and its onset behind all that were written.  The first search comes after
@@ -19,12 +19,11 @@
 #include "find/search.h"
 #include "find/write.h"
 
-enum { PERIODS = 64, FIRST = 16, LEAST = 8 };   /* in a whole window, before rows, and in a part */
+enum { PERIODS = 64, FIRST = 16, LEAST = 8 };   /* in a whole window, before rows; and in a part, as transitions are */
 #define DELAY 0.18              /* [s] after two periods a row is written at the latest, but for the work */
 #define BEHIND 1.25             /* periods behind the end of a transition after which it is known: a wavelet's reach */
 #define SAME 2.                 /* samples between times that are the same */
 #define LOUDER 2.               /* times the largest sample of a window: it taught nothing about those */
-enum { ENOUGH = 8 };            /* transitions show what recurs as well as all of a window do */
 enum { MANY = 16 };             /* windows are searched as they come, and of the others one in so many */
 
 struct mean {
@@ -262,7 +261,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
         s->known.known = s->lesson.label > 0 ? &s->lesson : NULL;
         s->known.is_contact = isfinite(f->number[SS_TRANSITION_FREQUENCY].value);
         s->part = s->hop + s->behind + s->few;
-        while (f->n > 0 && s->part < s->window && f->n * s->part < ENOUGH * s->window)
+        while (f->n > 0 && s->part < s->window && f->n * s->part < LEAST * s->window)
             s->part += s->few / LEAST;
     }
     ss_features_free(s->before);

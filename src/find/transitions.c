@@ -25,7 +25,7 @@ find_spiked(search *s)
 {
     ss_features *out = s->out;
     const ss_spikes *found = out->spikes;
-    double apart = isnan(out->number[SS_REPETITION_FREQUENCY].value) ? 0 : 0.125
+    double apart = isnan(out->number[SS_REPETITION_FREQUENCY].value) ? 0 : JITTER
         / out->number[SS_REPETITION_FREQUENCY].value;
     ss_status st = ss_transitions_new(out, found->n);
     if (st != SS_OK)

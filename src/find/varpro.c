@@ -20,8 +20,7 @@
 #include "base/versions.h"
 
 enum { COLUMNS = VARPRO_COLUMNS, OFTEN = 16, STEPS = 50 };
-#define DEPENDENT 1e-13         /* part of a column's square: less is rounding */
-#define ROUNDING 1e-14          /* part of the sum of squares by which it may rise at its minimum */
+#define ROUNDING 1e-13          /* part of a column's square, and of the sum of squares: less is no change */
 
 ss_status
 ss_varpro_init(varpro *v, const double *x, size_t room)
@@ -55,39 +54,27 @@ ss_varpro_columns(const varpro *v)
 
 /* --- columns and their sums ------------------------------------------------------------------ */
 
-static wave
-wave_of(double w, double s)
-{
-    return (wave){ 1, 0, exp(-s) * cos(w), exp(-s) * sin(w) };
-}
-
-static void
-turn(wave *z)
-{
-    double next = z->cos * z->turn_cos - z->sin * z->turn_sin;
-    z->sin = z->cos * z->turn_sin + z->sin * z->turn_cos;
-    z->cos = next;
-}
-
 /* Where the forcing is slow, sin, 1 - cos and t - sin are about t, t^2 and t^3: cos and t themselves
  * would differ from the others by rounding only. */
 static void
-make_row(const varpro_table *tab, double t, double row[COLUMNS])
+make_row(const varpro *v, double t, double row[COLUMNS])
 {
+    const double fade = exp(-v->s * t), turned = v->forcing * t, of_cos = fade * cos(v->w * t);
+    const double of_sin = fade * sin(v->w * t);
     double *next = row;
     memset(row, 0, COLUMNS * sizeof *row);
     *next++ = 1;
-    if (tab->forcing > 0) {
-        *next++ = tab->slow.sin, *next++ = 1 - tab->slow.cos;
-        if (tab->is_bent)
-            *next++ = tab->forcing * t - tab->slow.sin;
+    if (v->forcing > 0) {
+        *next++ = sin(turned), *next++ = 1 - cos(turned);
+        if (v->is_bent)
+            *next++ = turned - sin(turned);
     } else {
         *next++ = t;
-        if (tab->is_bent)
+        if (v->is_bent)
             *next++ = t * t, *next++ = t * t * t;
     }
-    *next++ = tab->ring.cos, *next++ = tab->ring.sin;
-    *next++ = t * tab->ring.cos, *next++ = t * tab->ring.sin;
+    *next++ = of_cos, *next++ = of_sin;
+    *next++ = t * of_cos, *next++ = t * of_sin;
 }
 
 /* Add the products of n rows' columns. */
@@ -104,25 +91,21 @@ add_products(double (*restrict row)[COLUMNS], size_t n, double (*restrict g)[COL
     }
 }
 
-/* Add the products of n rows with x less level, and the squares of that.  Two sums wait less for each other
- * than one. */
+/* Add the products of n rows with x less level, and the squares of that. */
 VERSIONS static void
 add_samples(const double *restrict x, double level, double (*restrict row)[COLUMNS], size_t n,
             double *restrict to, double *restrict xx)
 {
-    double even[COLUMNS] = { 0 }, odd[COLUMNS] = { 0 }, squares[2] = { 0 };
-    for (size_t i = 0; i < n; i += 2) {
-        double a = x[i] - level, b = i + 1 < n ? x[i + 1] - level : 0;
-        const double *other = i + 1 < n ? row[i + 1] : row[i];
+    double sum[COLUMNS] = { 0 }, squares = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double off = x[i] - level;
         for (int k = 0; k < COLUMNS; k++)
-            even[k] += a * row[i][k];
-        for (int k = 0; k < COLUMNS; k++)
-            odd[k] += b * other[k];
-        squares[0] += a * a, squares[1] += b * b;
+            sum[k] += off * row[i][k];
+        squares += off * off;
     }
     for (int k = 0; k < COLUMNS; k++)
-        to[k] += even[k] + odd[k];
-    *xx += squares[0] + squares[1];
+        to[k] += sum[k];
+    *xx += squares;
 }
 
 /* The sums over the first n rows, whose last row may lack its sums so far. */
@@ -144,14 +127,11 @@ extend(varpro *v, size_t n)
     varpro_table *tab = &v->table;
     if (tab->w != v->w || tab->s != v->s || tab->forcing != v->forcing || tab->is_bent != v->is_bent) {
         tab->w = v->w, tab->s = v->s, tab->forcing = v->forcing, tab->is_bent = v->is_bent;
-        tab->ring = wave_of(v->w, v->s);
-        tab->slow = wave_of(v->forcing, 0);
         tab->n = 0;
         v->factored = 0;
     }
     for (; tab->n < n; tab->n++) {
-        make_row(tab, (double)tab->n, tab->row[tab->n]);
-        turn(&tab->ring), turn(&tab->slow);
+        make_row(v, (double)tab->n, tab->row[tab->n]);
         if ((tab->n + 1) % OFTEN == 0)
             sum_rows(tab, tab->n + 1, tab->sum[tab->n / OFTEN]);
     }
@@ -183,7 +163,7 @@ factorise(double (*g)[COLUMNS], double (*l)[COLUMNS], size_t n)
         double pivot = g[j][j];
         for (size_t k = 0; k < j; k++)
             pivot -= l[j][k] * l[j][k];
-        l[j][j] = pivot > DEPENDENT * g[j][j] ? sqrt(pivot) : 0;
+        l[j][j] = pivot > ROUNDING * g[j][j] ? sqrt(pivot) : 0;
         for (size_t i = j + 1; i < n; i++) {
             double sum = g[i][j];
             for (size_t k = 0; k < j && l[j][j] > 0; k++)

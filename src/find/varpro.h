@@ -26,17 +26,12 @@ typedef struct varpro_factor {
     double l[VARPRO_COLUMNS][VARPRO_COLUMNS], y[VARPRO_COLUMNS];
 } varpro_factor;
 
-typedef struct wave {           /* its value now, and the factor by which a sample turns it */
-    double cos, sin, turn_cos, turn_sin;
-} wave;
-
 /* The first n rows of the columns, and, at regular places, the sums of products over all rows
  * before. */
 typedef struct varpro_table {
     double w, s, forcing;
     int is_bent;
     size_t n;
-    wave ring, slow;
     double (*row)[VARPRO_COLUMNS];
     double (*sum)[VARPRO_COLUMNS][VARPRO_COLUMNS];
 } varpro_table;

@@ -81,11 +81,11 @@ void
 ss_features_notes(struct rows *rows, const ss_header *head, size_t column, const ss_features_opts *opts)
 {
     char threshold[SS_NUMBER_MAX];
-    enum { OTHERS = 7 };
-    const char *own[OTHERS + SS_FEATURE_NUMBERS + 1]
-        = { "column", "threshold", "norm", "near_gaps", "spike", "spikes", "about_*" };
+    enum { COLUMN = SS_FEATURE_NUMBERS };
+    const char *own[COLUMN + 8]
+        = { [COLUMN] = "column", "threshold", "norm", "near_gaps", "spike", "spikes", "about_*" };
     for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
-        own[OTHERS + k] = ss_feature_numbers[k].label.name;
+        own[k] = ss_feature_numbers[k].label.name;
     ss_rows_notes(rows, head, own);
     ss_rows_note(rows, "column: %s", head->column[column].name);
     ss_rows_note(rows, "threshold: %s", ss_number_text(threshold, opts->threshold));

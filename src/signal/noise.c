@@ -8,33 +8,29 @@
 #include <gsl/gsl_rng.h>
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "base/fft.h"
 #include "signal/noise.h"
 #include <stickslip/signal.h>
 
-struct ss_noise {
-    gsl_rng *rng;
-};
+/* An ss_noise is a generator of GSL's. */
+static gsl_rng *
+generator(ss_noise *noise)
+{
+    return (gsl_rng *)noise;
+}
 
 ss_status
 ss_noise_new(ss_noise **out, unsigned long seed, ss_error *err)
 {
     if (out == NULL)
         return SS_FAIL_NULL(err);
-    ss_noise *noise = malloc(sizeof *noise);
-    *out = NULL;
-    if (noise == NULL)
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    *out = (ss_noise *)rng;
+    if (rng == NULL)
         return ss_fail_memory(err, NULL);
-    noise->rng = gsl_rng_alloc(gsl_rng_mt19937);
-    if (noise->rng == NULL) {
-        free(noise);
-        return ss_fail_memory(err, NULL);
-    }
-    gsl_rng_set(noise->rng, seed);
-    *out = noise;
+    gsl_rng_set(rng, seed);
     return SS_OK;
 }
 
@@ -54,7 +50,7 @@ ss_noise_add(ss_noise *noise, double *const column[], size_t n_columns, size_t n
     for (size_t i = 0; i < n; i++)
         for (size_t c = 0; c < n_columns; c++)
             if (rms[c] > 0) {
-                column[c][i] += gsl_ran_gaussian_ziggurat(noise->rng, rms[c]);
+                column[c][i] += gsl_ran_gaussian_ziggurat(generator(noise), rms[c]);
                 zero += 0 * column[c][i];
             }
     return zero == 0 ? SS_OK : refuse_sum(err);
@@ -83,9 +79,9 @@ ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range ba
     size_t first = (size_t)ceil(lo / rate * (double)m), last = (size_t)floor(hi / rate * (double)m);
     last = last < m / 2 ? last : m / 2;
     for (size_t k = first; k <= last; k++) {    /* Gaussian numbers at the frequencies of the band */
-        y[2 * k] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
+        y[2 * k] = gsl_ran_gaussian_ziggurat(generator(noise), 1);
         if (k > 0 && k < m / 2)
-            y[2 * k + 1] = gsl_ran_gaussian_ziggurat(noise->rng, 1);
+            y[2 * k + 1] = gsl_ran_gaussian_ziggurat(generator(noise), 1);
     }
     if (first > last) {
         ss_real_fft_free(&f);
@@ -107,10 +103,7 @@ ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range ba
 void
 ss_noise_free(ss_noise *noise)
 {
-    if (noise == NULL)
-        return;
-    gsl_rng_free(noise->rng);
-    free(noise);
+    gsl_rng_free(generator(noise));
 }
 
 ss_status
