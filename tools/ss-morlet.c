@@ -162,7 +162,7 @@ compare(const ss_morlet *plan, const double *x, const double *w, const char *pat
     ss_error err = { 0 };
     double difference;
     tool_check_input(ss_morlet_compare(plan, x, w, EACH, &difference, &err), &err, path);
-    tool_warn("differs from the other method by at most %.2g of the largest |W| of a scale, "
+    tool_warn("differs from the sum in full by at most %.2g of the largest |W| of a scale, "
               "at %d coefficients of each", difference, (int)EACH);
 }
 

@@ -122,7 +122,7 @@ typedef int ss_coefficient_sink(const ss_scale *scale, size_t first, size_t n, c
 ss_status ss_morlet_each(const ss_morlet *plan, const double *x, ss_coefficient_sink *sink,
                          void *user, ss_error *err);
 
-/* Compute some of the coefficients w of x again, with another engine if there is one: each, 1 ...
+/* Compute some of the coefficients w of x again, by the sum in full: each, 1 ...
  * 1e6, of every scale, at random places that are always the same.  *difference becomes the largest
  * difference relative to the largest |W| of its scale. */
 ss_status ss_morlet_compare(const ss_morlet *plan, const double *x, const double *w, size_t each,
