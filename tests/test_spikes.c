@@ -564,6 +564,33 @@ rests_of_a_coarse_converter_are_found(void **state)
     free(rests.rest);
 }
 
+/* Four rests of 400 samples with white noise between oscillations.  In one of them a motion that noise hides from any
+ * one sample, six of its deviations high; or an oscillation whose extremum only touches the level, for 90 samples. */
+static void
+small_motions_make_rests_doubtful(void **state)
+{
+    enum { PLAIN, HIDDEN, TOUCHING, KINDS };
+    static double x[2400];
+    (void)state;
+    for (int kind = PLAIN; kind < KINDS; kind++) {
+        uint64_t seed = 5;
+        ss_rests rests;
+        for (size_t i = 0; i < 2400; i++) {
+            double at = (double)(i % 600), noise = 0;
+            for (int k = 0; k < 12; k++)
+                noise += uniform(&seed) - 0.5;
+            x[i] = 0.003 * noise + (at < 200 ? sin(M_PI * at / 50) : 0);
+            if (kind == HIDDEN && i > 700 && at > 350 && at < 450)
+                x[i] += 0.018 * sin(M_PI * (at - 350) / 100);
+            if (kind == TOUCHING && i > 700 && at < 200)
+                x[i] = 0.003 * noise + 1 - exp(-pow((at - 100) / 370, 2));
+        }
+        assert_int_equal(ss_rests_find(x, 2400, &rests), SS_OK);
+        assert_int_equal(rests.is_doubtful, kind != PLAIN);
+        free(rests.rest);
+    }
+}
+
 /* A hum whose frequency changes every 20,000 samples, under a signal that repeats: a hundredth of it is left. */
 static void
 a_hum_is_subtracted_part_by_part(void **state)
@@ -614,6 +641,7 @@ main(void)
         cmocka_unit_test(an_offset_takes_no_digits_of_a_slope),
         cmocka_unit_test(windows_are_cut_where_more_is_left),
         cmocka_unit_test(rests_of_a_coarse_converter_are_found),
+        cmocka_unit_test(small_motions_make_rests_doubtful),
         cmocka_unit_test(a_hum_is_subtracted_part_by_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,7 +3,8 @@
  * While a true stick lasts, velocity and acceleration are zero: the samples lie about one level, within the noise
  * of the record, whatever makes it.  The level is where samples are densest.  A motion that crosses the level does
  * not stop there: it passes the band about the level, and the wider one on either side, evenly.  A rest is as long
- * as it lasts in the band, and short beside it.  What is neither may be a short rest, or an extremum of a motion.
+ * as it lasts in the band, and short beside it.  What is neither may be a short rest, or an extremum of a motion; so may
+ * one whose samples are no noise about the level: it may hide a small motion, too.
  */
 #include "find/rests.h"
 
@@ -16,6 +17,7 @@
 
 #define BAND 5.0                /* standard deviations of the samples of a rest, either side of its level */
 #define AWAY (SIGMAS * BAND)    /* what leaves the band by less is no motion */
+#define RARE 2.5                /* standard deviations: few samples of a rest lie beyond */
 #define PART 0.1                /* of the samples are at rest */
 
 /* Level and standard deviation of the samples that are at rest, from the narrowest interval with PART of all
@@ -50,6 +52,16 @@ find_level(const double *x, size_t n, double *level, double *deviation)
     return SS_OK;
 }
 
+/* Do more samples of a rest lie beyond RARE deviations than noise, and a few wrong samples, put there? */
+static int
+is_no_noise(const double *x, ss_window rest, double level, double deviation)
+{
+    size_t beyond = 0;
+    for (size_t i = rest.first; i < rest.end; i++)
+        beyond += fabs(x[i] - level) > RARE * deviation;
+    return (double)beyond > FEW + 2 * OUTLIERS * (double)ss_window_length(rest);
+}
+
 ss_status
 ss_rests_find(const double *x, size_t n, ss_rests *out)
 {
@@ -71,6 +83,8 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
         else
             out->is_doubtful |= length >= beside + 2;
     }
+    for (size_t i = 0; i < out->n; i++)
+        out->is_doubtful |= is_no_noise(x, out->rest[i], level, deviation);
     out->level = level;
     out->band = BAND * deviation;
     out->is_doubtful |= out->band > SLIGHT;     /* of the largest sample */
