@@ -22,7 +22,7 @@ static const char usage[] =
 "      --threads=N        work on N scales at a time (1)\n"
 "      --stream           write coefficients as they are complete; needs --fmin\n"
 "      --inverse          read coefficients, write the signal that has them\n"
-"      --check            compare methods; --exact-bits: no rounding in HDF5\n"
+"      --check            compare with the sum; --exact-bits: no rounding in HDF5\n"
 TOOL_READING_USAGE
 "  -o, --output=FILE      .tsv .au .csv .json .h5; --format=tsv|au|csv|json\n"
 "  -q, --quiet   -v, --verbose   -h, --help   --version\n";

@@ -8,10 +8,7 @@
 typedef struct noise_level noise_level;
 
 noise_level *ss_noise_level_new(size_t n_scales);       /* NULL: no memory */
-/* Two coefficients per length of the wavelet, 2 sqrt(pi) a, measure noise as well as all do, since those
- * between follow from them: the 0th and each that is so many behind. */
-size_t ss_noise_level_step(const ss_scale *scale);
-/* Add those among the coefficients first ... first + n - 1 of a scale, the i-th, given by |W|;
+/* Add those that measure noise among the coefficients first ... first + n - 1 of a scale, the i-th, given by |W|;
  * all lie outside the cone of influence. */
 void ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const double *level, size_t first,
                         size_t n);
