@@ -816,14 +816,17 @@ two_near_modes_are_no_mechanism(void **state)
         { .0039, .295, { .0094, .0078 }, 3.5, .0016 }, { .003, .08, { .0042, .0024 }, 3.3, .002 },
         { .006, .055, { .0012, .0017 }, 2.3, .0011 }, { .0096, .043, { .0055, .0054 }, 1.7, .0016 } };
     (void)state;
-    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
-        ss_signal *signal = new_signal(3200, 400, 100, "x", "m");
+    for (size_t n = 0; n < 2 * (sizeof of / sizeof *of); n++) {
+        const size_t i = n / 2, late = n % 2 * 1600;        /* noise before it */
+        ss_signal *signal = new_signal(3200 + late, 400, 100, "x", "m");
         const double w = 20 * PI, v = w * (1 + of[i].apart);
         seed = 72;
         for (size_t k = 0; k < signal->n; k++) {
-            double t = (double)k / 400;
-            signal->values[k] = exp(-of[i].zeta[0] * w * t) * cos(w * t)
-                + of[i].part * exp(-of[i].zeta[1] * v * t) * cos(v * t + of[i].turn) + of[i].noise * gauss();
+            double t = ((double)k - (double)late) / 400;
+            signal->values[k] = of[i].noise * gauss();
+            if (k >= late)
+                signal->values[k] += exp(-of[i].zeta[0] * w * t) * cos(w * t)
+                    + of[i].part * exp(-of[i].zeta[1] * v * t) * cos(v * t + of[i].turn);
         }
         ss_backbone *b = find(signal, NULL);
         if (b->n_mechanisms > 0)

@@ -395,10 +395,10 @@ static void
 begin_two(const point *p, const block *b, size_t n, double ln_a, double w, double u[UNKNOWNS])
 {
     double complex z[TAKEN], c[2], mode[2];
-    double step = p[n - 1].t / (TAKEN - 1);
+    double step = (p[n - 1].t - p->t) / (TAKEN - 1);
     for (size_t k = 0, i = 0; k < TAKEN; k++) {
-        double t = p->t + (double)k * step;
-        while (i + 2 < n && p[i + 1].t < t)
+        double t = fmin(p->t + (double)k * step, p[n - 1].t);
+        while (p[i + 1].t < t)
             i++;
         double part = (t - p[i].t) / (p[i + 1].t - p[i].t);
         double first = b[i].phase - w * (b[i].t - b->t), next = b[i + 1].phase - w * (b[i + 1].t - b->t);
