@@ -143,7 +143,7 @@ converge(cycles *c, int period, motion *at, tangent *t)
 /* --- which motion is approached ------------------------------------------------------------- */
 
 /* A motion may differ by this part of its distance from what the derivative at its limit predicts. */
-#define NONLINEAR 0.3
+#define NONLINEAR 0.1
 /* The part that shrinks least may differ by this part of its change: it must change in the same direction. */
 #define SAME_WAY 0.8
 /* A multiplier this near to 1, as at the end of a line of motions, does not show how a motion is
@@ -151,7 +151,7 @@ converge(cycles *c, int period, motion *at, tangent *t)
 #define NEUTRAL 1e-6
 /* A difference of this part of the first distance is allowed, since walks are no more accurate. */
 #define MEASURABLE 0.01
-enum { REPETITIONS = 4 };
+enum { REPETITIONS = 8 };
 
 /* What is near a periodic motion: the derivative of one repetition, in units; and that of 2^30 repetitions,
  * divided by exp(scale), in which only the part of a difference that shrinks least is left. */
