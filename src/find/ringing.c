@@ -251,7 +251,7 @@ typedef struct span {
 static const span behind_spikes = { 0.5, 2.5, 0.5 };
 static const span behind_reversals = { 1, 5, 2 }, before_reversals = { -5, -1, 2 };
 
-enum { MANY = 1024 };           /* transitions, the first, behind which the band is sought */
+enum { HEARD = 1024 };          /* transitions, the first, behind which the band is sought */
 #define LOUDER 2.0              /* times the power before the reversals: ringing is so strong behind them */
 
 /* The end of a transition that is known by its spikes, or the onset of a reversal. */
@@ -275,7 +275,7 @@ power_behind(const search *s, span in, size_t index, double *level, double *powe
     const ss_features *out = s->out;
     const ss_scale *scale = &s->map->scale[index];
     const double period = 1 / scale->f, reach = ROW_REACH * scale->a;
-    const size_t n = out->n < MANY ? out->n : MANY;
+    const size_t n = out->n < HEARD ? out->n : HEARD;
     const size_t first = point_at(scale, fmax(0, begin_of(s, 0) + in.settled * period));
     size_t end = point_at(scale, fmax(0, begin_of(s, n - 1) + in.looked * period)) + 1, used = 0;
     double sum = 0;
