@@ -313,6 +313,12 @@ repeats(const cycle *c, size_t n, const double *field, double scale, double like
     return 0;
 }
 
+static ss_cycles
+repeats_not(const char *why)
+{
+    return (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN }, .why = why };
+}
+
 static const char by_chance[] = "what repeats may repeat sooner: in so few cycles, several may be alike by chance";
 
 /* Find median and standard error of the frequencies of n cycles. */
@@ -401,7 +407,7 @@ find_at(const double *x, size_t n, double period, ss_cycles *out)
     size_t reach = step + (size_t)(period * (1 + WIDTH)) + 2 * q + 4, most = n / step + 1;
     double *averaged = block_means(x, n / q, q), *room = malloc(most * sizeof *room);
     cycle *c = malloc(2 * most * sizeof *c);
-    *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
+    *out = repeats_not(NULL);
     const int is_room = averaged != NULL && room != NULL && c != NULL;
     if (is_room) {
         const view fine = { x, n }, coarse = { averaged, n / q };
@@ -547,11 +553,12 @@ lag_near(const view *v, double about, double period)
 
 /* --- in turn, or beside a hum ---------------------------------------------------------------- */
 
-/* How unlike it is to itself after so many cycles of this period. */
+/* How unlike it is to itself after so many cycles, whose lag is near one and becomes *lag. */
 static double
-after(const view *v, double period, double cycles)
+after(const view *v, double period, double about, double *lag)
 {
-    return unlikeness(v, lag_near(v, cycles * period, period), period);
+    *lag = lag_near(v, about, period);
+    return unlikeness(v, *lag, period);
 }
 
 /* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as
@@ -562,17 +569,23 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
 {
     enum { LOOKED_AT = 2 * MULTIPLES + 2 };
     const double most = (double)v->n / period;
-    double unlike[LOOKED_AT] = { 0 }, f = 0;
-    size_t known = 2;
+    double unlike[LOOKED_AT] = { 0 }, f = 0, lag, each = period;
+    size_t known = 2, best = 1;
     *in_turn = 1;
-    unlike[1] = after(v, period, 1);
+    unlike[1] = after(v, period, period, &lag);
     if (!(unlike[1] > least_unlike(v)))
         return SS_OK;
-    ss_status st = line_between(v, lag_near(v, period, period), 0.5, &f);
-    for (; known < LOOKED_AT && (double)known < SEEN * most; known++)
-        unlike[known] = after(v, period, (double)known);
+    ss_status st = line_between(v, lag, 0.5, &f);
+    for (; known < LOOKED_AT && (double)known < SEEN * most; known++) {
+        unlike[known] = after(v, period, (double)known * each, &lag);
+        if (unlike[known] < unlike[best]) {     /* it tells best how long the cycles are */
+            best = known;
+            each = lag / (double)known;
+        }
+    }
     for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && *in_turn == 1; p++) {
-        double bound = unlike[1] / CLEARER, last = after(v, period, floor(0.5 * most / (double)p) * (double)p);
+        double bound = unlike[1] / CLEARER, many = floor(0.5 * most / (double)p) * (double)p;
+        double last = after(v, period, many * each, &lag);
         int agree = last < bound && (f * period < 1 || (f * period < LOW && last < 2 * unlike[p]));
         for (size_t q = 2; agree && q <= 2 * p + 1 && q < known; q++)
             agree = (unlike[q] < bound) == (q % p == 0);
@@ -587,10 +600,11 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
 static size_t
 parts_of(const view *v, double period, int *some)
 {
-    const double as_well = fmax(least_unlike(v), 1.5 * after(v, period, 1));
+    double near, as_well = fmax(least_unlike(v), 1.5 * after(v, period, period, &near));
     *some = 0;
     for (size_t p = PARTS; p > 1; p--) {
-        double lag = period / (double)p, near = lag < 5 ? lag : lag_near(v, lag, lag);
+        const double lag = period / (double)p;
+        near = lag < 5 ? lag : lag_near(v, lag, lag);
         if (near == lag)                        /* it is no more alike there than sooner or later */
             continue;
         if (unlikeness(v, near, period) <= as_well)
@@ -655,13 +669,16 @@ compare_cycles(const double *x, size_t n, double period, ss_cycles *out)
     if (parts > 1)
         st = find_at(x, n, period / (double)parts, out);
     if (st == SS_OK && some && parts == 1 && out->n <= FEW && isfinite(out->period.value))
-        *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN }, .why = by_chance };
+        *out = repeats_not(by_chance);
     if (st == SS_OK && isfinite(out->period.value))
         st = cycles_in_turn(&v, out->period.value / (double)held, &in_turn);
-    if (st == SS_OK && in_turn > 1 && 2 * (double)in_turn * out->period.value > SEEN * (double)seen)
-        *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN }, .why = by_chance };
-    else if (st == SS_OK && in_turn > 1)
+    const int is_seen_twice = 2 * (double)in_turn * out->period.value <= SEEN * (double)seen;
+    if (st == SS_OK && in_turn > 1)
         st = find_at(x, n, out->period.value * (double)in_turn, out);
+    if (st == SS_OK && in_turn > 1 && isfinite(out->period.value)
+            && (!is_seen_twice || fabs(out->period.value - round(out->period.value)) < 2 * FINEST))
+        *out = repeats_not(is_seen_twice ? "several cycles are a whole number of samples: it may repeat after one"
+                           : by_chance);
     parts = 1;
     if (st == SS_OK && isfinite(out->period.value))
         st = parts_beside_hum(&v, out->period.value / (double)held, &hum, &parts);
@@ -677,7 +694,7 @@ ss_status
 ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out)
 {
     ss_value start = { about, NAN };
-    *out = (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN } };
+    *out = repeats_not(NULL);
     ss_status st = about == 0 ? ss_period_find(x, n, &start) : SS_OK;
     if (st != SS_OK)
         return st;

@@ -296,27 +296,27 @@ order(const void *a, const void *b)
     return (d > 0) - (d < 0);
 }
 
-/* The base's frequency over the number of its cycles after which the motion is the same; NaN: none up to 6.  What
- * becomes less from cycle to cycle is how the motion settles, and no longer period. */
+/* The base's frequency over the number of its cycles after which the motion is the same; NaN: none up to 6.  A small
+ * difference that was twice as large 20 cycles before is how the motion settles, and no longer period. */
 static double
 repetition_of(const record *r)
 {
-    enum { CYCLES = 14, COMPARED = 8 };
+    enum { COMPARED = 8, BEFORE = 20, MOST = 6, CYCLES = BEFORE + COMPARED + MOST };
     double cycle = 1 / (double)r->rig.f[0], end = (double)r->motion.end * (1 - 1e-12), x[CYCLES];
+    const double most = largest(r->x, r->n);
     size_t at = 0;
     for (int j = 0; j < CYCLES; j++) {
         double out[4];
         rig_at(&r->motion, end - j * cycle, &at, out);
         x[j] = out[0];
     }
-    for (int p = 1; p <= CYCLES - COMPARED; p++) {
-        double off = 0;
-        int settles = 1;
+    for (int p = 1; p <= MOST; p++) {
+        double late = 0, early = 0;
         for (int j = 0; j < COMPARED; j++) {
-            settles &= j == 0 || fabs(x[j] - x[j + p]) > 1.001 * fabs(x[j - 1] - x[j - 1 + p]);
-            off = fmax(off, fabs(x[j] - x[j + p]));
+            late = fmax(late, fabs(x[j] - x[j + p]));
+            early = fmax(early, fabs(x[j + BEFORE] - x[j + BEFORE + p]));
         }
-        if (settles || off < 1e-5 * largest(r->x, r->n))
+        if (late < 1e-6 * most || (late < 0.01 * most && late < 0.5 * early))
             return (double)r->rig.f[0] / p;
     }
     return NAN;
