@@ -179,7 +179,7 @@ refine(const view *v, size_t first, size_t m, size_t lag, size_t reach)
     for (size_t step = reach; step > 0; step /= 2)
         for (int sign = -1; sign <= 1; sign += 2)
             for (;;) {
-                size_t next = sign < 0 ? lag - step : lag + step;
+                size_t next = sign > 0 ? lag + step : lag > step ? lag - step : 0;
                 if (next < 2 || first + next + m + 2 > v->n)
                     break;
                 double d = relative(v, first, next, m);

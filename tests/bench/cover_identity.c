@@ -297,7 +297,7 @@ order(const void *a, const void *b)
 }
 
 /* The base's frequency over the number of its cycles after which the motion is the same; NaN: none up to 6.  A small
- * difference that was twice as large 20 cycles before is how the motion settles, and no longer period. */
+ * difference that was larger by a quarter 20 cycles before is how the motion settles, and no longer period. */
 static double
 repetition_of(const record *r)
 {
@@ -316,7 +316,7 @@ repetition_of(const record *r)
             late = fmax(late, fabs(x[j] - x[j + p]));
             early = fmax(early, fabs(x[j + BEFORE] - x[j + BEFORE + p]));
         }
-        if (late < 1e-6 * most || (late < 0.01 * most && late < 0.5 * early))
+        if (late < 1e-6 * most || (late < 0.05 * most && late < 0.8 * early))
             return (double)r->rig.f[0] / p;
     }
     return NAN;
