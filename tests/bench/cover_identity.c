@@ -42,6 +42,7 @@ typedef struct record {
     double ring;                /* the contact's frequency, or where one would be expected [Hz] */
     double longest;             /* median over half-cycles of the longest stick, in periods of the contact */
     double repeats;             /* [Hz] NaN: it does not */
+    int settles;                /* 1: several cycles may be as good an answer */
     double slips;               /* that begin after a stick, in the record; NaN: not only those */
     double gap_from, gap_to;    /* [s] */
 } record;
@@ -297,9 +298,10 @@ order(const void *a, const void *b)
 }
 
 /* The base's frequency over the number of its cycles after which the motion is the same; NaN: none up to 6.  A small
- * difference that was larger by a quarter 20 cycles before is how the motion settles, and no longer period. */
+ * difference that was larger by a quarter 20 cycles before is how the motion settles, and no longer period; while it is
+ * still to be seen, several cycles are no wrong answer. */
 static double
-repetition_of(const record *r)
+repetition_of(const record *r, int *settles)
 {
     enum { COMPARED = 8, BEFORE = 20, MOST = 6, CYCLES = BEFORE + COMPARED + MOST };
     double cycle = 1 / (double)r->rig.f[0], end = (double)r->motion.end * (1 - 1e-12), x[CYCLES];
@@ -316,6 +318,7 @@ repetition_of(const record *r)
             late = fmax(late, fabs(x[j] - x[j + p]));
             early = fmax(early, fabs(x[j + BEFORE] - x[j + BEFORE + p]));
         }
+        *settles = late > 1e-4 * most;
         if (late < 1e-6 * most || (late < 0.05 * most && late < 0.8 * early))
             return (double)r->rig.f[0] / p;
     }
@@ -395,7 +398,7 @@ draw_record(record *r, const population *of)
         r->x[i] = out[0], r->a[i] = out[2], r->f[i] = out[3];
     }
     find_sticks(r);
-    r->repeats = repetition_of(r);
+    r->repeats = repetition_of(r, &r->settles);
     size_t slips = 0;
     for (size_t i = 1; i < r->motion.n; i++)
         slips += r->motion.piece[i].mode != 0 && (double)r->motion.piece[i].t > r->settle;
@@ -452,6 +455,8 @@ count(tally *t, const record *r, const char *name, double value, double error, c
     double truth = NAN;
     if (isnan(value) || !truth_of(r, name, &truth))
         return;
+    if (strcmp(name, "repetition_frequency") == 0 && r->settles)
+        truth /= fmax(1, round(truth / value));
     double off = fabs(value - truth) / error;
     if (strcmp(name, "slips") == 0)             /* one may be cut at either end */
         off = fmax(0, fabs(value - truth) - 2) / fmax(error, 0.5);
