@@ -121,18 +121,27 @@ hill_beside_the_cone(double t, double m)
     return fmax(hill(20, 0, -2, t, m), hill(0, 2, -4, t, m));
 }
 
+/* The one maximum of a map with at least so large a prominence. */
+static ss_maximum
+only_maximum(height *h, double step, double prominence)
+{
+    ss_coefficients *coef = map_of(h, step);
+    ss_maximum *peak = NULL, only;
+    size_t n = 0;
+    assert_int_equal(ss_maxima_find(&peak, &n, coef, prominence, NULL), SS_OK);
+    assert_int_equal(n, 1);
+    only = peak[0];
+    free(peak);
+    ss_coefficients_free(coef);
+    return only;
+}
+
 static void
 levels_are_over_the_largest_outside_the_cone(void **state)
 {
-    ss_coefficients *coef = map_of(hill_beside_the_cone, 0.25);
-    ss_maximum *peak = NULL;
-    size_t n = 0;
+    const ss_maximum peak = only_maximum(hill_beside_the_cone, 0.25, 20);
     (void)state;
-    assert_int_equal(ss_maxima_find(&peak, &n, coef, 20, NULL), SS_OK);
-    assert_int_equal(n, 1);
-    assert_true(fabs(peak[0].t - 2) < 0.25 * 0x1p-4 && peak[0].level == 0);
-    free(peak);
-    ss_coefficients_free(coef);
+    assert_true(fabs(peak.t - 2) < 0.25 * 0x1p-4 && peak.level == 0);
 }
 
 static double
@@ -174,15 +183,9 @@ slopes_plateaus_and_borders_are_no_maxima(void **state)
 static void
 the_border_is_higher_ground(void **state)
 {
-    ss_coefficients *coef = map_of(ridge_on_the_border, 0);
-    ss_maximum *peak = NULL;
-    size_t n = 0;
+    const ss_maximum peak = only_maximum(ridge_on_the_border, 0, 3);
     (void)state;
-    assert_int_equal(ss_maxima_find(&peak, &n, coef, 3, NULL), SS_OK);
-    assert_int_equal(n, 1);
-    assert_true(fabs(peak[0].t - 3) < 0.01 && isfinite(peak[0].prominence));
-    free(peak);
-    ss_coefficients_free(coef);
+    assert_true(fabs(peak.t - 3) < 0.01 && isfinite(peak.prominence));
 }
 
 static void
