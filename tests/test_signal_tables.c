@@ -625,14 +625,12 @@ give_all(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *
     return SS_OK;
 }
 
-static ss_status
-change(ss_source *s, ss_error *err)
+static void
+change(ss_source *s)
 {
     struct changing *c = (struct changing *)s;
-    (void)err;
     c->now = c->again;
     c->ended = 0;
-    return SS_OK;
 }
 
 /* Rows that are read again may have changed, in HDF5, too. */

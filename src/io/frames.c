@@ -29,7 +29,7 @@ ss_sample_raw(const char *p, sample_type type)
 static ss_status
 refuse_end(const struct frames *f, size_t frame, size_t rest, ss_error *err)
 {
-    unsigned long long row = f->row;
+    unsigned long long row = f->base.row;
     if (rest > 0)
         return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu bytes of row %llu",
                        f->in->name, rest, frame, row + 1);
@@ -50,10 +50,10 @@ decode_row(struct frames *f, const char *p, double *const column[], size_t at, s
             column[c][at] = x;
         if (!isfinite(x))
             return ss_fail(err, SS_EDATA, "%s: row %llu, column %s: not a finite number",
-                           f->in->name, (unsigned long long)f->row + 1,
+                           f->in->name, (unsigned long long)f->base.row + 1,
                            f->base.head->column[c].name);
     }
-    f->row++;
+    f->base.row++;
     return SS_OK;
 }
 
@@ -61,8 +61,8 @@ static ss_status
 refuse_rest(const struct frames *f, ss_error *err)
 {
     return ss_fail(err, SS_EDATA, "%s: goes on after the %llu row%s that its header gives; head -c %llu "
-                   "cuts it there", f->in->name, (unsigned long long)f->row,
-                   PLURAL(f->row), (unsigned long long)f->end);
+                   "cuts it there", f->in->name, (unsigned long long)f->base.row,
+                   PLURAL(f->base.row), (unsigned long long)f->end);
 }
 
 /* Skip chunks up to the end of the file.  Each has four letters, a length and so many bytes, as samples

@@ -19,7 +19,6 @@ struct frames {
     uint64_t bytes_left;        /* UINT64_MAX: up to the end of the file */
     uint64_t end;               /* if > 0, the frames end at this byte of the file, and nothing may follow them */
     int is_chunk;               /* 1: except further chunks of a WAV file */
-    uint64_t row;               /* the number of the next one */
 };
 struct frames *ss_frames_new(struct input *in, ss_error *err);
 

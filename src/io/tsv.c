@@ -13,7 +13,6 @@ struct text {
     struct input *in;
     ss_status (*late_note)(void *user, char *line, ss_error *err);
     void *user;
-    uint64_t row;               /* the number of the next one */
 };
 
 /* --- reading ------------------------------------------------------------------------------- */
@@ -64,13 +63,13 @@ read_row(const struct text *s, char *line, size_t length, double *const column[]
     if (p + strspn(p, " \t") != line + length)
         return refuse_row(s, line, err);
     const ss_header *head = s->base.head;
-    if (!time || ss_is_on_clock(t, head->rate, head->start, s->row))
+    if (!time || ss_is_on_clock(t, head->rate, head->start, s->base.row))
         return SS_OK;
     char is[SS_NUMBER_MAX], should[SS_NUMBER_MAX];
     ss_number_format(is, t);
-    ss_number_format(should, head->start + (double)s->row / head->rate);
+    ss_number_format(should, head->start + (double)s->base.row / head->rate);
     return ss_fail(err, SS_EDATA, "%s:%lu: time is %s, expected start + %llu / rate = %s", s->in->name,
-                   s->in->line, is, (unsigned long long)s->row, should);
+                   s->in->line, is, (unsigned long long)s->base.row, should);
 }
 
 static ss_status
@@ -92,7 +91,7 @@ give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_err
         if (st != SS_OK)
             return st;
         *n += !is_note;
-        s->row += !is_note;
+        s->base.row += !is_note;
     }
     return SS_OK;
 }

@@ -365,19 +365,13 @@ make_filtered(ss_source *s, double *const column[], size_t max, size_t *n, ss_er
 }
 
 static void
-start(struct filtered *f)
+rewind_filtered(ss_source *s)
 {
+    struct filtered *f = (struct filtered *)s;
     f->blocks = 0;
     f->ended = 0;
     for (size_t c = 0; c < f->columns; c++)
         memset(f->in[c], 0, f->block * sizeof *f->in[c]);
-}
-
-static ss_status
-rewind_filtered(ss_source *s, ss_error *err)
-{
-    start((struct filtered *)s);
-    return ss_source_rewind(s->inner, err);
 }
 
 static void
@@ -425,7 +419,7 @@ prepare(struct filtered *f, const struct design *d)
     }
     f->base.made = *f->out;
     f->base.apart = block;
-    start(f);
+    rewind_filtered(&f->base);
     return st;
 }
 

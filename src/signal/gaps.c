@@ -38,7 +38,6 @@ struct runs {
 struct filled {
     ss_source base;
     ss_gaps how;
-    size_t row;                 /* the number of the next one */
     struct runs *column, rows;  /* rows: the rows in which any column lacks its value */
 };
 
@@ -90,14 +89,11 @@ note_spans(const struct runs *r, ss_header *head)
     return st;
 }
 
-static ss_status
-rewind_filled(ss_source *s, ss_error *err)
+static void
+rewind_filled(ss_source *s)
 {
-    struct filled *g = (struct filled *)s;
-    g->row = 0;
     for (size_t c = 0; c < s->head->n_columns; c++)
-        g->column[c].next = 0;
-    return ss_source_rewind(s->inner, err);
+        ((struct filled *)s)->column[c].next = 0;
 }
 
 static ss_status
@@ -108,7 +104,7 @@ give_filled(ss_source *s, double *const column[], size_t max, size_t *n, ss_erro
     for (size_t c = 0; st == SS_OK && c < s->head->n_columns; c++) {
         struct runs *r = &g->column[c];
         for (size_t i = 0; column[c] != NULL && i < *n; i++) {
-            size_t row = g->row + i;
+            size_t row = (size_t)s->row + i;
             double *x = &column[c][i];
             if (!isnan(*x))
                 continue;
@@ -120,7 +116,7 @@ give_filled(ss_source *s, double *const column[], size_t max, size_t *n, ss_erro
             *x = run != NULL ? between(run->left, run->right, row, run->first, run->end) : 0;
         }
     }
-    g->row += *n;
+    s->row += *n;
     return st;
 }
 
@@ -149,7 +145,7 @@ ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err)
     ss_status st = column != NULL && g->column != NULL ? SS_OK : ss_fail_memory(err, g->base.name);
     while (st == SS_OK && n > 0) {
         st = ss_source_rows(g->base.inner, column, piece, &n, err);
-        for (size_t i = 0; st == SS_OK && i < n; i++, g->row++) {
+        for (size_t i = 0; st == SS_OK && i < n; i++, g->base.row++) {
             double zero = 0;                    /* NaN if any column lacks its value */
             int added = 1;
             for (size_t c = 0; c < columns; c++) {
@@ -157,24 +153,24 @@ ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err)
                 if (how == SS_GAPS_SPLIT)
                     g->column[c].there += !isnan(x);
                 else
-                    added &= add_value(&g->column[c], g->row, x);
+                    added &= add_value(&g->column[c], (size_t)g->base.row, x);
                 zero = isnan(x) ? x : zero;
             }
-            if (!added || !add_value(&g->rows, g->row, zero))
+            if (!added || !add_value(&g->rows, (size_t)g->base.row, zero))
                 st = ss_fail_memory(err, g->base.name);
         }
     }
     free(column);
     for (size_t c = 0; st == SS_OK && c < columns; c++) {
         struct runs *r = &g->column[c];
-        if (g->row > 0 && r->there == 0)
+        if (g->base.row > 0 && r->there == 0)
             st = ss_fail(err, SS_EDATA, "%s: column %s: no numbers", g->base.name, g->base.head->column[c].name);
         if (r->open)
             r->run[r->n - 1].right = r->last;
     }
     if (st == SS_OK && note_spans(&g->rows, g->base.head) != SS_OK)
         st = ss_fail_memory(err, g->base.name);
-    return st == SS_OK ? rewind_filled(&g->base, err) : st;
+    return st == SS_OK ? ss_source_rewind(&g->base, err) : st;
 }
 
 /* --- the note ------------------------------------------------------------------------------ */

@@ -27,7 +27,6 @@ struct resampled {
     double longest, first;      /* first: the time of the first row */
     int ended;                  /* 1: all rows have been read */
     size_t n, room;             /* rows in memory, and their most, which is also the most samples */
-    uint64_t read;              /* rows, of which the last are in memory */
     double *stamp, **value;     /* of row i, stamp[i] and value[c][i] of each column */
     double **to;                /* where the values of the next row go; the stamps behind them */
     double *kept_stamp, *kept;  /* one piece, without a gap, of one column */
@@ -99,10 +98,10 @@ read_on(struct resampled *r, ss_error *err)
         if (st != SS_OK)
             return st;
         for (size_t i = 0; i < n && !r->stamped; i++)
-            r->stamp[r->n + i] = own->start + (double)(r->read + i) / own->rate;
+            r->stamp[r->n + i] = own->start + (double)(r->base.row + i) / own->rate;
         r->ended = n == 0;
         r->n += n;
-        r->read += n;
+        r->base.row += n;       /* rows read, of which the last are in memory */
         if (r->at == 0)
             r->first = r->stamp[0];
     }
@@ -136,15 +135,13 @@ make_samples(ss_source *s, double *const column[], size_t max, size_t *n, ss_err
     return st;
 }
 
-static ss_status
-rewind_samples(ss_source *s, ss_error *err)
+static void
+rewind_samples(ss_source *s)
 {
     struct resampled *r = (struct resampled *)s;
     r->n = 0;
-    r->read = 0;
     r->at = 0;
     r->ended = 0;
-    return ss_source_rewind(s->inner, err);
 }
 
 static void

@@ -78,8 +78,13 @@ ss_source_rewind(ss_source *s, ss_error *err)
 {
     if (!s->rewinds)
         return ss_fail(err, SS_EINVAL, "%s: its rows are not kept to be read again", s->name);
-    s->held = s->given = 0;
-    return s->calls->rewind != NULL ? s->calls->rewind(s, err) : ss_source_rewind(s->inner, err);
+    for (; s != NULL && s->rewinds; s = s->inner) {
+        s->held = s->given = 0;
+        s->row = 0;
+        if (s->calls->rewind != NULL)
+            s->calls->rewind(s);
+    }
+    return SS_OK;
 }
 
 int
@@ -158,12 +163,10 @@ ss_source_all(ss_signal **out, ss_source *s, ss_error *err)
 
 /* --- of a signal in memory ----------------------------------------------------------------- */
 
-static ss_status
-hold_all(ss_source *s, ss_error *err)
+static void
+hold_all(ss_source *s)
 {
-    (void)err;
     s->held = (size_t)s->length;
-    return SS_OK;
 }
 
 ss_source *

@@ -15,8 +15,8 @@ struct source_calls {
     /* At most max rows, as ss_reader_rows gives them; *n is 0 before the call.  Or make rows that are given from
      * here on: set held, and given to the first of them.  NULL: all are there when it begins. */
     ss_status (*next)(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err);
-    /* Back to the first row; NULL: as the inner source goes back, or, if there is none, it cannot. */
-    ss_status (*rewind)(ss_source *s, ss_error *err);
+    /* Back to the first row, beside what all sources do; NULL: there is nothing more to do. */
+    void (*rewind)(ss_source *s);
     int (*left)(const ss_source *s);       /* 1: it has rows that it has read and not given; NULL: it keeps none */
     void (*free)(ss_source *s);            /* what the source itself holds; NULL: nothing */
 };
@@ -27,12 +27,13 @@ struct source {
     char *name;                 /* of the file, for messages */
     ss_header *head;
     uint64_t length;            /* rows; UINT64_MAX: not known before the last */
-    int rewinds;                /* 1: it can go back */
+    int rewinds;                /* 1: it can go back, to begin with if calls has rewind, or the inner one can */
     int stamped;                /* 1: the last column holds the times of the rows, at any spacing */
     unsigned long line;         /* of text, where the last row stood; 0: rows have no lines */
     ss_source *inner;              /* the one whose rows these are made of, or NULL */
     const double *made;         /* rows that were made: the value of row i in column c is made[c * apart + i] */
     size_t apart, held, given;  /* held: rows there; given: of these, the next to be given */
+    uint64_t row;               /* for its own use: the number of the next row; 0 after going back */
 };
 
 /* A source of this size, all zeros behind its first member, with an empty header.  NULL: no memory. */

@@ -34,7 +34,7 @@ typedef struct rows {
     int times_by_columns;
     int is_own;                 /* /signal, whose times must be those of its clock */
     int gaps;                   /* values that are not finite are missing, not wrong */
-    size_t n, row;              /* n: rows; row: of these, the next to be read */
+    size_t n;                   /* rows */
     size_t piece;               /* rows that are read at a time */
     double **value;             /* a piece of each column */
     double *raw;                /* a piece of a dataset of several columns, or of the times */
@@ -350,7 +350,8 @@ read_dataset(rows *s, size_t d, size_t n, size_t columns)
 {
     char text[64];
     double *x = columns == 1 ? s->value[d] : s->raw;
-    if (!ss_h5_read_rows(s->dataset[d], s->by_columns, s->row, n, x))
+    size_t row = (size_t)s->base.row;
+    if (!ss_h5_read_rows(s->dataset[d], s->by_columns, row, n, x))
         return ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
     for (size_t i = 0; i < n * columns; i++) {
         if (isfinite(x[i]))
@@ -358,7 +359,7 @@ read_dataset(rows *s, size_t d, size_t n, size_t columns)
         x[i] = NAN;
         if (s->gaps)
             continue;
-        size_t place = s->by_columns ? i / n * s->n + s->row + i % n : s->row * columns + i;
+        size_t place = s->by_columns ? i / n * s->n + row + i % n : row * columns + i;
         snprintf(text, sizeof text, "value %zu is not finite", place + 1);
         return ss_h5_fail(&s->file, SS_EDATA, s->dataset[d], "", text);
     }
@@ -376,18 +377,19 @@ read_piece(rows *s, size_t n)
     double *times = s->is_own ? s->raw : s->value[head->n_columns - 1];
     ss_status status = SS_OK;
     char text[64];
-    if (n > 0 && s->times > 0 && !ss_h5_read_rows(s->times, s->times_by_columns, s->row, n, times))
+    size_t row = (size_t)s->base.row;
+    if (n > 0 && s->times > 0 && !ss_h5_read_rows(s->times, s->times_by_columns, row, n, times))
         return ss_h5_fail(&s->file, SS_EIO, s->times, "", "cannot be read");
     for (size_t i = 0; s->is_own && status == SS_OK && i < n; i++)
-        if (!ss_is_on_clock(times[i], head->rate, head->start, s->row + i)) {
-            snprintf(text, sizeof text, "value %zu is not start + %zu / rate", s->row + i + 1, s->row + i);
+        if (!ss_is_on_clock(times[i], head->rate, head->start, row + i)) {
+            snprintf(text, sizeof text, "value %zu is not start + %zu / rate", row + i + 1, row + i);
             status = ss_h5_fail(&s->file, SS_EDATA, s->times, "", text);
         }
     for (size_t d = 0; status == SS_OK && n > 0 && d < s->n_datasets; d++)
         status = read_dataset(s, d, n, columns_of(s));
     if (status != SS_OK)
         return status;
-    s->row += n;
+    s->base.row += n;
     s->base.held = n;
     s->base.given = 0;
     return SS_OK;
@@ -397,7 +399,7 @@ static ss_status
 make_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     rows *s = (rows *)base;
-    size_t left = s->n - s->row;
+    size_t left = s->n - (size_t)base->row;
     ss_status status = SS_OK;
     (void)column, (void)max, (void)n;
     s->file.err = err;
@@ -405,14 +407,6 @@ make_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_err
         status = read_piece(s, left < s->piece ? left : s->piece);
     );
     return status;
-}
-
-static ss_status
-rewind_rows(ss_source *base, ss_error *err)
-{
-    (void)err;
-    ((rows *)base)->row = 0;
-    return SS_OK;
 }
 
 static void
@@ -452,7 +446,7 @@ find(rows *s, const char *dataset, const ss_read_opts *opts)
 ss_status
 ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts, ss_error *err)
 {
-    static const struct source_calls calls = { .next = make_rows, .rewind = rewind_rows, .free = free_rows };
+    static const struct source_calls calls = { .next = make_rows, .free = free_rows };
     dataset = dataset != NULL ? dataset : "";
     char *name = malloc(strlen(path) + strlen(dataset) + 2);
     if (name == NULL)
@@ -463,6 +457,7 @@ ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const 
     if (s == NULL)
         return SS_ENOMEM;
     *out = &s->base;
+    s->base.rewinds = 1;
     s->path = strdup(path);
     s->file = (h5_file){ .id = -1, .path = s->path, .err = err };
     ss_status status = SS_ENOMEM;

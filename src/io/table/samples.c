@@ -20,7 +20,6 @@ struct samples {
     struct timing timing;
     size_t *of, n;              /* the columns of the table that are given */
     struct sample_count count;
-    uint64_t next;              /* the row to be read next */
     const double *row;          /* that is given next, as this sample; NULL: it is not read yet */
     size_t sample, given;       /* given: samples so far */
     ss_progress progress;
@@ -41,13 +40,13 @@ read_row(struct samples *s, int may_wait, ss_error *err)
 {
     size_t time = s->timing.time.column;
     do {
-        if (s->live != NULL && s->next == s->rows->n) {
+        if (s->live != NULL && s->base.row == s->rows->n) {
             ss_status st = may_wait ? s->live->later->next(s->live, err) : SS_OK;
-            if (st != SS_OK || s->next == s->rows->n)
+            if (st != SS_OK || s->base.row == s->rows->n)
                 return st;
         }
-        s->row = ss_kept_row(s->rows, s->next);
-        s->next += s->row != NULL;
+        s->row = ss_kept_row(s->rows, s->base.row);
+        s->base.row += s->row != NULL;
     } while (s->row != NULL && time != NONE && isnan(s->row[time]));
     return ss_kept_check(s->rows, err);
 }
@@ -56,7 +55,7 @@ read_row(struct samples *s, int may_wait, ss_error *err)
 static void
 report(const struct samples *s)
 {
-    ss_progress_at(&s->progress, (1 + (double)s->next / (double)s->rows->n) / 2);
+    ss_progress_at(&s->progress, (1 + (double)s->base.row / (double)s->rows->n) / 2);
 }
 
 static ss_status
@@ -98,22 +97,19 @@ give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_err
     return st;
 }
 
-static ss_status
-rewind_samples(ss_source *base, ss_error *err)
+static void
+rewind_samples(ss_source *base)
 {
     struct samples *s = (struct samples *)base;
-    (void)err;
     s->count = (struct sample_count){ .usual = s->timing.usual };
     s->row = NULL;
-    s->next = s->given = 0;
-    return SS_OK;
+    s->given = 0;
 }
 
 static int
 rows_left(const ss_source *base)
 {
-    const struct samples *s = (const struct samples *)base;
-    return s->next < s->rows->n;
+    return base->row < ((const struct samples *)base)->rows->n;
 }
 
 static void
@@ -155,15 +151,13 @@ static const struct source_calls samples_calls = { give_samples, rewind_samples,
 ss_status
 ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *err)
 {
-    static const struct source_calls live = { give_samples, NULL, rows_left, free_samples };
     static const struct source_calls rows = { give_rows, rewind_samples, rows_left, free_samples };
     struct timing timing = { .usual = 0 };
     ss_status st = ss_sheet_find_clock(t, &timing, err);
     if (st != SS_OK)
         return st;
     int resampled = timing.longest > 0, stamped = resampled || (t->opts->stamps && timing.time.column != NONE);
-    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : t->later != NULL ? &live : &samples_calls, t->name,
-                                       err);
+    struct samples *s = ss_source_new(sizeof *s, stamped ? &rows : &samples_calls, t->name, err);
     if (s == NULL)
         return SS_ENOMEM;
     *out = &s->base;
@@ -171,13 +165,14 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     s->progress = progress;
     s->rows = &t->rows;
     s->live = t->later != NULL ? t : NULL;
+    s->base.rewinds = s->live == NULL;
     if (s->live == NULL) {
         s->own = t->rows;
         s->own.name = s->base.name;
         s->rows = &s->own;
         t->rows = (struct kept){ 0 };
     }
-    rewind_samples(&s->base, err);
+    rewind_samples(&s->base);
     st = choose_columns(s, t, stamped, err);
     if (st == SS_OK && resampled)
         st = ss_source_resample(out, t->names->rate, 1, timing.longest, err);
