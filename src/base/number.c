@@ -4,8 +4,8 @@
  * Writing and reading multiply a 64-bit integer by a power of ten of 128 bits.  This is enough to
  * decide the rounding of every number that is written (Giulietti, "The Schubfach way to render
  * doubles", 2020) and of all numbers that are read, except a few in 2^60 (Clinger 1990; Lemire,
- * "Number parsing at a gigabyte per second", 2021).  strtod reads those few, the subnormal numbers
- * and the overflowing ones.  So the only error is the rounding of a number that is read. */
+ * "Number parsing at a gigabyte per second", 2021).  strtod reads those few, the subnormal numbers, the overflowing
+ * ones and those of more than 19 digits.  So the only error is the rounding of a number that is read. */
 #include <float.h>
 #include <locale.h>
 #include <math.h>
@@ -186,119 +186,68 @@ ss_number_format(char text[SS_NUMBER_MAX], double x)
 
 /* --- reading ------------------------------------------------------------------------------- */
 
+/* A decimal number w 10^e. */
 struct decimal {
-    uint64_t w;         /* the first 19 digits */
-    long e;             /* its value is w 10^e, or up to 10^e more if digits were dropped */
-    int dropped;        /* a digit other than 0 did not fit in w */
+    uint64_t w;
+    long e;
+    int is_long;                /* it has more digits than w holds, and w is not its value */
 };
 
-/* The value of a digit; 10 or more if c is no digit. */
-static inline unsigned
-digit_of(char c)
-{
-    return (unsigned)(unsigned char)c - '0';
-}
-
-/* Append the digits at p to *w; the result is right if all of them fit. */
+/* Append the digits at p to w. */
 static inline const char *
-scan_short(uint64_t *w, const char *p)
+scan_digits(struct decimal *d, const char *p)
 {
-    uint64_t all = *w;
-    for (unsigned digit; (digit = digit_of(*p)) < 10; p++)
+    uint64_t all = d->w;
+    for (unsigned digit; (digit = (unsigned)(unsigned char)*p - '0') < 10; p++)
         all = all * 10 + digit;
-    *w = all;
+    d->w = all;
     return p;
-}
-
-/* The same, of any length. */
-static const char *
-scan_long(struct decimal *d, const char *p, int behind_point)
-{
-    for (; digit_of(*p) < 10; p++) {
-        if (d->w < UINT64_C(1000000000000000000)) {
-            d->w = d->w * 10 + (uint64_t)(*p - '0');
-            d->e -= behind_point;
-        } else {
-            d->dropped |= *p != '0';
-            d->e += !behind_point;
-        }
-    }
-    return p;
-}
-
-/* Read digits with or without a point.  Returns their end, or NULL if there is no digit. */
-static const char *
-scan_digits(struct decimal *d, const char *start)
-{
-    enum { MOST = 19 };
-    const char *p = scan_short(&d->w, start), *point = *p == '.' ? p : NULL;
-    if (point != NULL)
-        p = scan_short(&d->w, point + 1);
-    size_t digits = (size_t)(p - start) - (point != NULL);
-    if (digits == 0)
-        return NULL;
-    d->e = point != NULL ? point + 1 - p : 0;
-    if (digits <= MOST)
-        return p;
-    *d = (struct decimal){ 0, 0, 0 };
-    p = scan_long(d, start, 0);
-    return point != NULL ? scan_long(d, p + 1, 1) : p;
 }
 
 /* Read the unsigned number at p.  Returns its end, or NULL if there is none. */
 static const char *
-scan(struct decimal *d, const char *p)
+scan(struct decimal *d, const char *start)
 {
-    p = scan_digits(d, p);
-    if (p == NULL || (*p != 'e' && *p != 'E'))
+    enum { MOST = 19 };
+    const char *p = scan_digits(d, start), *point = *p == '.' ? p : NULL;
+    if (point != NULL)
+        p = scan_digits(d, point + 1);
+    size_t digits = (size_t)(p - start) - (point != NULL);
+    if (digits == 0)
+        return NULL;
+    d->e = point != NULL ? point + 1 - p : 0;
+    d->is_long = digits > MOST;
+    if (*p != 'e' && *p != 'E')
         return p;
-    const char *q = p + 1;
-    int negative = *q == '-';
-    long e = 0;
-    q += *q == '-' || *q == '+';
-    if (digit_of(*q) >= 10)
+    struct decimal power = { 0 };
+    const char *q = p + 1 + (p[1] == '-' || p[1] == '+'), *end = scan_digits(&power, q);
+    if (end == q)
         return p;
-    for (; digit_of(*q) < 10; q++)
-        if (e < 100000000)
-            e = e * 10 + (*q - '0');
-    d->e += negative ? -e : e;
-    return q;
-}
-
-static int
-leading_zeros(uint64_t w)
-{
-#if defined(__GNUC__)
-    return __builtin_clzll(w);
-#else
-    int n = 0;
-    for (; !(w >> 63); w <<= 1)
-        n++;
-    return n;
-#endif
+    d->is_long |= end - q > 8;
+    d->e += p[1] == '-' ? -(long)power.w : (long)power.w;
+    return end;
 }
 
 /* Compute w 10^e in double precision.  Returns 0 if 128 bits cannot decide how it rounds.
  *
  * w is shifted to the top of 64 bits.  Then the exact product lies in [z, z + 2) units of the 128 bits
- * kept, or in [z, z + 17 2^64) if digits were dropped (then w >= 10^18).  If all numbers in this
- * interval have the same leading 54 bits and z is not half-way, the 54th bit decides. */
+ * kept.  If all numbers in this interval have the same leading 54 bits and z is not half-way, the 54th bit decides. */
 static int
 multiply(struct decimal d, double *x)
 {
     if (d.e < POW10_FIRST || d.e > 308)
         return 0;
-    int e = (int)d.e, zeros = leading_zeros(d.w);
+    int e = (int)d.e, zeros = 0;
+    for (; !(d.w >> 63); zeros++)
+        d.w <<= 1;
     struct pow10 g = pow10_table[e - POW10_FIRST];
-    struct wide z = product(d.w << zeros, g.hi), rest = product(d.w << zeros, g.lo);
+    struct wide z = product(d.w, g.hi), rest = product(d.w, g.lo);
     z.lo += rest.hi;
     z.hi += z.lo < rest.hi;
 
     int top = (int)(z.hi >> 63), exponent = log2_pow10(e) - zeros + 11 + top;
     uint64_t mask = (UINT64_C(1) << (9 + top)) - 1, below = z.hi & mask, m = z.hi >> (9 + top);
-    if (d.dropped ? below + 18 > mask : below == mask && z.lo >= UINT64_MAX - 1)
-        return 0;
-    if ((m & 1) && below == 0 && z.lo == 0)
+    if ((below == mask && z.lo >= UINT64_MAX - 1) || ((m & 1) && below == 0 && z.lo == 0))
         return 0;
     if (exponent < -1074 || exponent > 970)
         return 0;
@@ -373,7 +322,7 @@ ss_number_parse(const char *text, char **end)
 {
     static const double pow10[] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11,
         1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
-    struct decimal d = { 0, 0, 0 };
+    struct decimal d = { 0 };
     const char *p = text != NULL ? text : "";
     double x = 0;
 
@@ -386,11 +335,13 @@ ss_number_parse(const char *text, char **end)
         *end = (char *)(p != NULL ? p : text);
     if (p == NULL)
         return 0;
+    if (d.is_long)
+        return strtod_in_c(start);
     while (d.w >> 53 && d.w % 10 == 0) {        /* 1.000000000000000000e+00, as NumPy writes it */
         d.w /= 10;
         d.e++;
     }
-    int exact = FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD <= 1 && !d.dropped && !(d.w >> 53);     /* then one rounding */
+    int exact = FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD <= 1 && !(d.w >> 53);     /* then one rounding */
     if (exact && d.e >= 0 && d.e <= 22)
         x = (double)d.w * pow10[d.e];
     else if (exact && d.e < 0 && d.e >= -22)

@@ -2,10 +2,9 @@
  *
  * The header is a Python dictionary of three keys: descr, fortran_order and shape.  (NumPy Enhancement
  * Proposal 1.)  The columns of a 2-D array are its shorter dimension, as in HDF5. */
-#include <math.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
 #include "base/error.h"
 #include "base/list.h"
 #include "signal/header.h"
@@ -13,11 +12,10 @@
 #include "io/table/sheet.h"
 #include "io/table/text.h"
 
-enum {
-    MAGIC_BYTES = 8, HEADER_MOST = 1 << 20, RECORD_MOST = 1 << 20 };
+enum { MAGIC_BYTES = 8, HEADER_MOST = 1 << 20, RECORD_MOST = 1 << 20 };
+#define QUOTE "\1"              /* of strings in the header as it is parsed */
 
 struct field {
-    char name[64];
     sample_type type;
     size_t at;                  /* its first byte in a record */
 };
@@ -28,172 +26,119 @@ struct npy {
     struct field *field;
     size_t n_fields, room, record;      /* record: bytes of all fields */
     int named, fortran;
-    uint64_t shape[2];
-    int dimensions;
-    size_t rows, columns, row;          /* row: the next to be given */
-    int no_memory;
-    double *value;                      /* of a record */
+    size_t rows, columns;
+    double *value;                      /* of a row */
     struct kept all;                    /* values of an array whose columns follow each other in the file */
 };
 
 /* --- the header ---------------------------------------------------------------------------- */
 
-/* Skip blanks and this character.  Returns the text behind it; NULL if another follows, or p is NULL. */
-static const char *
-expect(const char *p, char c)
+/* Copy a line without the blanks outside of strings, and with QUOTE for either kind of quotes around these. */
+static char *
+tidy(const char *p)
 {
-    if (p == NULL)
-        return NULL;
-    p += strspn(p, " \n");
-    return *p == c ? p + 1 : NULL;
+    char *copy = malloc(strlen(p) + 1), *to = copy, quote = '\0';
+    for (; copy != NULL && *p != '\0'; p++)
+        if (quote != '\0' ? *p == quote : *p == '\'' || *p == '"') {
+            quote = quote != '\0' ? '\0' : *p;
+            *to++ = *QUOTE;
+        } else if (quote != '\0' || *p != ' ')
+            *to++ = *p;
+    if (copy != NULL)
+        *to = '\0';
+    return copy;
 }
 
+/* Skip this text, if it stands at *p. */
 static int
-is_next(const char *p, char c)
+skip(const char **p, const char *text)
 {
-    return expect(p, c) != NULL;
+    size_t n = strlen(text);
+    int found = strncmp(*p, text, n) == 0;
+    *p += found ? n : 0;
+    return found;
 }
 
-/* Read a string in single or double quotes, without escapes.  Returns its end, or NULL. */
-static const char *
-read_string(const char *p, char *text, size_t size)
+/* Add a field of the type at *p: "<f8", ">i2" or "|u1"; or leave out bytes, "|V4". */
+static ss_status
+add_field(struct npy *a, const char *name, const char **p)
 {
-    char quote = is_next(p, '"') ? '"' : '\'';
-    p = expect(p, quote);
-    const char *end = p != NULL ? strchr(p, quote) : NULL;
-    if (end == NULL || (size_t)(end - p) >= size || memchr(p, '\\', (size_t)(end - p)) != NULL)
-        return NULL;
-    memcpy(text, p, (size_t)(end - p));
-    text[end - p] = '\0';
-    return end + 1;
-}
-
-/* The type of "<f8", ">i2" or "|u1", or of bytes that are left out, "|V4"; bytes is 0 if it cannot be read. */
-static sample_type
-type_of(const char *text)
-{
-    static const char kinds[] = "fiubV";
-    sample_type type = { .little_endian = text[0] != '>', .is_float = text[1] == 'f',
-                         .is_unsigned = text[1] == 'u' || text[1] == 'b' };
-    char *end;
-    if (text[0] == '\0' || strchr("<>|=", text[0]) == NULL || text[1] == '\0'
-        || strchr(kinds, text[1]) == NULL)
-        return type;
-    unsigned long bytes = strtoul(text + 2, &end, 10);
-    int known = type.is_float ? bytes == 4 || bytes == 8
-        : text[1] == 'V' ? bytes > 0 && bytes <= RECORD_MOST
-        : bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8;
-    if (text[2] >= '0' && text[2] <= '9' && *end == '\0' && known)
-        type.bytes = (unsigned)bytes;
-    return type;
-}
-
-/* Add a field.  Returns 0 if its type cannot be read, or there is no memory. */
-static int
-add_field(struct npy *a, const char *name, const char *type)
-{
+    char order, kind, number[32];
+    unsigned bytes;
+    int length = 0;
+    if (sscanf(*p, QUOTE "%c%c%7u" QUOTE "%n", &order, &kind, &bytes, &length) != 3 || length == 0)
+        return SS_EDATA;
+    sample_type type = { bytes, kind == 'f', kind == 'u' || kind == 'b', order != '>' };
+    int known = kind == 'f' ? bytes == 4 || bytes == 8 : kind == 'V' ? a->named && bytes > 0
+        : strchr("iub", kind) != NULL && (bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8);
+    if (strchr("<>|=", order) == NULL || !known || bytes > RECORD_MOST || a->record > RECORD_MOST
+        || a->n_fields == MAX_COLUMNS)
+        return SS_EDATA;
     struct field *more = ss_list_room(a->field, &a->room, a->n_fields, sizeof *more);
-    struct field f = { .type = type_of(type), .at = a->record };
-    if (more != NULL)
-        a->field = more;
-    a->no_memory = more == NULL;
-    if (more == NULL || f.type.bytes == 0 || a->record > RECORD_MOST || a->n_fields == MAX_COLUMNS)
-        return 0;
-    a->record += f.type.bytes;
-    if (type[1] == 'V')
-        return 1;
-    snprintf(f.name, sizeof f.name, "%s", name);
-    more[a->n_fields++] = f;
-    return 1;
+    if (more == NULL)
+        return SS_ENOMEM;
+    *p += length;
+    a->field = more;
+    more[a->n_fields] = (struct field){ type, a->record };
+    a->record += bytes;
+    if (kind == 'V')
+        return SS_OK;
+    snprintf(number, sizeof number, "ch%zu", ++a->n_fields);
+    return a->named ? ss_header_add_column(a->base.head, *name != '\0' ? name : number, "", NULL) : SS_OK;
 }
 
-/* Read a type, or a list of (name, type).  Returns its end, or NULL. */
-static const char *
-read_descr(struct npy *a, const char *p)
+/* Read a type, or a list of (name, type). */
+static ss_status
+read_descr(struct npy *a, const char **p)
 {
-    char type[32] = "", name[sizeof a->field->name];
-    if (a->n_fields > 0)                        /* the header has the key twice */
-        return NULL;
-    if (!is_next(p, '[')) {
-        p = read_string(p, type, sizeof type);
-        return p != NULL && type[1] != 'V' && add_field(a, "", type) ? p : NULL;
+    char name[64];
+    ss_status st = SS_OK;
+    a->named = skip(p, "[");
+    if (!a->named)
+        return add_field(a, "", p);
+    for (; st == SS_OK && !skip(p, "]"); skip(p, ",")) {
+        int begun = skip(p, "(" QUOTE);
+        size_t n = strcspn(*p, QUOTE "\\");
+        snprintf(name, sizeof name, "%.*s", (int)n, *p);
+        *p += n;
+        st = begun && n < sizeof name && skip(p, QUOTE ",") ? add_field(a, name, p) : SS_EDATA;
+        if (st == SS_OK && !skip(p, ")"))
+            st = SS_EDATA;
     }
-    a->named = 1;
-    for (p = expect(p, '['); p != NULL && !is_next(p, ']');) {
-        p = expect(p, '(');
-        p = p != NULL ? expect(read_string(p, name, sizeof name), ',') : NULL;
-        p = p != NULL ? expect(read_string(p, type, sizeof type), ')') : NULL;
-        if (p == NULL || !add_field(a, name, type))
-            return NULL;
-        p = is_next(p, ',') ? expect(p, ',') : p;
-    }
-    return expect(p, ']');
+    return st;
 }
 
-static const char *
-read_shape(struct npy *a, const char *p)
-{
-    if (a->dimensions > 0)                      /* the header has the key twice */
-        return NULL;
-    for (p = expect(p, '('); p != NULL && !is_next(p, ')');) {
-        char *end;
-        p += strspn(p, " ");
-        if (*p < '0' || *p > '9' || a->dimensions == 2)
-            return NULL;
-        a->shape[a->dimensions++] = strtoull(p, &end, 10);
-        p = is_next(end, ',') ? expect(end, ',') : end;
-    }
-    return expect(p, ')');
-}
-
-static const char *
-read_flag(struct npy *a, const char *p)
-{
-    p += strspn(p, " ");
-    a->fortran = strncmp(p, "True", 4) == 0;
-    return a->fortran ? p + 4 : strncmp(p, "False", 5) == 0 ? p + 5 : NULL;
-}
-
-static int
+/* Read the dictionary.  SS_EDATA: it is none, or its array is no signal; SS_ENOMEM. */
+static ss_status
 read_dictionary(struct npy *a, const char *p)
 {
-    char key[32];
-    for (p = expect(p, '{'); p != NULL && !is_next(p, '}');) {
-        p = expect(read_string(p, key, sizeof key), ':');
-        if (p == NULL)
-            return 0;
-        p = strcmp(key, "descr") == 0 ? read_descr(a, p) : strcmp(key, "shape") == 0 ? read_shape(a, p)
-            : strcmp(key, "fortran_order") == 0 ? read_flag(a, p) : NULL;
-        p = is_next(p, ',') ? expect(p, ',') : p;
-    }
-    p = expect(p, '}');
-    return p != NULL && p[strspn(p, " ")] == '\0' && a->n_fields > 0;
+    uint64_t rows = 0, columns = 1;
+    ss_status st = skip(&p, "{") ? SS_OK : SS_EDATA;
+    for (int n = 0; st == SS_OK && !skip(&p, "}"); skip(&p, ","))
+        if (a->record == 0 && skip(&p, QUOTE "descr" QUOTE ":"))
+            st = read_descr(a, &p);
+        else if (skip(&p, QUOTE "fortran_order" QUOTE ":"))
+            st = (a->fortran = skip(&p, "True")) || skip(&p, "False") ? SS_OK : SS_EDATA;
+        else if (rows == 0 && skip(&p, QUOTE "shape" QUOTE ":")) {
+            sscanf(p, "(%" SCNu64 "%n,%" SCNu64 "%n", &rows, &n, &columns, &n);
+            p += n;
+            skip(&p, ",");
+            st = skip(&p, ")") ? SS_OK : SS_EDATA;
+        } else
+            st = SS_EDATA;
+    if (st != SS_OK || *p != '\0' || a->n_fields == 0 || (a->named && columns > 1) || rows == 0 || columns == 0)
+        return st != SS_OK ? st : SS_EDATA;
+    int wide = rows < columns;                  /* it is read as the transposed array in the other order */
+    a->rows = (size_t)(wide ? columns : rows);
+    a->columns = a->named ? a->n_fields : (size_t)(wide ? rows : columns);
+    a->fortran = a->columns > 1 && !a->named && a->fortran != wide;
+    return a->columns <= MAX_COLUMNS && a->rows <= SIZE_MAX / sizeof(double) / 4 / a->columns ? SS_OK : SS_EDATA;
 }
 
-/* Find rows and columns of the array that the header describes.  Returns 0 if it is no signal. */
-static int
-arrange(struct npy *a)
-{
-    uint64_t rows = a->shape[0], columns = a->dimensions == 2 ? a->shape[1] : 1;
-    if (a->dimensions < 1 || (a->named && a->dimensions == 2) || rows == 0 || columns == 0)
-        return 0;
-    if (rows < columns) {                       /* read it as the transposed array in the other order */
-        uint64_t swap = rows;
-        rows = columns;
-        columns = swap;
-        a->fortran = !a->fortran;
-    }
-    a->fortran = a->fortran && columns > 1;     /* records of fields have no other order */
-    a->columns = a->named ? a->n_fields : (size_t)columns;
-    a->rows = (size_t)rows;
-    return columns <= MAX_COLUMNS && rows <= SIZE_MAX / sizeof(double) / 4 / a->columns;
-}
-
-/* Read the header as text, to be freed. */
 static ss_status
-read_header(struct input *in, char **text, ss_error *err)
+read_header(struct npy *a, ss_error *err)
 {
-    *text = NULL;
+    struct input *in = a->in;
     ss_status st = ss_input_whole(in, MAGIC_BYTES + 4, ".npy header", err);
     if (st != SS_OK)
         return st;
@@ -206,31 +151,37 @@ read_header(struct input *in, char **text, ss_error *err)
     st = ss_input_whole(in, before + length, ".npy header", err);
     if (st != SS_OK)
         return st;
-    *text = strndup(in->buffer + in->lo + before, length);
+    char *text = strndup(in->buffer + in->lo + before, length), *tidied = NULL;
     in->lo += before + length;
-    if (*text == NULL)
-        return ss_fail_memory(err, in->name);
-    (*text)[strcspn(*text, "\n")] = '\0';
-    return SS_OK;
+    if (text != NULL) {
+        text[strcspn(text, "\n")] = '\0';
+        tidied = tidy(text);
+    }
+    st = tidied != NULL ? read_dictionary(a, tidied) : SS_ENOMEM;
+    if (st == SS_EDATA)
+        ss_fail(err, st, "%s: this array is not read: %.200s; numpy.save('FILE', array.astype('f8')) writes one "
+                "of one or two dimensions that is", in->name, ss_cell_trim(text));
+    free(tidied);
+    free(text);
+    return st;
 }
 
 /* --- the numbers --------------------------------------------------------------------------- */
 
-/* Read the next value or, if there are named fields, the next record; `at` values precede it. */
+/* Read the next n values, whole records; `at` values precede them. */
 static ss_status
-read_record(struct npy *a, uint64_t at, ss_error *err)
+read_values(struct npy *a, uint64_t at, double *value, size_t n, ss_error *err)
 {
     struct input *in = a->in;
-    ss_status st = ss_input_need(in, a->record, err);
-    if (st != SS_OK)
-        return st;
-    if (in->hi - in->lo < a->record)
-        return ss_fail(err, SS_EDATA, "%s: truncated: %llu of %zu values", in->name, (unsigned long long)at,
-                       a->rows * a->columns);
-    for (size_t f = 0; f < a->n_fields; f++)
-        a->value[f] = ss_sample_raw(in->buffer + in->lo + a->field[f].at, a->field[f].type);
-    in->lo += a->record;
-    return SS_OK;
+    size_t bytes = n / a->n_fields * a->record;
+    ss_status st = ss_input_need(in, bytes, err);
+    if (st == SS_OK && in->hi - in->lo < bytes)
+        st = ss_fail(err, SS_EDATA, "%s: truncated: %llu of %zu values", in->name,
+                     (unsigned long long)at + (in->hi - in->lo) / a->record * a->n_fields, a->rows * a->columns);
+    for (size_t i = 0; st == SS_OK && i < n; in->lo += a->record)
+        for (size_t f = 0; f < a->n_fields; f++)
+            value[i++] = ss_sample_raw(in->buffer + in->lo + a->field[f].at, a->field[f].type);
+    return st;
 }
 
 /* Give all columns of the next rows. */
@@ -238,17 +189,16 @@ static ss_status
 give_npy(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct npy *a = (struct npy *)s;
-    size_t left = a->rows - a->row, rows = left < max ? left : max;
+    size_t row = (size_t)s->row, left = a->rows - row, rows = left < max ? left : max;
     ss_status st = SS_OK;
     for (size_t c = 0; st == SS_OK && a->fortran && rows > 0 && c < a->columns; c++)
-        st = ss_kept_copy(&a->all, c * a->rows + a->row, rows, column[c], err);
-    for (size_t i = 0; !a->fortran && i < rows; i++)
-        for (size_t c = 0; st == SS_OK && c < a->columns; c += a->n_fields) {
-            st = read_record(a, (a->row + i) * a->columns + c, err);
-            for (size_t f = 0; f < a->n_fields; f++)
-                column[c + f][i] = a->value[f];
-        }
-    a->row += rows;
+        st = ss_kept_copy(&a->all, c * a->rows + row, rows, column[c], err);
+    for (size_t i = 0; st == SS_OK && !a->fortran && i < rows; i++) {
+        st = read_values(a, (row + i) * a->columns, a->value, a->columns, err);
+        for (size_t c = 0; c < a->columns; c++)
+            column[c][i] = a->value[c];
+    }
+    s->row += rows;
     *n = rows;
     if (st == SS_OK && rows == 0 && (st = ss_input_need(a->in, 1, err)) == SS_OK && a->in->hi > a->in->lo)
         st = ss_fail(err, SS_EDATA, "%s: goes on after the %zu values of its array", s->name,
@@ -265,34 +215,6 @@ free_npy(ss_source *s)
     free(a->value);
 }
 
-/* Read the header, and all values if they do not come row by row. */
-static ss_status
-begin_npy(struct npy *a, const ss_read_opts *opts, ss_error *err)
-{
-    char *text = NULL, number[32];
-    ss_status st = ss_refuse_table(a->in->name, opts, err);
-    if (st == SS_OK)
-        st = read_header(a->in, &text, err);
-    if (st == SS_OK && (!read_dictionary(a, text) || !arrange(a)))
-        st = a->no_memory ? SS_ENOMEM
-            : ss_fail(err, SS_EDATA, "%s: this array is not read: %.200s; numpy.save('FILE', "
-                      "array.astype('f8')) writes one of one or two dimensions that is", a->in->name,
-                      ss_cell_trim(text));
-    free(text);
-    for (size_t c = 0; st == SS_OK && c < a->columns; c++) {
-        snprintf(number, sizeof number, "ch%zu", c + 1);
-        const char *name = a->named ? a->field[c].name : "";
-        st = ss_header_add_column(a->base.head, *name != '\0' ? name : number, "", NULL);
-    }
-    if (st == SS_OK && (a->value = malloc(a->n_fields * sizeof *a->value)) == NULL)
-        st = SS_ENOMEM;
-    ss_kept_begin(&a->all, a->in->name, opts->folder, 1);
-    for (uint64_t i = 0; st == SS_OK && a->fortran && i < a->rows * a->columns; i++)
-        if ((st = read_record(a, i, err)) == SS_OK)
-            st = ss_kept_add(&a->all, a->value, err);
-    return st == SS_OK ? ss_kept_end(&a->all, err) : st;
-}
-
 static ss_status
 open_npy(ss_source **out, const struct opening *o, ss_error *err)
 {
@@ -303,7 +225,19 @@ open_npy(ss_source **out, const struct opening *o, ss_error *err)
     *out = &a->base;
     a->in = o->in;
     a->in->share = 0.5;                         /* of the work; the other half is to give the rows */
-    ss_status st = begin_npy(a, o->opts, err);
+    ss_status st = ss_refuse_table(a->in->name, o->opts, err);
+    if (st == SS_OK)
+        st = read_header(a, err);
+    if (st == SS_OK && !a->named)
+        st = ss_frames_columns(a->base.head, a->columns);
+    if (st == SS_OK && (a->value = calloc(a->columns, sizeof *a->value)) == NULL)
+        st = SS_ENOMEM;
+    ss_kept_begin(&a->all, a->in->name, o->opts->folder, 1);
+    for (uint64_t i = 0; st == SS_OK && a->fortran && i < a->rows * a->columns; i++)
+        if ((st = read_values(a, i, a->value, 1, err)) == SS_OK)
+            st = ss_kept_add(&a->all, a->value, err);
+    if (st == SS_OK)
+        st = ss_kept_end(&a->all, err);
     if (st == SS_ENOMEM)
         ss_fail_memory(err, o->in->name);
     return st != SS_OK ? st : ss_sheet_of_source(out, o->opts, a->named, o->in->size > 0 ? o->in->progress
