@@ -17,9 +17,7 @@ point_at(const double *x, size_t n, double rate, const ss_morlet_opts *opts, dou
     ss_status st = ss_morlet_record(&rec, x, n, opts->detrend, err);
     if (st != SS_OK)
         return st;
-    st = ss_quadrature_points(&plan, &scale, &rec, (size_t[]){ 1 }, 1, w);
-    if (st == SS_OK)
-        st = ss_morlet_finish(w, 1, a, opts->norm, rec.exponent, err);
+    st = ss_morlet_points(&plan, &scale, &rec, (size_t[]){ 1 }, 1, w, err);
     free(rec.x);
     return st;
 }

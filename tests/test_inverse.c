@@ -186,10 +186,8 @@ adjoint(const ss_morlet *plan, block_sums *sums, size_t i, double *scratch, doub
     memset(x, 0, plan->n * sizeof *x);
     if (!ss_blocks_covers(plan->blocks, i)) {
         wavelet *wave = ss_wavelet_new(&plan->opts, sc->a, plan->rate, plan->n);
-        ss_quadrature_adjoint(plan, sc, wave, (span){ 0, sc->n / 3 }, -1, w, x);
-        ss_quadrature_adjoint(plan, sc, wave, (span){ sc->n / 3, sc->n - sc->n / 3 }, -1, w + 2 * (sc->n / 3), x);
-        for (size_t k = 0; k < plan->n; k++)
-            x[k] = -x[k];
+        for (size_t k = 0; k < sc->n; k++)
+            ss_wavelet_add(wave, plan->n, ss_scale_spot(sc, k, plan->rate), w + 2 * k, x);
         ss_wavelet_free(wave);
         return;
     }

@@ -435,8 +435,7 @@ measures_every_engine_on_a_signal(void **state)
     }
     const ss_trade_row *cheapest = ss_trade_cheapest(trade, 1e-7);
     assert_true(cheapest != NULL && 2 * cheapest->error_x <= 1e-7);
-    assert_true(row_of(trade, "quadrature", 1e-2)->error_x
-                > row_of(trade, "quadrature", 1e-12)->error_x);
+    assert_true(row_of(trade, "quadrature", 1e-2)->error_x <= 4 * DBL_EPSILON);     /* no sum is cut */
     ss_trade_free(trade);
 
     opts.budget = 1e-9;

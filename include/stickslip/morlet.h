@@ -35,7 +35,7 @@ typedef enum ss_detrend { SS_DETREND_NONE, SS_DETREND_MEAN, SS_DETREND_LINEAR } 
 
 typedef enum ss_engine {
     SS_ENGINE_AUTO,             /* SS_ENGINE_FFT */
-    SS_ENGINE_QUADRATURE,       /* the sum of the definition, truncated as far as accuracy allows */
+    SS_ENGINE_QUADRATURE,       /* the sum of the definition, over all samples within 8.5 a */
     SS_ENGINE_FFT               /* spectra, by FFTW; but the sum for forced scales that are narrower
                                    than two samples or longer than two records */
 } ss_engine;
@@ -143,8 +143,7 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
  * The transform of a signal whose length is not known.  Its memory is bounded by the logarithm of the
  * longest scale, by quadrature by that scale.  A coefficient is complete when
  * the samples up to 8.5 a after b have arrived: any later sample changes it by less than the
- * rounding that accuracy allows.  So the accuracy is that of a whole record, even if it refers to
- * the largest |W| of the scale so far.
+ * rounding that accuracy allows.  So the accuracy is that of a whole record.
  *
  * Windows lie at fixed times and are computed when their last sample arrives.  So the coefficients
  * and their order depend on the samples and on the times at which the stream was drained.  They

@@ -25,6 +25,19 @@ draw(uint64_t *state)
     return z ^ z >> 31;
 }
 
+ss_status
+ss_morlet_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const size_t k[], size_t n, double *w,
+                 ss_error *err)
+{
+    wavelet *wave = ss_wavelet_new(&plan->opts, scale->a, plan->rate, rec->n);
+    if (wave == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        ss_wavelet_sum(wave, rec, ss_scale_spot(scale, k[i], plan->rate), w + 2 * i);
+    ss_wavelet_free(wave);
+    return ss_morlet_finish(w, n, scale->a, plan->opts.norm, rec->exponent, err);
+}
+
 /* The largest difference of a scale relative to its largest |W|. */
 static ss_status
 compare_scale(compare *cmp, size_t i, const double *w, double *worst, ss_error *err)
@@ -33,9 +46,7 @@ compare_scale(compare *cmp, size_t i, const double *w, double *worst, ss_error *
     double most = 0;
     for (size_t c = 0; c < cmp->each; c++)
         cmp->k[c] = (size_t)(draw(&cmp->state) % scale->n);
-    ss_status st = ss_quadrature_points(cmp->plan, scale, &cmp->rec, cmp->k, cmp->each, cmp->want);
-    if (st == SS_OK)
-        st = ss_morlet_finish(cmp->want, cmp->each, scale->a, cmp->plan->opts.norm, cmp->rec.exponent, err);
+    ss_status st = ss_morlet_points(cmp->plan, scale, &cmp->rec, cmp->k, cmp->each, cmp->want, err);
     w += 2 * scale->offset;
     for (size_t c = 0; c < scale->n; c++)
         most = fmax(most, hypot(w[2 * c], w[2 * c + 1]));

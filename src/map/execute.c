@@ -55,17 +55,16 @@ ss_map_give(const ss_map_part *part, size_t at, size_t n, const double *w)
 static ss_status
 compute_part(const queue *q, const ss_map_part *part, double *scratch, ss_error *err)
 {
-    double most = 0, *w = NULL;
     if (part->w != NULL)
         return ss_morlet_part(q->plan, part->scale, &q->of->rec, &q->of->spectra, scratch, NULL,
-                              (span){ part->first, part->n }, &most, part->w, err);
-    w = malloc(2 * ss_morlet_part_most(q->plan) * sizeof *w);
+                              (span){ part->first, part->n }, part->w, err);
+    double *w = malloc(2 * ss_morlet_part_most(q->plan) * sizeof *w);
     ss_status st = w != NULL ? SS_OK : SS_ENOMEM;
     for (size_t k = 0, n; st == SS_OK && k < part->n; k += n) {
         n = ss_morlet_part_length(q->plan, part->scale, part->first + k);
         n = n < part->n - k ? n : part->n - k;
         st = ss_morlet_part(q->plan, part->scale, &q->of->rec, &q->of->spectra, scratch, NULL,
-                            (span){ part->first + k, n }, &most, w, err);
+                            (span){ part->first + k, n }, w, err);
         if (st == SS_OK)
             ss_map_give(part, k, n, w);
     }

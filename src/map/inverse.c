@@ -89,7 +89,10 @@ add_adjoint(solver *s, size_t i, span part, const double *w, double *to)
     if (ss_blocks_covers(s->plan->blocks, i))
         ss_block_sums_add(s->sums, i, s->scratch, part, factor, w);
     else
-        ss_quadrature_adjoint(s->plan, sc, s->wave[i], part, factor, w, to);
+        for (size_t k = 0; k < part.n; k++) {
+            const double one[2] = { factor * w[2 * k], factor * w[2 * k + 1] };
+            ss_wavelet_add(s->wave[i], s->plan->n, ss_scale_spot(sc, part.first + k, s->plan->rate), one, to);
+        }
 }
 
 /* What `transform` says, for scale i of the record, part by part. */
@@ -98,11 +101,11 @@ one_scale(solver *s, size_t i, const record *rec, const spectra *sp, int rest, d
           ss_error *err)
 {
     const ss_scale *sc = &s->plan->scale[i];
-    double most = 0, sum = 0;
+    double sum = 0;
     for (size_t k = 0, n; k < sc->n; k += n) {
         n = ss_morlet_part_length(s->plan, i, k);
         span part = { k, n < sc->n - k ? n : sc->n - k };
-        ss_status st = ss_morlet_part(s->plan, i, rec, sp, s->scratch, s->wave[i], part, &most, s->part, err);
+        ss_status st = ss_morlet_part(s->plan, i, rec, sp, s->scratch, s->wave[i], part, s->part, err);
         if (st == SS_OK && rest)
             st = subtract(s, i, part, s->part, err);
         if (st != SS_OK)

@@ -92,7 +92,7 @@ ss_morlet_scratch(const ss_morlet *plan, double **scratch)
 
 ss_status
 ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-               double *scratch, wavelet *wave, span part, double *most, double *w, ss_error *err)
+               double *scratch, const wavelet *wave, span part, double *w, ss_error *err)
 {
     const ss_scale *scale = &plan->scale[i];
     double factor = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a);
@@ -106,7 +106,12 @@ ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra
             : NULL;
         if (wave == NULL && own == NULL)
             return SS_ENOMEM;
-        ss_quadrature_scale(plan, scale, rec, wave != NULL ? wave : own, part, factor, most, w);
+        for (size_t k = 0; k < part.n; k++) {
+            spot at = ss_scale_spot(scale, part.first + k, plan->rate);
+            ss_wavelet_sum(wave != NULL ? wave : own, rec, at, w + 2 * k);
+            w[2 * k] *= factor;
+            w[2 * k + 1] *= factor;
+        }
         ss_wavelet_free(own);
     }
     return fits ? SS_OK

@@ -18,8 +18,6 @@ ss_status ss_morlet_opts_of_notes(ss_morlet_opts *opts, size_t *samples, const s
 /* The same for a map that is read and has but the notes of its head: its n and center and the column of head
  * are set. */
 ss_status ss_coefficients_take_notes(ss_coefficients *map, ss_morlet_opts *opts, ss_error *err);
-/* The share of the promised 16 eps for the parts of the wavelet that are left out. */
-#define TAIL_FLOOR (4 * DBL_EPSILON)
 #define REACH 8.5                       /* exp(-REACH^2/2) = 2e-16 */
 
 enum { BLOCK_LEVELS = 48 };             /* of fft/blocks.c */
@@ -41,7 +39,7 @@ struct ss_morlet {
  * window of a stream, zero outside. */
 typedef struct record {
     size_t n;
-    double *x, x_max;       /* x_max >= max|x|; x is the caller's to free */
+    double *x;              /* the caller's to free */
     int exponent;           /* the samples are x 2^exponent */
     ptrdiff_t origin;       /* x[0] is sample origin of the signal */
 } record;
@@ -73,6 +71,9 @@ ss_status ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend de
 /* w, in units of a^1/2 and of the record, in the norm and the samples' own size. */
 ss_status ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent,
                            ss_error *err);
+/* The coefficients of a scale at n translations k by the definition, so finished. */
+ss_status ss_morlet_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const size_t k[], size_t n,
+                           double *w, ss_error *err);
 
 /* SS_OK if every option lies in its range and n samples at this rate are a record. */
 ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err);
@@ -99,26 +100,15 @@ size_t ss_scale_count(const ss_scale *scale, double t);
 ss_status ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
                              const ss_morlet_opts *opts, ss_error *err);
 
-/* The wavelet of a scale at whole samples, for records of n samples at most; it may serve many
- * records, one at a time.  NULL: no memory. */
+/* The wavelet of a scale at whole samples, for records of n samples at most; threads share it.  NULL: no memory. */
 typedef struct wavelet wavelet;
 wavelet *ss_wavelet_new(const ss_morlet_opts *opts, double a, double rate, size_t n);
-size_t ss_wavelet_bytes(const ss_morlet_opts *opts, double a, double rate, size_t n);
+size_t ss_wavelet_bytes(double a, double rate, size_t n);
 void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
-
-/* Coefficients of a scale, factor times those in units of a^1/2 and of the record.  *most is the
- * largest |W| in these units of those computed before, which the accuracy counts by, too, and is
- * raised. */
-void ss_quadrature_scale(const ss_morlet *plan, const ss_scale *scale, const record *rec,
-                         wavelet *wave, span part, double factor, double *most, double *w);
-/* The adjoint of a part's transform in units of a^1/2, times factor, to be added to the n samples x. */
-void ss_quadrature_adjoint(const ss_morlet *plan, const ss_scale *scale, wavelet *wave, span part,
-                           double factor, const double *w, double *x);
-
-/* The same at n translations k, by the definition, as exactly as double precision allows, for
- * factor 1. */
-ss_status ss_quadrature_points(const ss_morlet *plan, const ss_scale *scale, const record *rec,
-                               const size_t *k, size_t n, double *w);
+/* The coefficient at a place by the definition, as exactly as double precision allows, in units of a^1/2 and of the
+ * record; and the adjoint: Re(w h) is added to the n samples x. */
+void ss_wavelet_sum(const wavelet *wave, const record *rec, spot at, double w[2]);
+void ss_wavelet_add(const wavelet *wave, size_t n, spot at, const double w[2], double *x);
 
 /* Of a record's windows from the first on, level by level; threads share them. */
 typedef struct spectra {
@@ -150,10 +140,9 @@ size_t ss_morlet_room(const ss_morlet *plan);
 ss_status ss_morlet_scratch(const ss_morlet *plan, double **scratch);
 
 /* A part of scale i, in the norm and the samples' own size: by its engine, or by the definition if
- * s is NULL.  scratch has ss_morlet_room; wave may be NULL; *most as above. */
+ * s is NULL.  scratch has ss_morlet_room; wave may be NULL. */
 ss_status ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-                         double *scratch, wavelet *wave, span part, double *most, double *w,
-                         ss_error *err);
+                         double *scratch, const wavelet *wave, span part, double *w, ss_error *err);
 /* The length of a part from translation k on of which no work is done again for the next, at most as many
  * as the second returns. */
 size_t ss_morlet_part_length(const ss_morlet *plan, size_t i, size_t k);

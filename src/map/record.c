@@ -53,7 +53,7 @@ static void
 normalise(record *rec, double most)
 {
     int e;
-    rec->x_max = frexp(most, &e);
+    frexp(most, &e);
     ss_morlet_divide(rec->x, rec->n, e, most);
     rec->exponent += e;
 }

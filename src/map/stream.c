@@ -8,8 +8,7 @@
  * and computed.
  *
  * All samples within REACH a of b are in the window, so a window adds at most exp(-REACH^2/2) to the
- * error of its coefficients, nothing compared with the promise.  The definition holds TOL against the
- * largest |W| of a scale so far, which is at most the record's. */
+ * error of its coefficients, nothing compared with the promise. */
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
@@ -35,8 +34,6 @@ typedef struct scale_state {
     ptrdiff_t due;              /* the samples that it needs, from the first on */
     size_t count;               /* in the record; SIZE_MAX until that has ended */
     ptrdiff_t reach;            /* samples that a coefficient needs on either side, and one */
-    double most;                /* the largest |W| so far is most 2^exponent, in units of a^1/2 */
-    int exponent;
     wavelet *wave;              /* by the definition; NULL: made when needed */
 } scale_state;
 
@@ -138,12 +135,8 @@ compute(void *user)
     wk->status = SS_OK;
     for (size_t t = wk->first; wk->status == SS_OK && t < s->n_tasks; t += wk->step) {
         const task *of = &s->task[t];
-        scale_state *r = &s->state[of->scale];
-        double most = ldexp(r->most, r->exponent - win->rec.exponent);
-        wk->status = ss_morlet_part(s->plan, of->scale, &win->rec, win->spectra, wk->scratch, r->wave, of->part, &most,
-                                    s->w + 2 * of->at, &wk->error);
-        r->most = most;
-        r->exponent = win->rec.exponent;
+        wk->status = ss_morlet_part(s->plan, of->scale, &win->rec, win->spectra, wk->scratch,
+                                    s->state[of->scale].wave, of->part, s->w + 2 * of->at, &wk->error);
     }
 }
 
@@ -258,7 +251,7 @@ run_sums(ss_stream *s, ptrdiff_t start, ss_error *err)
     ptrdiff_t limit = start + (ptrdiff_t)s->length, samples = (ptrdiff_t)s->samples;
     size_t there = samples > start ? (size_t)(samples - start) : 0;
     const record rec = { .n = there < s->length ? there : s->length, .x = s->x + (start - s->origin),
-                         .x_max = ldexp(s->x_max, -s->exponent), .exponent = s->exponent, .origin = start };
+                         .exponent = s->exponent, .origin = start };
     const window win = { .stream = s, .first = s->in_blocks, .end = s->grid.n_scales, .rec = rec,
                          .limit = s->ended || limit < samples ? limit : samples, .err = err };
     return run_window(&win);
@@ -430,7 +423,7 @@ make_states(ss_stream *s, double *longest)
         if (i < s->in_blocks)
             continue;
         *longest = reach;
-        bytes += bytes <= TABLES ? ss_wavelet_bytes(&plan->opts, a, plan->rate, plan->n) : 0;
+        bytes += bytes <= TABLES ? ss_wavelet_bytes(a, plan->rate, plan->n) : 0;
         if (bytes <= TABLES && (r->wave = ss_wavelet_new(&plan->opts, a, plan->rate, plan->n)) == NULL)
             return SS_ENOMEM;
     }

@@ -69,10 +69,8 @@ refer_scale(trial *t, const ss_morlet *plan, const record *rec, size_t i, ss_err
     scale_reference *ref = &t->reference[i];
     double began = ss_trade_cpu_time();
     choose_places(ref, scale, t->w + 2 * scale->offset);
-    ss_status st = ss_quadrature_points(plan, scale, rec, ref->k, EACH, ref->w);
+    ss_status st = ss_morlet_points(plan, scale, rec, ref->k, EACH, ref->w, err);
     t->by_sum += (ss_trade_cpu_time() - began) * (double)scale->n / EACH;
-    if (st == SS_OK)
-        st = ss_morlet_finish(ref->w, EACH, scale->a, plan->opts.norm, rec->exponent, err);
     return st;
 }
 
@@ -97,7 +95,8 @@ refer(trial *t, ss_error *err)
         if (st == SS_OK)
             st = ss_progress_at(&t->how->progress, 0);
     }
-    t->x_max = ldexp(rec.x_max, rec.exponent);
+    for (size_t k = 0; st == SS_OK && k < rec.n; k++)
+        t->x_max = fmax(t->x_max, ldexp(fabs(rec.x[k]), rec.exponent));
     if (!t->opts.octaves) {
         t->opts.fmin = plan->scale[0].f;
         t->opts.fmax = plan->scale[plan->n_scales - 1].f;
@@ -133,14 +132,13 @@ run_row(size_t i, int again, double done, double *seconds, void *user)
     trial *t = user;
     ss_trade_row *row = &t->trade->row[i];
     size_t e = i / (ROWS / ENGINES);
-    double reach = sqrt(log(row->tol) / log(DBL_EPSILON));  /* as a part of the whole window */
     ss_morlet *plan = NULL;
     ss_morlet_opts opts = t->opts;
     (void)done;
     *seconds = NAN;
-    if (engine[e] == SS_ENGINE_QUADRATURE && t->by_sum * reach > t->how->budget) {
+    if (engine[e] == SS_ENGINE_QUADRATURE && t->by_sum > t->how->budget) {
         row->status = SS_EBUDGET;
-        row->seconds = t->by_sum * reach;
+        row->seconds = t->by_sum;
         return SS_OK;
     }
     opts.engine = engine[e];
