@@ -271,7 +271,7 @@ run-tests: all $(TESTS:%=$(BUILD)/tests/%) $(REPLAYS:%=$(BUILD)/tests/%)
 		ONLY=$(call quote,$(ONLY)) TOOL_PARTS='$(TOOL_PARTS)' \
 		LIBS=$(call quote,$(LIBS)) INCLUDES=$(call quote,$(INCLUDES)) sh tests/run.sh $(TESTS)
 
-draw-paper: all $(BUILD)/bin/paper-table
+draw-paper: all
 	@PATH="$$(cd $(BUILD)/bin && pwd):$$PATH" OUT=$(BUILD)/paper MEASURED=$(call quote,$(MEASURED)) \
 		COLUMN=$(call quote,$(COLUMN)) sh tools/paper.sh
 

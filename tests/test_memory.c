@@ -28,6 +28,7 @@
 
 #include "find/drops.h"
 #include "find/events.h"
+#include "find/maxima.h"
 #include "signal/wave.h"
 #include "store_samples.h"
 #include "unit.h"
@@ -538,8 +539,10 @@ features(int variant)
 {
     ss_maximum *maxima = NULL;
     size_t n;
-    ss_status st = variant == 0 ? ss_maxima_find(&maxima, &n, coefficients, 1, &err)
-                   : ss_maxima_along(&maxima, &n, coefficients, 1, 60, 1, &err);
+    double top;
+    const maxima_kind kind = { .prominence = 1, .range = 60 };
+    ss_status st = variant == 0 ? ss_maxima_of(&maxima, &n, coefficients, &kind, &top)
+                   : ss_maxima_of_row(&maxima, &n, coefficients, 1, &kind, ss_coefficients_max(coefficients));
     free(maxima);
     return st;
 }

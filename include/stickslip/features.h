@@ -20,23 +20,6 @@ typedef struct ss_maximum {
                                infinite if there is no way to a higher point */
 } ss_maximum;
 
-/* Find all local maxima outside the cone of influence that have at least this prominence, in time
- * order.  The caller frees *out with free().  coefficients must have n > 0, n_scales > 0 and
- * translations at every scale, as those of ss_morlet_transform and of the readers have.
- *
- * The translations of neighbouring scales differ.  The neighbours of a coefficient are those
- * beside it in its row, and in the two rows beside it those nearest in time.  A highest point on
- * the border of the map (its first and last scale, or beside the cone) is no maximum.  Nor is a
- * point near a gap, but a saddle may lie there. */
-ss_status ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients,
-                         double min_prominence, ss_error *err);
-
-/* Find the maxima of |W| over time along one scale: the spikes that reach this scale.  They lie
- * outside the cone of influence, have at least this prominence along the scale, and are at most
- * range dB below the highest of them.  All have the same f. */
-ss_status ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
-                          double range, double min_prominence, ss_error *err);
-
 /* --- transitions --------------------------------------------------------------------------- */
 
 /* The motion between one macroscopic slip and the next; times [s] from the first sample. */

@@ -515,28 +515,3 @@ ss_maxima_of_row(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t
 {
     return search_rows(out, n, map, row, 1, kind, &top);
 }
-
-ss_status
-ss_maxima_find(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, double min_prominence,
-               ss_error *err)
-{
-    double top;
-    if (out == NULL || n == NULL || coefficients == NULL)
-        return SS_FAIL_NULL(err);
-    const maxima_kind kind = { .prominence = min_prominence, .range = INFINITY };
-    ss_status st = ss_maxima_of(out, n, coefficients, &kind, &top);
-    return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
-}
-
-ss_status
-ss_maxima_along(ss_maximum **out, size_t *n, const ss_coefficients *coefficients, size_t scale,
-                double range, double min_prominence, ss_error *err)
-{
-    if (out == NULL || n == NULL || coefficients == NULL)
-        return SS_FAIL_NULL(err);
-    if (scale >= coefficients->n_scales)
-        return ss_fail(err, SS_EINVAL, "scale %zu of %zu", scale + 1, coefficients->n_scales);
-    const maxima_kind kind = { .prominence = min_prominence, .range = range };
-    ss_status st = ss_maxima_of_row(out, n, coefficients, scale, &kind, ss_coefficients_max(coefficients));
-    return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
-}
