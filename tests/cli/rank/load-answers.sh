@@ -25,6 +25,11 @@ ss-rank --load load --column shear --normal-stress normal step.csv | show
 ss-rank --load load --column mu --set stiffness=1500 step.csv | grep stiffness:
 ss-rank --load load --column mu --scale load=1e-3 --unit load=mm step.csv | show
 ss-rank --load load --column mu --from 50 --to 180 --format csv step.csv | cut -d , -f 1,2
+# Friction that is a line but for noise, and a step under noise as large as it: the answer, and only a reason.
+for mu in .6 '$3'; do
+    awk -F , -v OFS=, 'BEGIN { seed = 3 } NR > 1 { seed = (seed * 16807) % 2147483647; $3 = '"$mu"' + .02 * (seed / 2147483647 - .5) } 1' \
+        step.csv | ss-rank --load load --column mu | awk -F ': ' '/^# answer/ { print $2 }'
+done
 # Drawn: path, friction, and of each law its friction and what it leaves, of which the right one leaves less.
 ss-rank --load load --column mu step.csv -o step.gp
 grep -c '^\$step' step.gp
