@@ -12,8 +12,14 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "base/versions.h"
+#include "map/fft/blocks.h"
 #include "map/map.h"
 #include "map/plan.h"
+
+enum {
+    WORTH_THREADS = 64,         /* the caller's thread alone computes fewer coefficients than these, */
+    BLOCK_WORTH_THREADS = 1 << 14       /* and in blocks fewer than these */
+};
 
 typedef struct queue {
     const ss_morlet *plan;
@@ -55,20 +61,20 @@ ss_map_give(const ss_map_part *part, size_t at, size_t n, const double *w)
 static ss_status
 compute_part(const queue *q, const ss_map_part *part, double *scratch, ss_error *err)
 {
+    ss_map_part piece = *part;
+    size_t end = part->first + part->n;
     if (part->w != NULL)
-        return ss_morlet_part(q->plan, part->scale, &q->of->rec, &q->of->spectra, scratch, NULL,
-                              (span){ part->first, part->n }, part->w, err);
-    double *w = malloc(2 * ss_morlet_part_most(q->plan) * sizeof *w);
-    ss_status st = w != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t k = 0, n; st == SS_OK && k < part->n; k += n) {
-        n = ss_morlet_part_length(q->plan, part->scale, part->first + k);
-        n = n < part->n - k ? n : part->n - k;
-        st = ss_morlet_part(q->plan, part->scale, &q->of->rec, &q->of->spectra, scratch, NULL,
-                            (span){ part->first + k, n }, w, err);
+        return ss_morlet_part(q->plan, q->of, scratch, part, err);
+    piece.w = malloc(2 * ss_morlet_part_most(q->plan) * sizeof *piece.w);
+    ss_status st = piece.w != NULL ? SS_OK : SS_ENOMEM;
+    for (; st == SS_OK && piece.first < end; piece.first += piece.n) {
+        piece.n = ss_morlet_part_length(q->plan, part->scale, piece.first);
+        piece.n = piece.n < end - piece.first ? piece.n : end - piece.first;
+        st = ss_morlet_part(q->plan, q->of, scratch, &piece, err);
         if (st == SS_OK)
-            ss_map_give(part, k, n, w);
+            ss_map_give(part, piece.first - part->first, piece.n, piece.w);
     }
-    free(w);
+    free(piece.w);
     return st;
 }
 
@@ -110,7 +116,11 @@ ss_status
 ss_morlet_parts(const ss_morlet *plan, const transformed *of, const ss_map_part part[], size_t n, size_t *done,
                 ss_error *err)
 {
-    size_t threads = (size_t)plan->opts.threads;
+    size_t threads = (size_t)plan->opts.threads, all = 0;
+    for (size_t i = 0; i < n; i++)
+        all += part[i].n;
+    if (all < (n > 0 && ss_blocks_covers(plan->blocks, part->scale) ? BLOCK_WORTH_THREADS : WORTH_THREADS))
+        threads = 1;
     queue q = { .plan = plan, .of = of, .part = part, .done = done, .next = n };
     pthread_mutex_init(&q.lock, NULL);
     ss_pool_run(compute_parts, &q, 0, threads < n ? threads : n);

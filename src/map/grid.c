@@ -287,13 +287,6 @@ ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
     return n == 0 ? SS_OK : count_translations(scale, n, rate, err);
 }
 
-void
-ss_morlet_leave_rounding(ss_morlet_opts *opts)
-{
-    if (opts->rounded)
-        opts->accuracy = fmax((1 - WAVELET_ROUNDED) * opts->accuracy, ss_morlet_ranges.accuracy.from);
-}
-
 ss_status
 ss_grid_make(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                const ss_morlet_opts *opts, ss_error *err)

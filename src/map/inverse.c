@@ -13,6 +13,7 @@
  * follow from those of the step.  Rounding errors of the size show when it is some 1e-8 of where it began:
  * so both are computed anew from the given coefficients long before, and before they are found small enough. */
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/columns.h"
@@ -37,7 +38,6 @@ typedef struct solver {
     ss_stretch progress;
     ss_morlet *plan;
     block_sums *sums;               /* NULL: no scale is computed in blocks */
-    wavelet **wave;                 /* of each scale that is not */
     double **room, *x, *gradient, *levelled, *step, *image;      /* room: of all but x */
     real_fft forth, back;           /* of twice the samples */
     double *gain;                   /* of the terms of the gradient, which level what the scales see of them */
@@ -91,21 +91,20 @@ add_adjoint(solver *s, size_t i, span part, const double *w, double *to)
     else
         for (size_t k = 0; k < part.n; k++) {
             const double one[2] = { factor * w[2 * k], factor * w[2 * k + 1] };
-            ss_wavelet_add(s->wave[i], s->plan->n, ss_scale_spot(sc, part.first + k, s->plan->rate), one, to);
+            ss_wavelet_add(s->plan->wave[i], s->plan->n, ss_scale_spot(sc, part.first + k, s->plan->rate), one, to);
         }
 }
 
 /* What `transform` says, for scale i of the record, part by part. */
 static ss_status
-one_scale(solver *s, size_t i, const record *rec, const spectra *sp, int rest, double *to, double *norm,
-          ss_error *err)
+one_scale(solver *s, size_t i, const transformed *of, int rest, double *to, double *norm, ss_error *err)
 {
     const ss_scale *sc = &s->plan->scale[i];
     double sum = 0;
     for (size_t k = 0, n; k < sc->n; k += n) {
         n = ss_morlet_part_length(s->plan, i, k);
         span part = { k, n < sc->n - k ? n : sc->n - k };
-        ss_status st = ss_morlet_part(s->plan, i, rec, sp, s->scratch, s->wave[i], part, s->part, err);
+        ss_status st = ss_morlet_part(s->plan, of, s->scratch, &(ss_map_part){ i, k, part.n, s->part, NULL }, err);
         if (st == SS_OK && rest)
             st = subtract(s, i, part, s->part, err);
         if (st != SS_OK)
@@ -123,20 +122,15 @@ one_scale(solver *s, size_t i, const record *rec, const spectra *sp, int rest, d
 static ss_status
 transform(solver *s, const double *x, int rest, double *to, double *norm, ss_error *err)
 {
-    record rec;
-    spectra sp = { .first = 0 };
-    ss_status st = ss_morlet_record(&rec, x, s->plan->n, SS_DETREND_NONE, err);
-    if (st != SS_OK)
-        return st;
-    st = ss_morlet_forward(s->plan, &rec, &sp);
+    transformed of;
+    ss_status st = ss_morlet_begin(s->plan, x, &of, err);
     memset(to, 0, s->plan->n * sizeof *to);
     *norm = 0;
     for (size_t i = 0; st == SS_OK && i < s->plan->n_scales; i++)
-        st = one_scale(s, i, &rec, &sp, rest, to, norm, err);
+        st = one_scale(s, i, &of, rest, to, norm, err);
     if (st == SS_OK && s->sums != NULL)
         st = ss_block_sums_end(s->sums, to);
-    ss_morlet_spectra_free(&sp);
-    free(rec.x);
+    ss_morlet_end(&of);
     return st;
 }
 
@@ -363,31 +357,23 @@ make_room(solver *s, ss_error *err)
     for (size_t i = 0; i < plan->n_scales; i++)
         most = plan->scale[i].n > most ? plan->scale[i].n : most;
     most = most < ss_morlet_part_most(plan) ? most : ss_morlet_part_most(plan);
-    s->wave = calloc(plan->n_scales, sizeof(wavelet *));
     s->part = malloc(2 * most * sizeof *s->part);
     s->given = malloc(2 * most * sizeof *s->given);
     s->room = ss_columns_new(5, n + 1);
-    if (s->wave == NULL || s->part == NULL || s->given == NULL || s->room == NULL
+    if (s->part == NULL || s->given == NULL || s->room == NULL
         || ss_real_fft_new(&s->forth, 2 * n, 0) != SS_OK || ss_real_fft_new(&s->back, 2 * n, 1) != SS_OK
-        || ss_morlet_scratch(plan, &s->scratch) != SS_OK)
+        || ss_morlet_scratch(plan, &s->scratch) != SS_OK || ss_morlet_keep_wavelets(s->plan, SIZE_MAX) != SS_OK)
         return SS_ENOMEM;
     s->gradient = s->room[0], s->levelled = s->room[1], s->step = s->room[2];
     s->image = s->room[3], s->gain = s->room[4];
     if (plan->blocks != NULL && (s->sums = ss_block_sums_new(plan->blocks)) == NULL)
         return SS_ENOMEM;
-    for (size_t i = 0; i < plan->n_scales; i++)
-        if (!ss_blocks_covers(plan->blocks, i)
-            && (s->wave[i] = ss_wavelet_new(&plan->opts, plan->scale[i].a, plan->rate, n)) == NULL)
-            return SS_ENOMEM;
     return choose_unit(s, most, err);
 }
 
 static void
 release(solver *s)
 {
-    for (size_t i = 0; s->wave != NULL && i < s->plan->n_scales; i++)
-        ss_wavelet_free(s->wave[i]);
-    free(s->wave);
     free(s->part);
     free(s->given);
     ss_real_fft_free(&s->forth);

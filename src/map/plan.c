@@ -13,7 +13,6 @@ fill_plan(ss_morlet *plan, ss_error *err)
 {
     ss_status st = ss_grid_make(&plan->scale, &plan->n_scales, plan->n, plan->rate, &plan->opts,
                                   err);
-    ss_morlet_leave_rounding(&plan->opts);
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
         plan->scale[i].offset = plan->total;
         plan->total += plan->scale[i].n;
@@ -63,7 +62,10 @@ ss_morlet_free(ss_morlet *plan)
 {
     if (plan == NULL)
         return;
+    for (size_t i = 0; plan->wave != NULL && i < plan->n_scales; i++)
+        ss_wavelet_free(plan->wave[i]);
     ss_blocks_free(plan->blocks);
+    free(plan->wave);
     free(plan->scale);
     free(plan);
 }
@@ -91,31 +93,43 @@ ss_morlet_scratch(const ss_morlet *plan, double **scratch)
 }
 
 ss_status
-ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-               double *scratch, const wavelet *wave, span part, double *w, ss_error *err)
+ss_morlet_keep_wavelets(ss_morlet *plan, size_t bytes)
 {
-    const ss_scale *scale = &plan->scale[i];
-    double factor = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a);
-    factor = ldexp(factor, rec->exponent);
+    plan->wave = calloc(plan->n_scales, sizeof(wavelet *));
+    for (size_t i = plan->n_scales, all = 0; plan->wave != NULL && i-- > 0;) {
+        if (ss_blocks_covers(plan->blocks, i))
+            continue;
+        if ((all += ss_wavelet_bytes(plan->scale[i].a, plan->rate, plan->n)) > bytes)
+            break;
+        if ((plan->wave[i] = ss_wavelet_new(&plan->opts, plan->scale[i].a, plan->rate, plan->n)) == NULL)
+            return SS_ENOMEM;
+    }
+    return plan->wave != NULL ? SS_OK : SS_ENOMEM;
+}
+
+ss_status
+ss_morlet_part(const ss_morlet *plan, const transformed *of, double *scratch, const ss_map_part *part, ss_error *err)
+{
+    const ss_scale *scale = &plan->scale[part->scale];
+    double factor = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a), *w = part->w;
+    factor = ldexp(factor, of->rec.exponent);
     int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
     factor = fits ? factor : 1;
-    if (s != NULL && ss_blocks_covers(plan->blocks, i))
-        ss_blocks_scale(plan->blocks, i, s, scratch, part, factor, w);
+    if (ss_blocks_covers(plan->blocks, part->scale))
+        ss_blocks_scale(plan->blocks, part->scale, &of->spectra, scratch, (span){ part->first, part->n }, factor, w);
     else {
-        wavelet *own = wave == NULL ? ss_wavelet_new(&plan->opts, scale->a, plan->rate, plan->n)
-            : NULL;
-        if (wave == NULL && own == NULL)
+        wavelet *own = NULL;
+        const wavelet *wave = plan->wave != NULL ? plan->wave[part->scale] : NULL;
+        if (wave == NULL && (wave = own = ss_wavelet_new(&plan->opts, scale->a, plan->rate, plan->n)) == NULL)
             return SS_ENOMEM;
-        for (size_t k = 0; k < part.n; k++) {
-            spot at = ss_scale_spot(scale, part.first + k, plan->rate);
-            ss_wavelet_sum(wave != NULL ? wave : own, rec, at, w + 2 * k);
+        for (size_t k = 0; k < part->n; k++) {
+            ss_wavelet_sum(wave, &of->rec, ss_scale_spot(scale, part->first + k, plan->rate), w + 2 * k);
             w[2 * k] *= factor;
             w[2 * k + 1] *= factor;
         }
         ss_wavelet_free(own);
     }
-    return fits ? SS_OK
-        : ss_morlet_finish(w, part.n, scale->a, plan->opts.norm, rec->exponent, err);
+    return fits ? SS_OK : ss_morlet_finish(w, part->n, scale->a, plan->opts.norm, of->rec.exponent, err);
 }
 
 size_t

@@ -33,6 +33,7 @@ struct ss_morlet {
     int window;             /* 1: for windows of a stream, of whose coefficients only those are
                                asked for that lie REACH a and a unit within its ends */
     struct blocks *blocks;  /* NULL: all by quadrature */
+    struct wavelet **wave;  /* of scales by quadrature, or NULL where they are made when needed; NULL: of all */
 };
 
 /* A copy of the samples, detrended, times the power of two that brings max|x| into [1/2, 1); or a
@@ -82,8 +83,6 @@ ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_
  * translations are not counted. */
 ss_status ss_grid_make(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                          const ss_morlet_opts *opts, ss_error *err);
-/* The part of the accuracy that rounding leaves, if there is any, once the grid is chosen. */
-void ss_morlet_leave_rounding(ss_morlet_opts *opts);
 /* The grid of a column's transform by plan, w being NULL; to be freed, failed or not.  signal may be NULL:
  * there is no header then. */
 ss_status ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
@@ -105,6 +104,8 @@ typedef struct wavelet wavelet;
 wavelet *ss_wavelet_new(const ss_morlet_opts *opts, double a, double rate, size_t n);
 size_t ss_wavelet_bytes(double a, double rate, size_t n);
 void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
+/* Let a plan keep so many bytes of wavelets at most, the shortest first. */
+ss_status ss_morlet_keep_wavelets(ss_morlet *plan, size_t bytes);
 /* The coefficient at a place by the definition, as exactly as double precision allows, in units of a^1/2 and of the
  * record; and the adjoint: Re(w h) is added to the n samples x. */
 void ss_wavelet_sum(const wavelet *wave, const record *rec, spot at, double w[2]);
@@ -124,7 +125,7 @@ typedef struct transformed {
 /* Make it of the plan's n samples; to be ended, failed or not. */
 ss_status ss_morlet_begin(const ss_morlet *plan, const double *x, transformed *of, ss_error *err);
 void ss_morlet_end(transformed *of);
-/* Compute n parts on the plan's threads.  The error is that of the first part that fails.  done, unless it
+/* Compute n parts on the plan's threads, if they are worth that.  The error is that of the first part that fails.  done, unless it
  * is NULL, is raised by their coefficients and reported as progress. */
 ss_status ss_morlet_parts(const ss_morlet *plan, const transformed *of, const ss_map_part part[], size_t n,
                           size_t *done, ss_error *err);
@@ -139,10 +140,9 @@ void ss_morlet_spectra_free(spectra *s);
 size_t ss_morlet_room(const ss_morlet *plan);
 ss_status ss_morlet_scratch(const ss_morlet *plan, double **scratch);
 
-/* A part of scale i, in the norm and the samples' own size: by its engine, or by the definition if
- * s is NULL.  scratch has ss_morlet_room; wave may be NULL. */
-ss_status ss_morlet_part(const ss_morlet *plan, size_t i, const record *rec, const spectra *s,
-                         double *scratch, const wavelet *wave, span part, double *w, ss_error *err);
+/* The coefficients of a part, in the norm and the samples' own size.  scratch has ss_morlet_room. */
+ss_status ss_morlet_part(const ss_morlet *plan, const transformed *of, double *scratch, const ss_map_part *part,
+                         ss_error *err);
 /* The length of a part from translation k on of which no work is done again for the next, at most as many
  * as the second returns. */
 size_t ss_morlet_part_length(const ss_morlet *plan, size_t i, size_t k);

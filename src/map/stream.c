@@ -15,7 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/pool.h"
 #include "map/fft/blocks.h"
 #include "map/map.h"
 #include "map/plan.h"
@@ -24,9 +23,7 @@ enum {
     PIECE = 1 << 14,            /* samples processed at a time, at most */
     LEAST = 1 << 13,            /* a window of the definition has at least so many samples */
     GIVEN = 1 << 17,            /* coefficients computed and passed to the sink at a time, at most */
-    TABLES = 32 << 20,          /* most bytes of wavelets that are stored */
-    WORTH_THREADS = 64,         /* the caller's thread alone computes fewer coefficients than these, */
-    BLOCK_WORTH_THREADS = 1 << 14       /* and in blocks fewer than these */
+    TABLES = 32 << 20           /* most bytes of wavelets that are stored */
 };
 
 typedef struct scale_state {
@@ -34,34 +31,18 @@ typedef struct scale_state {
     ptrdiff_t due;              /* the samples that it needs, from the first on */
     size_t count;               /* in the record; SIZE_MAX until that has ended */
     ptrdiff_t reach;            /* samples that a coefficient needs on either side, and one */
-    wavelet *wave;              /* by the definition; NULL: made when needed */
 } scale_state;
-
-/* A part of a scale, whose coefficients go to 2 * at of the stream's w. */
-typedef struct task {
-    size_t scale, at;
-    span part;
-} task;
 
 /* What is computed of one window: the scales first ... end - 1. */
 typedef struct window {
     ss_stream *stream;
     size_t first, end;
     ptrdiff_t limit;            /* a coefficient is complete if it needs no sample from here on */
-    record rec;
-    const spectra *spectra;     /* of blocks; NULL: by the definition */
+    int in_blocks;
     size_t number;              /* of a window of blocks */
+    transformed of;
     ss_error *err;
 } window;
-
-/* The work of one thread: every step-th task from the first on. */
-typedef struct worker {
-    const window *window;
-    double *scratch;
-    size_t first, step;
-    ss_status status;
-    ss_error error;
-} worker;
 
 struct ss_stream {
     ss_morlet *plan;            /* as of the longest record that a plan allows */
@@ -78,9 +59,7 @@ struct ss_stream {
     ptrdiff_t origin;           /* x[0] is this sample; there are zeros before the first */
     size_t room;                /* in x */
     double *w;
-    task *task;
-    size_t n_tasks;
-    worker *worker;             /* as many as threads */
+    ss_map_part *part;
     int ended;
     ss_status status;           /* of what failed first */
     ss_error error;
@@ -116,7 +95,7 @@ count_given(const window *win, size_t i)
     const ss_stream *s = win->stream;
     const scale_state *r = &s->state[i];
     size_t ready = win->limit < PTRDIFF_MAX ? count_ready(s, i, win->limit) : SIZE_MAX;
-    if (win->spectra == NULL)
+    if (!win->in_blocks)
         return ready;
     size_t end = ss_blocks_end(s->plan->blocks, i, win->number);
     end = end < r->count ? end : r->count;
@@ -126,42 +105,15 @@ count_given(const window *win, size_t i)
 
 /* --- computing and sending -------------------------------------------------------------------- */
 
-static void
-compute(void *user)
-{
-    worker *wk = user;
-    const window *win = wk->window;
-    ss_stream *s = win->stream;
-    wk->status = SS_OK;
-    for (size_t t = wk->first; wk->status == SS_OK && t < s->n_tasks; t += wk->step) {
-        const task *of = &s->task[t];
-        wk->status = ss_morlet_part(s->plan, of->scale, &win->rec, win->spectra, wk->scratch,
-                                    s->state[of->scale].wave, of->part, s->w + 2 * of->at, &wk->error);
-    }
-}
-
-/* Compute the tasks, n coefficients in all, and pass them to the sink in their order. */
+/* Compute n parts, and pass them to the sink in their order. */
 static ss_status
-run_tasks(const window *win, size_t n)
+run_parts(const window *win, size_t n)
 {
     ss_stream *s = win->stream;
-    size_t threads = n < (win->spectra != NULL ? BLOCK_WORTH_THREADS : WORTH_THREADS) ? 1
-        : (size_t)s->plan->opts.threads;
-    ss_status st = SS_OK;
-    threads = threads < s->n_tasks ? threads : s->n_tasks;
-    for (size_t t = 0; t < threads; t++) {
-        s->worker[t].window = win;
-        s->worker[t].first = t;
-        s->worker[t].step = threads;
-    }
-    ss_pool_run(compute, s->worker, sizeof *s->worker, threads);
-    for (size_t t = 0; st == SS_OK && t < threads; t++)
-        if ((st = s->worker[t].status) != SS_OK && win->err != NULL)
-            *win->err = s->worker[t].error;
-    for (size_t t = 0; st == SS_OK && t < s->n_tasks; t++) {
-        const task *of = &s->task[t];
-        go_on(s, of->scale, of->part.first + of->part.n);
-        if (s->sink(&s->grid.scale[of->scale], of->part.first, of->part.n, s->w + 2 * of->at, s->samples, s->user))
+    ss_status st = ss_morlet_parts(s->plan, &win->of, s->part, n, NULL, win->err);
+    for (const ss_map_part *p = s->part; st == SS_OK && p < s->part + n; p++) {
+        go_on(s, p->scale, p->first + p->n);
+        if (s->sink(&s->grid.scale[p->scale], p->first, p->n, p->w, s->samples, s->user))
             st = SS_STOP;
     }
     return st;
@@ -176,43 +128,34 @@ run_window(const window *win)
     ss_stream *s = win->stream;
     ss_status st = SS_OK;
     for (size_t i = win->first; st == SS_OK && i < win->end;) {
-        size_t all = 0, most = s->plan->opts.threads > 1 ? s->grid.n_scales : 1;
-        for (s->n_tasks = 0; i < win->end && s->n_tasks < most; i++) {
+        size_t all = 0, parts = 0, most = s->plan->opts.threads > 1 ? s->grid.n_scales : 1;
+        for (; i < win->end && parts < most; i++) {
             size_t n = count_given(win, i), part = n < GIVEN ? n : GIVEN;
             if (all + part > GIVEN)
                 break;
             if (part > 0)
-                s->task[s->n_tasks++] = (task){ i, all, { s->state[i].next, part } };
+                s->part[parts++] = (ss_map_part){ i, s->state[i].next, part, s->w + 2 * all, NULL };
             all += part;
             if (part < n)
                 break;                  /* the rest comes next */
         }
-        if (s->n_tasks > 0)
-            st = run_tasks(win, all);
+        if (parts > 0)
+            st = run_parts(win, parts);
     }
     return st;
 }
 
 /* --- windows of blocks ------------------------------------------------------------------------ */
 
-/* The user data of run_level. */
-typedef struct demand {
-    ss_stream *stream;
-    ptrdiff_t limit;
-    ss_error *err;
-} demand;
-
 /* Compute and send all coefficients of a window of a level. */
 static ss_status
 run_level(size_t level, size_t number, double *spectrum, void *user)
 {
-    const demand *asked = user;
-    ss_stream *s = asked->stream;
+    window win = *(const window *)user;
+    const ss_stream *s = win.stream;
     const struct blocks *b = s->plan->blocks;
-    spectra made = { .first = number };
-    made.level[level] = spectrum;
-    window win = { .stream = s, .number = number, .limit = asked->limit, .rec.exponent = s->exponent,
-                   .spectra = &made, .err = asked->err };
+    win.number = win.of.spectra.first = number;
+    win.of.spectra.level[level] = spectrum;
     while (win.first < s->in_blocks && ss_blocks_level(b, win.first) > level)
         win.first++;
     win.end = win.first;
@@ -225,7 +168,7 @@ run_level(size_t level, size_t number, double *spectrum, void *user)
 static ss_status
 run_blocks_to(ss_stream *s, ptrdiff_t limit, ss_error *err)
 {
-    demand asked = { s, limit, err };
+    window asked = { .stream = s, .in_blocks = 1, .limit = limit, .of.rec.exponent = s->exponent, .err = err };
     return s->cascade != NULL ? ss_cascade_end(s->cascade, s->samples, run_level, &asked) : SS_OK;
 }
 
@@ -252,7 +195,7 @@ run_sums(ss_stream *s, ptrdiff_t start, ss_error *err)
     size_t there = samples > start ? (size_t)(samples - start) : 0;
     const record rec = { .n = there < s->length ? there : s->length, .x = s->x + (start - s->origin),
                          .exponent = s->exponent, .origin = start };
-    const window win = { .stream = s, .first = s->in_blocks, .end = s->grid.n_scales, .rec = rec,
+    const window win = { .stream = s, .first = s->in_blocks, .end = s->grid.n_scales, .of.rec = rec,
                          .limit = s->ended || limit < samples ? limit : samples, .err = err };
     return run_window(&win);
 }
@@ -264,7 +207,7 @@ run_sums(ss_stream *s, ptrdiff_t start, ss_error *err)
 static ss_status
 run_full(ss_stream *s, ss_error *err)
 {
-    demand asked = { s, PTRDIFF_MAX, err };
+    window asked = { .stream = s, .in_blocks = 1, .limit = PTRDIFF_MAX, .of.rec.exponent = s->exponent, .err = err };
     ptrdiff_t start, n = (ptrdiff_t)s->length;
     ss_status st = s->cascade != NULL ? ss_cascade_run(s->cascade, run_level, &asked) : SS_OK;
     s->full = s->cascade != NULL ? s->samples + ss_cascade_room(s->cascade) : SIZE_MAX;
@@ -395,7 +338,6 @@ make_plan(ss_stream *s, double rate, const ss_morlet_opts *opts, ss_error *err)
         return SS_ENOMEM;
     *plan = (ss_morlet){ .opts = *opts, .n = INT_MAX / 2, .rate = rate, .window = 1 };
     ss_status st = ss_grid_make(&plan->scale, &plan->n_scales, 0, rate, opts, err);
-    ss_morlet_leave_rounding(&plan->opts);
     if (st == SS_OK)
         st = ss_blocks_new(plan);
     s->grid = (ss_grid){ plan->n_scales, plan->scale, 0 };
@@ -404,13 +346,11 @@ make_plan(ss_stream *s, double rate, const ss_morlet_opts *opts, ss_error *err)
     return st == SS_OK && s->in_blocks > 0 && (s->cascade = ss_cascade_new(plan->blocks)) == NULL ? SS_ENOMEM : st;
 }
 
-/* The state of each scale.  Of those by the definition, as many wavelets are kept as TABLES allows, the shortest;
- * *reach becomes that of the longest. */
+/* The state of each scale.  *longest becomes the reach of the longest by the definition. */
 static ss_status
 make_states(ss_stream *s, double *longest)
 {
     const ss_morlet *plan = s->plan;
-    size_t bytes = 0;
     s->state = calloc(plan->n_scales, sizeof *s->state);
     if (s->state == NULL)
         return SS_ENOMEM;
@@ -420,14 +360,9 @@ make_states(ss_stream *s, double *longest)
         r->reach = (ptrdiff_t)fmin(reach, 0x1p50);
         r->count = SIZE_MAX;
         go_on(s, i, 0);
-        if (i < s->in_blocks)
-            continue;
-        *longest = reach;
-        bytes += bytes <= TABLES ? ss_wavelet_bytes(a, plan->rate, plan->n) : 0;
-        if (bytes <= TABLES && (r->wave = ss_wavelet_new(&plan->opts, a, plan->rate, plan->n)) == NULL)
-            return SS_ENOMEM;
+        *longest = i < s->in_blocks ? *longest : reach;
     }
-    return SS_OK;
+    return ss_morlet_keep_wavelets(s->plan, TABLES);
 }
 
 /* Room for samples, of which the first window has zeros before the record, and for what threads need. */
@@ -435,7 +370,6 @@ static ss_status
 make_room(ss_stream *s, double longest)
 {
     double n = exp2(ceil(log2(fmax(8 * longest, LEAST))));
-    size_t threads = (size_t)s->plan->opts.threads;
     if (!(n < 0x1p58))
         return SS_ENOMEM;
     if (longest > 0) {
@@ -445,12 +379,8 @@ make_room(ss_stream *s, double longest)
     s->room = s->length + PIECE;
     s->x = calloc(s->room, sizeof *s->x);
     s->w = malloc(2 * GIVEN * sizeof *s->w);
-    s->task = malloc(s->grid.n_scales * sizeof *s->task);
-    s->worker = calloc(threads, sizeof *s->worker);
-    ss_status st = s->x != NULL && s->w != NULL && s->task != NULL && s->worker != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t t = 0; st == SS_OK && t < threads; t++)
-        st = ss_morlet_scratch(s->plan, &s->worker[t].scratch);
-    return st;
+    s->part = malloc(s->grid.n_scales * sizeof *s->part);
+    return s->x != NULL && s->w != NULL && s->part != NULL ? SS_OK : SS_ENOMEM;
 }
 
 ss_status
@@ -496,14 +426,9 @@ ss_stream_free(ss_stream *s)
     if (s == NULL)
         return;
     ss_cascade_free(s->cascade);
-    for (size_t i = 0; s->state != NULL && i < s->grid.n_scales; i++)
-        ss_wavelet_free(s->state[i].wave);
-    for (int t = 0; s->worker != NULL && t < s->plan->opts.threads; t++)
-        ss_fft_scratch_free(s->worker[t].scratch);
     ss_morlet_free(s->plan);
     free(s->state);
-    free(s->worker);
-    free(s->task);
+    free(s->part);
     free(s->w);
     free(s->x);
     free(s);
