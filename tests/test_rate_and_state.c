@@ -333,27 +333,53 @@ has_no_belt_and_no_moving_base(void **unused)
     assert_int_equal(ss_scene_check(&s, &err), SS_EINVAL);
 }
 
-/* The Jacobian against differences of the rates, in which half the step's digits are left. */
+/* Of every law: the derivatives of the rates by state and time, which implicit methods use, against their
+ * differences. */
 static void
 the_jacobian_is_that_of_the_rates(void **unused)
 {
-    static const double q[3] = { .001, -5, -.7 };          /* from the steady slide */
+    static const struct {
+        const char *scene, *settings[8][2];
+        double q[MAX_DIM];
+        int side;
+    } rows[] = {
+        { "coulomb", { { "damping", "3" }, { "base_velocity", "1e-3" } }, { 1e-4, .01 }, 0 },
+        { "compliant-heavy", { { "damping", "3" } }, { 1e-6, .01 }, 0 },
+        { "state-variable", { { "damping", "3" } }, { 1e-4, 1e-4, .5 }, 0 },
+        { "leine", { { "damping", ".1" }, { "stribeck_exponent", "1.4" } }, { .1, .15 }, 0 },
+        { "lugre", { { "damping", ".1" } }, { .1, 1e-3, 1e-5 }, 0 },
+        { "dahl", { { "damping", "3" }, { "exponent", "1.6" }, { "beta_fraction", ".7" } }, { 1e-4, .01, 2e-6 }, 1 },
+        { "dahl", { { "exponent", "1.6" }, { "beta_fraction", ".7" }, { "gap", "1e-5" } }, { 1e-4, .01, -1.2e-5 }, -1 },
+        { "rate-and-state-mild", { { "damping", "3" } }, { .001, -5, -.7 }, 0 },
+    };
     (void)unused;
-    for (int law = 0; law < 2; law++) {
-        ss_scene s = scene_of(0, law);
-        s.damping = 3;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        ss_scene s = read_shipped_named(rows[k].scene);
+        for (size_t i = 0; rows[k].settings[i][0] != NULL; i++)
+            assert_int_equal(ss_scene_set_text(&s, rows[k].settings[i][0], rows[k].settings[i][1], NULL), SS_OK);
         state m = ss_state_of(&s, 1e-12);
-        m.model->equilibrium(&m);
-        double d[9], by_time[3], up[3], down[3];
-        m.model->jacobian(&m, 0, q, d, by_time);
-        for (int j = 0; j < 3; j++) {
-            double p[3] = { q[0], q[1], q[2] }, h = 1e-5 * (j == 0 ? 1e-3 : 1);
-            p[j] = q[j] + h;
-            m.model->rates(&m, 0, p, up);
-            p[j] = q[j] - h;
-            m.model->rates(&m, 0, p, down);
-            for (int i = 0; i < 3; i++)
-                near("row, column", (up[i] - down[i]) / (2 * h), d[3 * i + j], 1e-8 * (fabs(d[3 * i + j]) + 1));
+        const size_t n = m.model->dim;
+        if (m.model->equilibrium != NULL)
+            m.model->equilibrium(&m);
+        else
+            m.model->start(&m);
+        m.side = rows[k].side;
+        m.mode = sign(rows[k].q[1]);
+        double d[MAX_DIM * MAX_DIM], truth[MAX_DIM + 1], rate[2][MAX_DIM];
+        m.model->jacobian(&m, .1, rows[k].q, d, truth);
+        for (size_t j = 0; j <= n; j++) {
+            const double h = 1e-5 * (j < n ? fabs(rows[k].q[j]) : .1);
+            for (int way = 0; way < 2; way++) {
+                double q[MAX_DIM], by = way == 0 ? -h : h;
+                memcpy(q, rows[k].q, sizeof q);
+                if (j < n)
+                    q[j] += by;
+                m.model->rates(&m, base_force(&m, j < n ? .1 : .1 + by), q, rate[way]);
+            }
+            for (size_t i = 0; i < n; i++) {
+                double differs = (rate[1][i] - rate[0][i]) / (2 * h), size = fabs(rate[0][i]) + fabs(rate[1][i]);
+                near(rows[k].scene, j < n ? d[n * i + j] : truth[i], differs, 1e-8 * fabs(differs) + 1e-14 * size / h);
+            }
         }
     }
 }
