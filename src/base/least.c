@@ -207,32 +207,22 @@ is_little_gain(const descent *d, double gain)
     return gain < LITTLE_NOISE * d->fit->noise + d->fit->gain * beyond;
 }
 
-/* How much the squares would fall by the best step that is not too long, if the slopes held.  As this costs as
- * much as a step of GSL's, only costly models are asked.  room holds n * (n + 1) numbers. */
+/* How much the squares would fall by the best step, if the slopes held.  As this costs as much as a step of GSL's,
+ * only costly models are asked.  room holds n * (n + 1) numbers. */
 static double
 predicted_gain(const descent *d, const gsl_multilarge_nlinear_workspace *space, double *room)
 {
-    const size_t n = d->n;
-    gsl_matrix_view l = gsl_matrix_view_array(room, n, n);
-    gsl_vector_view step = gsl_vector_view_array(room + n * n, n);
-    const double most = d->fit->farthest > 0 ? d->fit->farthest : INFINITY;
-    double gain = INFINITY, size = 0;
-    gsl_permutation *p = gsl_permutation_alloc(n);
-    for (size_t k = 0; k < n; k++)
-        size = fmax(size, gsl_matrix_get(space->JTJ, k, k));
-    /* directions that the residuals do not show promise nothing */
-    for (double damping = UNSEEN; p != NULL && damping < 1; damping *= 10) {
-        double longest = 0;
-        gsl_matrix_memcpy(&l.matrix, space->JTJ);
-        for (size_t k = 0; k < n; k++)
-            *gsl_matrix_ptr(&l.matrix, k, k) += damping * size + DBL_MIN;
+    gsl_matrix_view l = gsl_matrix_view_array(room, d->n, d->n);
+    gsl_vector_view step = gsl_vector_view_array(room + d->n * d->n, d->n);
+    gsl_permutation *p = gsl_permutation_alloc(d->n);
+    double gain = INFINITY;
+    gsl_matrix_memcpy(&l.matrix, space->JTJ);
+    for (size_t k = 0; k < d->n; k++)       /* what the residuals do not show promises nothing */
+        *gsl_matrix_ptr(&l.matrix, k, k) *= 1 + UNSEEN;
+    if (p != NULL) {
         gsl_linalg_mcholesky_decomp(&l.matrix, p, NULL);
         gsl_linalg_mcholesky_solve(&l.matrix, p, space->g, &step.vector);
         gsl_blas_ddot(space->g, &step.vector, &gain);
-        for (size_t k = 0; k < n; k++)
-            longest = fmax(longest, fabs(gsl_vector_get(&step.vector, k)));
-        if (longest <= most)
-            break;
     }
     gsl_permutation_free(p);
     return gain;
