@@ -10,12 +10,14 @@
  * stiffness and its losses are of one size. */
 #include "fit/backbone.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PASSES = 20, PARTS = 4 };
+enum { PASSES = 20 };
 #define MOST 12.0               /* of ln s, re the mean, where it moves */
+#define LEAST 1e-7              /* of p: less makes no difference, but rounding */
 #define KNOWN 1e-14             /* variance of ln A and phase of a block, at least: rounding hides less */
 #define FAR 1.0                 /* the most by which ln s and p change in a pass */
 #define EXACT 3.0               /* times as likely as not a law is exact */
@@ -81,30 +83,18 @@ take_in(place *at, size_t n)
     return likelihood;
 }
 
-/* Set mean and error of a mixture of normal distributions, by Newton's method: its variance would be that of the
- * widest, which are not likely. */
+/* Set mean and error of a mixture of normal distributions.  Its variance would be that of the widest, which are
+ * not likely; within the geometric mean of their widths lie nearly as many as within the width of one. */
 static void
 mix(double *mean, double *error, double of[WALKS][2], const double weight[WALKS])
 {
-    double h = 0, off = 1;
+    double logarithm = 0;
     *mean = 0;
     for (int w = 0; w < WALKS; w++)
         *mean += weight[w] * of[w][0];
     for (int w = 0; w < WALKS; w++)
-        h += weight[w] * hypot(of[w][1], of[w][0] - *mean);
-    *error = h;
-    for (int i = 0; i < 8 && h > 0 && fabs(off) > 1e-4; i++) {
-        double inside = 0, slope = 0;
-        for (int w = 0; w < WALKS; w++) {
-            double s = fmax(of[w][1], 1e-6 * h) * M_SQRT2, from = *mean - of[w][0];
-            double hi = (from + h) / s, lo = (from - h) / s;
-            inside += weight[w] * (erf(hi) - erf(lo)) / 2;
-            slope += weight[w] * (exp(-hi * hi) + exp(-lo * lo)) * M_2_SQRTPI / 2 / s;
-        }
-        off = (erf(M_SQRT1_2) - inside) / slope / h;
-        h *= fmax(fmin(1 + off, 2), .5);
-        *error = h;
-    }
+        logarithm += weight[w] * log(fmax(hypot(of[w][1], of[w][0] - *mean), DBL_MIN));
+    *error = exp(logarithm);
 }
 
 double
@@ -202,30 +192,26 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
 
 /* --- with no mechanism in mind --------------------------------------------------------------- */
 
-/* (ln A, asinh s, p) a time later; e-folds lost, in units of the state, and their integral over that time. */
+/* Move (ln A, l = asinh(s / small), p) on by a time t: l grows by p an e-fold, so that atan(s / small) grows by p
+ * small a time.  lost: the e-folds of that time, and their integral over it. */
 static void
-move_level(double x[3], double t, double small, double *lost, double *delay)
+move_level(place *at, const double x[3], double t, double small, double lost[2])
 {
-    double v = 0, sum = 0, h = t / PARTS;
-    for (int i = 0; i < PARTS; i++) {
-        double k[4][3], at[3], l = x[1], y = x[0];
-        for (int j = 0; j < 4; j++) {
-            double part = j == 0 ? 0 : j < 3 ? h / 2 : h;
-            for (int c = 0; c < 3; c++)
-                at[c] = (c == 0 ? y : c == 1 ? l : v) + (j > 0 ? part * k[j - 1][c] : 0);
-            double gain = small * cosh(fmin(fabs(at[1]), MOST));
-            k[j][0] = -small * sinh(fmax(fmin(at[1], MOST), -MOST));
-            k[j][1] = gain * x[2];
-            k[j][2] = gain;
-        }
-        double last = v, slope = k[0][2];
-        x[0] = y + h / 6 * (k[0][0] + 2 * k[1][0] + 2 * k[2][0] + k[3][0]);
-        x[1] = l + h / 6 * (k[0][1] + 2 * k[1][1] + 2 * k[2][1] + k[3][1]);
-        v += h / 6 * (k[0][2] + 2 * k[1][2] + 2 * k[2][2] + k[3][2]);
-        sum += h * (last + v) / 2 + h * h / 12 * (slope - small * cosh(fmin(fabs(x[1]), MOST)));
-    }
-    *lost = v;
-    *delay = sum;
+    const double p = copysign(fmax(fabs(x[2]), LEAST), x[2]), top = atan(sinh(MOST));
+    const double from = fmax(-top, fmin(atan(sinh(x[1])), top));
+    const double by = fmax(-top - from, fmin(p * small * t, top - from));
+    const double to = from + by, middle = from + by / 2, half = sin(by / 2);
+    const double gain[2] = { small / cos(from), small / cos(to) };
+    const double fall = log1p(2 * sin(middle) * half / cos(to)) / p;
+    lost[0] = 2 * atanh(half / cos(middle)) / p;
+    lost[1] = t * (lost[0] / 2 + t / 12 * (gain[0] - gain[1]));
+    const double turn[3][3] = {
+        { 1, -small * sin(by) / cos(from) / cos(to) / p / gain[0], (fall - small * tan(to) * t) / p },
+        { 0, gain[1] / gain[0], gain[1] * t }, { 0, 0, 1 } };
+    const double moved[3] = { x[0] - fall, x[1] + p * lost[0], x[2] };
+    memcpy(at->turn, turn, sizeof turn);
+    for (int r = 0; r < 3; r++)
+        at->shift[r] = moved[r] - dot(turn[r], x, 3);
 }
 
 void
@@ -245,27 +231,13 @@ smooth_level(place *p, block *b, size_t n, double small, double (*level)[3], dou
     place end;
     int is_far = 0;
     for (size_t i = 0; i < n; i++) {
-        double gain = hypot(b[i].at.s, small), x[3], moved[2][3], ignore[2];
+        double gain = hypot(b[i].at.s, small);
         p[i] = (place){ .see = { { 1 }, { 0, -gain }, { 0, 0, 1 } } };
         ss_place_see(&p[i], &b[i], LEVEL, b[i].y[LEVEL],
                      b[i].rate[LEVEL] + b[i].at.s - gain * asinh(b[i].at.s / small), 1);
         if (i + 1 == n)
             break;
-        double t = b[i + 1].t - b[i].t;
-        memcpy(x, level[i], sizeof x);
-        move_level(x, t, small, &lost[i][0], &lost[i][1]);
-        p[i].turn[0][0] = 1;
-        for (int c = 1; c < 3; c++) {
-            for (int side = 0; side < 2; side++) {
-                memcpy(moved[side], level[i], sizeof x);
-                moved[side][c] += side ? 1e-4 : -1e-4;
-                move_level(moved[side], t, small, &ignore[0], &ignore[1]);
-            }
-            for (int r = 0; r < 3; r++)
-                p[i].turn[r][c] = (moved[1][r] - moved[0][r]) / 2e-4;
-        }
-        for (int r = 0; r < 3; r++)
-            p[i].shift[r] = x[r] - dot(p[i].turn[r], level[i], 3);
+        move_level(&p[i], level[i], b[i + 1].t - b[i].t, small, lost[i]);
         ss_place_walk(&p[i], lost[i][0]);
     }
     ss_blocks_track(p, n, 3, (double[STATES]){ b->y[LEVEL], asinh(b->at.s / small) }, start, &end, 1);

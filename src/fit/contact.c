@@ -1,6 +1,6 @@
 /* contact.c -- find the only compliant scene that moves as a signal does.
  *
- * The settled cycle of the scene is fitted to the mean cycle of the signal (forced_search.c), in a
+ * The settled cycle of the scene is fitted to the mean cycle of the signal (forced.c), in a
  * wide range about the contact's stiffness and damping that the transitions show, or those of the
  * scene.  From the best results of this search, the motion is fitted to the record (forced_fit.c).
  *

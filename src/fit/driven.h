@@ -98,20 +98,4 @@ void ss_driven_solve(double h[], size_t m, double right[][UNKNOWNS + COLUMNS], s
 /* What a fit makes of each row. */
 ss_status ss_driven_predict(double out[], const driven_law *law, const driven *d, const driven_fit *fit);
 
-/* What is left of a law, beside noise. */
-typedef struct driven_noise {
-    double most, rough;             /* upper bounds of the mean square of the noise; rough: if the law is right;
-                                       most NaN: no passage is like another */
-    double repeat;                  /* correlation of what is left with that of the nearest other passage */
-} driven_noise;
-/* driven_noise.c: for each row the row of another passage that is nearest to it, or the row itself if it is left
- * out; SS_ENOMEM. */
-ss_status ss_driven_partners(const driven *d, size_t *partner);
-/* What a spring of any shape and a damper leave of what the null leaves, in blocks of time to which they were not
- * fitted. */
-void ss_driven_spring(double spring[BLOCKS], const driven *d, const double *left);
-/* The noise by what a law leaves; rows: the record d of `turns` turns, thinned, to which the law was fitted. */
-void ss_driven_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner,
-                     const driven *d, const double *predicted, size_t turns);
-
 #endif

@@ -2,12 +2,28 @@
  *
  * The parameters of the measured rig differ from those of the scene by some tenths, so a model is
  * judged by its best fit within this range.  Motion is proportional to f_k and Z_e together, if alpha
- * decreases as they increase: two to four numbers, and size and phase, remain to be found. */
+ * decreases as they increase: two to four numbers, and size and phase, remain to be found.
+ *
+ * A fit to a record starts from its mean cycle.
+ * Size and phase of a cycle are free and found in closed form (cycle.c).  Events move, appear and vanish as
+ * the keys change, so the misfit has steps and creases, and its derivative is of no use.  The search
+ * therefore tries points all over the ranges (Sobol's, always the same), and continues with a simplex
+ * (Nelder and Mead 1965) from the best of them. */
 #include "fit/forced.h"
 
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multimin.h>
+#include <gsl/gsl_qrng.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 #include "base/error.h"
+#include "base/sort.h"
+#include "fit/samples.h"
 #include "scene/model.h"
+
+enum { STEPS = 40 };            /* of a simplex, at most */
 
 /* Parameter i of the model. */
 static double *
@@ -117,4 +133,130 @@ ss_forced_key_name(const forced *c, size_t key)
 {
     return key == FORCED_STIFFNESS ? "stiffness" : key == FORCED_RATIO ? "friction / (stiffness base_amplitude)"
         : ss_key_of_field(c->model, c->model->parameter[key - FORCED_OWN].offset)->name;
+}
+
+/* --- the search ---------------------------------------------------------------------------- */
+
+typedef struct search {
+    forced *c;
+    const cycle *cycle;
+    cycle_goal goal;
+    double runs, expected;      /* so far, and about how many there will be */
+    ss_status status;           /* SS_ENOMEM or SS_STOP; other failures of a run count as a bad fit */
+} search;
+
+/* A point of the search: the free keys without their ranges, and the logarithm of the misfit: with it a simplex
+ * descends into valleys of 20 and of 60 dB alike. */
+typedef struct point {
+    double height, w[FORCED_KEYS];
+} point;
+
+/* Map the search vector w into the ranges of the keys; skip those that are held. */
+static void
+keys_of(const forced *c, const double *w, double key[FORCED_KEYS])
+{
+    for (size_t i = 0, k = 0; i < c->n; i++) {
+        double width = c->range[i].to - c->range[i].from;
+        key[i] = c->range[i].from + (width > 0 ? width * (0.5 + 0.5 * sin(w[k++])) : 0);
+    }
+}
+
+static void
+run_point(search *p, const double *w, forced_start *s)
+{
+    forced *c = p->c;
+    double value[CYCLE_MOST];
+    keys_of(c, w, s->key);
+    s->misfit = p->cycle->power;
+    s->size = s->shift = 0;
+    if (p->status == SS_OK)
+        p->status = ss_stretch_at(&c->progress, fmin(p->runs++ / p->expected, 1));
+    if (p->status != SS_OK || c->steps > c->budget)
+        return;
+    ss_scene scene = ss_forced_scene(c, s->key, p->cycle->period);
+    scene.duration = p->cycle->period;
+    scene.rate = (double)p->cycle->n / p->cycle->period;
+    ss_status st = ss_samples_run(&scene, c->pick, SAMPLES_COARSE, value, NULL, p->cycle->n, &c->steps);
+    if (st == SS_ENOMEM)
+        p->status = SS_ENOMEM;
+    if (st == SS_OK)
+        s->misfit = ss_cycle_misfit(&p->goal, value, &s->size, &s->shift);
+}
+
+static double
+height(const gsl_vector *w, void *user)
+{
+    search *p = user;
+    forced_start s;
+    run_point(p, w->data, &s);
+    double h = log(s.misfit / p->cycle->power + 1e-12);
+    return isfinite(h) ? h : log(DBL_MAX);
+}
+
+/* Try points all over the ranges. */
+static ss_status
+scatter(point *at, size_t points, size_t free, search *p)
+{
+    gsl_qrng *sobol = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)free);
+    if (sobol == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < points; i++) {
+        gsl_vector_view w = gsl_vector_view_array(at[i].w, free);
+        gsl_qrng_get(sobol, at[i].w);           /* the middle comes first */
+        for (size_t k = 0; k < free; k++)
+            at[i].w[k] = asin(2 * at[i].w[k] - 1);
+        at[i].height = height(&w.vector, p);
+    }
+    gsl_qrng_free(sobol);
+    qsort(at, points, sizeof *at, ss_ascending);
+    return p->status;
+}
+
+static ss_status
+descend(point *at, size_t free, search *p)
+{
+    double first[FORCED_KEYS] = { 0.3, 0.3, 0.3, 0.3 };     /* of the range: about a seventh */
+    gsl_vector_view w = gsl_vector_view_array(at->w, free), step = gsl_vector_view_array(first, free);
+    gsl_multimin_function f = { height, free, p };
+    gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, free);
+    if (m == NULL)
+        return SS_ENOMEM;
+    int failed = gsl_multimin_fminimizer_set(m, &f, &w.vector, &step.vector);
+    for (size_t i = 0; !failed && i < STEPS && gsl_multimin_fminimizer_size(m) > FAINT; i++)
+        failed = gsl_multimin_fminimizer_iterate(m);
+    if (m->fval < at->height) {
+        at->height = m->fval;
+        memcpy(at->w, m->x->data, free * sizeof *at->w);
+    }
+    gsl_multimin_fminimizer_free(m);
+    return p->status;
+}
+
+ss_status
+ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cycle *goal, size_t points,
+                 size_t keep)
+{
+    /* a step of the simplex runs the scene once or twice */
+    search p = { .c = c, .cycle = goal, .expected = (double)(points + 3 * keep * STEPS / 2) };
+    point *at = calloc(points + 1, sizeof *at);
+    size_t free_keys = 0;
+    *n = 0;
+    ss_status st = at != NULL ? ss_cycle_goal_new(&p.goal, goal) : SS_ENOMEM;
+    if (st != SS_OK) {
+        free(at);
+        return st;
+    }
+    for (size_t i = 0; i < c->n; i++)
+        free_keys += c->range[i].to > c->range[i].from;
+    if (free_keys > 0) {
+        st = scatter(at, points, free_keys, &p);
+        for (size_t i = 0; st == SS_OK && i < keep; i++)
+            st = descend(&at[i], free_keys, &p);
+        qsort(at, keep, sizeof *at, ss_ascending);
+    }
+    for (; st == SS_OK && *n < (free_keys > 0 ? keep : 1); st = p.status, ++*n)
+        run_point(&p, at[*n].w, &start[*n]);
+    ss_cycle_goal_free(&p.goal);
+    free(at);
+    return st;
 }

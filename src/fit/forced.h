@@ -58,7 +58,7 @@ typedef struct forced_fit {
     double covariance[FORCED_UNKNOWNS][FORCED_UNKNOWNS];    /* for noise of variance 1; NaN: no fit */
 } forced_fit;
 
-/* --- forced.c: variants -------------------------------------------------------------------- */
+/* --- forced.c: variants, and a search among them ------------------------------------------- */
 
 /* SS_OK for a scene in range whose base moves. */
 ss_status ss_forced_check(const ss_scene *scene, ss_error *err);
@@ -73,8 +73,6 @@ ss_scene ss_forced_resized(const forced *c, ss_scene s, double size);
 double ss_forced_distance(const forced *c, const double key[FORCED_KEYS]);
 /* The name of a key in scenes. */
 const char *ss_forced_key_name(const forced *c, size_t key);
-
-/* --- forced_search.c ----------------------------------------------------------------------- */
 
 /* Find *n starts, the best first: try `points` all over the ranges and improve the best
  * keep <= FORCED_KEPT of them.  If none of them moves, the misfit is all of the

@@ -1,6 +1,6 @@
 /* forced_fit.c -- fit a scene whose base moves to a record, sample by sample.
  *
- * The mean cycle finds the right motion (forced_search.c).  But a record is seldom completely settled,
+ * The mean cycle finds the right motion (forced.c).  But a record is seldom completely settled,
  * and the rest of the transient would shift the parameters or look like an error of the model.  So
  * the motion is fitted to the record itself, with its own start: position and velocity within a slip, half a
  * cycle or more before the record.  These two are the whole state there, or the rest of the state has decayed

@@ -166,19 +166,6 @@ carry_on(const trial *of, const double u[UNKNOWNS], double dt, double y[TRACKS],
     }
 }
 
-/* The amplitude a time h after a, until it is gone: where friction stops the motion ln A has no end. */
-static double
-fade(const trial *of, const double u[UNKNOWNS], double h, double a, double gone)
-{
-    double k[4], rate[TRACKS], lag[2], at;
-    for (int j = 0; j < 4; j++) {
-        at = fmax(a + (j == 0 ? 0 : (j < 3 ? h / 2 : h) * k[j - 1]), gone);
-        rates(of, u, log(at), rate, lag);
-        k[j] = rate[LEVEL] * at;
-    }
-    return fmax(a + h / 6 * (k[0] + 2 * k[1] + 2 * k[2] + k[3]), gone);
-}
-
 /* Where a slider slips for a cycle or two, the law is an average over too little.  So move the exact model from a
  * turn before the blocks on, cut its motion into the same blocks, up to where it sticks, and see what they tell.
  * *told_blocks, which is 0, becomes their number, unless it cannot be moved so. */
@@ -247,15 +234,19 @@ tell(told *out, const trial *of, const double u[UNKNOWNS])
         memcpy(out[i].y, y, sizeof y);
         rates(of, u, y[LEVEL], out[i].rate, out[i].lag);
     }
-    double a = exp(y[LEVEL]), gone = GONE * a;
-    for (double h = 0; i < of->n + of->behind; i++) {           /* the mean over a block, by Simpson's rule */
-        double apart = of->p[i].t - of->p[i - 1].t, before = fade(of, u, apart - h - of->p[i].half, a, gone);
+    /* behind them the mean over a block, by Simpson's rule; where friction stops the motion ln A has no end */
+    double gone = y[LEVEL] + log(GONE), h = 0, turn = y[PHASE], lag[2];
+    for (; i < of->n + of->behind; i++) {
+        const double apart = of->p[i].t - of->p[i - 1].t, first = apart - h - of->p[i].half;
+        double mean = 0;
         h = of->p[i].half;
-        double middle = fade(of, u, h, before, gone);
-        a = fade(of, u, h, middle, gone);
-        y[PHASE] += apart * out[of->n - 1].rate[PHASE];
-        out[i].y[LEVEL] = log((before + 4 * middle + a) / 6);
-        out[i].y[PHASE] = y[PHASE];
+        for (int part = 0; part < 3; part++) {
+            carry_on(of, u, part == 0 ? first : h, y, lag);
+            y[LEVEL] = fmax(y[LEVEL], gone);
+            mean += (part == 1 ? 4 : 1) * exp(y[LEVEL]) / 6;
+        }
+        out[i].y[LEVEL] = log(mean);
+        out[i].y[PHASE] = turn += apart * out[of->n - 1].rate[PHASE];
     }
     return st;
 }
