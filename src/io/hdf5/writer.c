@@ -1,27 +1,48 @@
-/* writer.c -- a file in HDF5: samples, events and coefficients as they come.
+/* writer.c -- a file in HDF5: samples, events and coefficients as they come, so that xarray, MATLAB and h5dump
+ * understand them directly.
  *
  * /signal has a dataset for each column; /events has datasets of one length; /wavelet has a group a scale, or one
- * rectangle if all scales have one coefficient a sample.  Where the number of samples and coefficients is known,
- * the datasets of a scale are closed when they are full.  If it is not, all datasets stay open, with chunks so
- * short that one of each fits into memory; rows then go to one chunk of each column after the other, however they
- * come. */
+ * rectangle if all scales have one coefficient a sample.  Every dataset has units and long_name and is attached to
+ * its dimension scales.  Where the number of samples and coefficients is known, the datasets of a scale are closed
+ * when they are full.  If it is not, all datasets stay open, with chunks so short that one of each fits into
+ * memory; rows then go to one chunk of each column after the other, however they come.
+ *
+ * The same input gives the same bytes: creation times are not tracked, file types are little-endian, links are
+ * kept in the order of writing.  A file is whole or absent.  After the first failure nothing is written. */
+#include <errno.h>
+#include <fcntl.h>
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include "base/error.h"
 #include "base/list.h"
 #include "base/versions.h"
-#include "io/hdf5/h5_write.h"
+#include "io/hdf5/h5.h"
 #include "io/writer.h"
 #include "map/wavelet.h"
 #include "motion/kind.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
 
-enum { OPEN_BYTES = 32 << 20,   /* about so much are all chunks in memory if lengths are not known */
+enum { PIECE = 65536,           /* the most values in a chunk, and in one write */
+       PLAIN_BYTES = 65536,     /* a dataset up to this size is stored without compression */
+       LEAST_ROW = 2048,        /* shorter rows share chunks */
+       OPEN_BYTES = 32 << 20,   /* about so much are all chunks in memory if lengths are not known */
        LEAST_CHUNK = 256 };
+
+/* One dataset to be written. */
+typedef struct dataset {
+    const char *name, *unit, *long_name;
+    hid_t type;                 /* in the file */
+    const void *values;         /* doubles, or texts as in the file; NULL: they are written later */
+    hsize_t chunk;              /* 0: as its size says; else its last dimension grows, and it is
+                                   kept in chunks of so many values of a row */
+    int in_rows;                /* 1: it is written row by row, and each has chunks of its own */
+} dataset;
 
 enum { TIME, RE, IM, EDGE, PARTS };
 struct scale_datasets {
@@ -33,7 +54,8 @@ struct scale_datasets {
 
 typedef struct h5_writer {
     ss_writer base;
-    h5_output output;
+    h5_file file;               /* its path is to be freed */
+    ss_error error;
     ss_status status;           /* the first failure */
     double rate, start;
     size_t length;              /* of the record; 0: not known */
@@ -56,23 +78,177 @@ typedef struct h5_writer {
     hid_t group;
     struct scale_datasets *datasets;    /* of each scale; if dense, the first holds those of all */
 
-    double value[2][H5_PIECE];  /* room for a piece of re and im, or of other values */
-    float single[H5_PIECE];
-    unsigned char edge[H5_PIECE];
+    double value[2][PIECE];     /* room for a piece of re and im, or of other values */
+    float single[PIECE];
+    unsigned char edge[PIECE];
 } h5_writer;
 
-static ss_status
+/* A call of HDF5 fails for lack of memory, or for a name or size that it cannot store; disk.c hides a
+ * full disk from it. */
+static void
 fail(h5_writer *w, hid_t group, const char *name)
 {
-    return ss_h5_fail_write(&w->output.file, group, name);
+    if (w->status == SS_OK)
+        w->status = ss_h5_fail(&w->file, SS_EIO, group, name, "HDF5 cannot store it, or is out of memory");
 }
 
-static int
-write_clock(hid_t group, const ss_header *head)
+/* --- attributes, groups and datasets -------------------------------------------------------- */
+
+static void
+write_attribute(h5_writer *w, hid_t object, const char *name, hid_t in_file, hid_t in_memory, const void *value)
 {
-    return ss_h5_write_number(group, "rate", H5T_IEEE_F64LE, head->rate)
-           && ss_h5_write_number(group, "start", H5T_IEEE_F64LE, head->start)
-           && ss_h5_write_number(group, "has_time", H5T_STD_I8LE, head->has_time);
+    hid_t space = H5Screate(H5S_SCALAR);
+    hid_t id = w->status == SS_OK ? H5Acreate2(object, name, in_file, space, H5P_DEFAULT, H5P_DEFAULT) : -1;
+    if (id < 0 || H5Awrite(id, in_memory, value) < 0)
+        fail(w, object, name);
+    H5Aclose(id);
+    H5Sclose(space);
+}
+
+static void
+write_number(h5_writer *w, hid_t object, const char *name, hid_t type, double value)
+{
+    write_attribute(w, object, name, type, H5T_NATIVE_DOUBLE, &value);
+}
+
+static void
+write_text(h5_writer *w, hid_t object, const char *name, const char *value)
+{
+    hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, strlen(value) + 1);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    write_attribute(w, object, name, type, type, value);
+    H5Tclose(type);
+}
+
+static hid_t
+new_group(h5_writer *w, hid_t parent, const char *name)
+{
+    hid_t how = H5Pcreate(H5P_GROUP_CREATE);
+    H5Pset_obj_track_times(how, 0);
+    H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    hid_t group = w->status == SS_OK ? H5Gcreate2(parent, name, H5P_DEFAULT, how, H5P_DEFAULT) : -1;
+    H5Pclose(how);
+    if (group < 0)
+        fail(w, parent, name);
+    return group;
+}
+
+/* The layout of a dataset: if it is large, in compressed chunks along the last dimension.  If it grows, its cache
+ * has room for one chunk of each row. */
+static void
+lay_out(const dataset *v, int rank, const hsize_t dims[], hid_t how, hid_t access)
+{
+    hsize_t chunk[2] = { 1, 1 }, values = 1;
+    const size_t rows = rank == 2 ? (size_t)dims[0] : 1, size = H5Tget_size(v->type);
+    H5Pset_obj_track_times(how, 0);
+    for (int i = 0; i < rank; i++)
+        values *= dims[i];
+    if (v->chunk > 0)
+        H5Pset_chunk_cache(access, 128 * rows + 1, rows * (size_t)v->chunk * size, 1);
+    else if (values * size <= PLAIN_BYTES)
+        return;
+    hsize_t row = v->chunk > 0 ? v->chunk : dims[rank - 1] < PIECE ? dims[rank - 1] : PIECE;
+    chunk[rank - 1] = row;
+    if (rank == 2 && v->chunk == 0 && !(v->in_rows && row >= LEAST_ROW))
+        chunk[0] = PIECE / row < dims[0] ? PIECE / row : dims[0];
+    H5Pset_chunk(how, rank, chunk);
+    if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+        H5Pset_shuffle(how);
+        H5Pset_deflate(how, v->in_rows ? 1 : 4);
+    }
+}
+
+/* Make one dataset on the given dimension scales (NULL: it is a scale itself; { NULL }: on none), and
+ * write its values if it has any. */
+static hid_t
+new_dataset(h5_writer *w, hid_t group, const dataset *v, int rank, const hsize_t dims[],
+            const char *const scales[])
+{
+    hsize_t most[2] = { dims[0], dims[rank - 1] };
+    if (w->status != SS_OK)
+        return -1;
+    most[rank - 1] = v->chunk > 0 ? H5S_UNLIMITED : dims[rank - 1];
+    hid_t how = H5Pcreate(H5P_DATASET_CREATE), access = H5Pcreate(H5P_DATASET_ACCESS);
+    hid_t space = H5Screate_simple(rank, dims, most);
+    lay_out(v, rank, dims, how, access);
+    hid_t id = H5Dcreate2(group, v->name, v->type, space, H5P_DEFAULT, how, access);
+    H5Sclose(space);
+    H5Pclose(access);
+    H5Pclose(how);
+    if (id < 0)
+        fail(w, group, v->name);
+    write_text(w, id, "units", v->unit);
+    write_text(w, id, "long_name", v->long_name);
+    int good = w->status == SS_OK;
+    if (good && v->values != NULL && dims[0] > 0)
+        good = H5Dwrite(id, H5Tget_class(v->type) == H5T_STRING ? v->type : H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL,
+                        H5P_DEFAULT, v->values) >= 0;
+    if (good && scales == NULL)
+        good = H5DSset_scale(id, v->name) >= 0;
+    for (int i = 0; good && scales != NULL && i < rank && scales[i] != NULL; i++) {
+        hid_t scale = H5Dopen2(group, scales[i], H5P_DEFAULT);
+        good = H5DSattach_scale(id, scale, (unsigned)i) >= 0;
+        H5Dclose(scale);
+    }
+    if (good)
+        return id;
+    fail(w, group, v->name);
+    H5Dclose(id);
+    return -1;
+}
+
+/* Write n lists of one length; the first is the scale of the others.  values of each are doubles, ints or texts as
+ * its type says; of numbers they point to the first, and the next is so many bytes apart. */
+static void
+write_lists(h5_writer *w, hid_t group, const dataset v[], size_t n, size_t length, size_t apart)
+{
+    const char *const scales[] = { v[0].name };
+    hsize_t dims = length;
+    double *x = malloc((length + 1) * sizeof *x);
+    w->status = w->status == SS_OK && x == NULL ? SS_ENOMEM : w->status;
+    for (size_t i = 0; w->status == SS_OK && i < n; i++) {
+        dataset list = v[i];
+        H5T_class_t class = H5Tget_class(list.type);
+        for (size_t k = 0; class != H5T_STRING && k < length; k++) {
+            const void *at = (const char *)list.values + k * apart;
+            x[k] = class == H5T_INTEGER ? *(const int *)at : *(const double *)at;
+        }
+        list.values = class == H5T_STRING ? list.values : x;
+        if (H5Dclose(new_dataset(w, group, &list, 1, &dims, i > 0 ? scales : NULL)) < 0)
+            fail(w, group, list.name);
+    }
+    free(x);
+}
+
+/* Write n values of a row, from its at-th on; at[0] is the row, if there are several.  A dataset that is too
+ * short grows. */
+static void
+write_values(h5_writer *w, hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type, const void *values)
+{
+    hsize_t count[2] = { 1, 1 }, dims[2], end = at[rank - 1] + n;
+    if (w->status != SS_OK)
+        return;
+    hid_t space = H5Dget_space(id), memory = H5Screate_simple(1, &n, NULL);
+    count[rank - 1] = n;
+    if (H5Sget_simple_extent_dims(space, dims, NULL) == rank && dims[rank - 1] < end) {
+        dims[rank - 1] = end;
+        H5Sclose(space);
+        space = H5Dset_extent(id, dims) >= 0 ? H5Dget_space(id) : -1;
+    }
+    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, count, NULL) < 0
+        || H5Dwrite(id, type, memory, space, H5P_DEFAULT, values) < 0)
+        fail(w, id, "");
+    H5Sclose(memory);
+    H5Sclose(space);
+}
+
+static void
+write_clock(h5_writer *w, hid_t group, const ss_header *head)
+{
+    write_number(w, group, "rate", H5T_IEEE_F64LE, head->rate);
+    write_number(w, group, "start", H5T_IEEE_F64LE, head->start);
+    write_number(w, group, "has_time", H5T_STD_I8LE, head->has_time);
 }
 
 /* The number of values of a row in one chunk, a power of two, for rows that grow together; bytes: the size of a
@@ -80,26 +256,24 @@ write_clock(hid_t group, const ss_header *head)
 static hsize_t
 chunk_of(const h5_writer *w, size_t bytes)
 {
-    hsize_t chunk = H5_PIECE;
+    hsize_t chunk = PIECE;
     while (chunk > LEAST_CHUNK && (double)chunk * (double)bytes > OPEN_BYTES)
         chunk /= 2;
     return w->growing ? chunk : 0;
 }
 
 /* Write the times first ..., first + n - 1 of a scale, or of the samples for NULL. */
-static int
+static void
 write_times(h5_writer *w, hid_t id, const ss_scale *scale, size_t first, size_t n)
 {
     double *t = w->value[0];
-    int good = 1;
-    for (size_t m; good && n > 0; first += m, n -= m) {
+    for (size_t m; w->status == SS_OK && n > 0; first += m, n -= m) {
         hsize_t at = first;
-        m = n < H5_PIECE ? n : H5_PIECE;
+        m = n < PIECE ? n : PIECE;
         for (size_t i = 0; i < m; i++)
             t[i] = w->start + (scale != NULL ? ss_scale_b(scale, first + i) : (double)(first + i) / w->rate);
-        good = ss_h5_write_piece(id, 1, &at, m, H5T_NATIVE_DOUBLE, t);
+        write_values(w, id, 1, &at, m, H5T_NATIVE_DOUBLE, t);
     }
-    return good;
 }
 
 /* --- /signal ------------------------------------------------------------------------------- */
@@ -135,20 +309,20 @@ link_name(char link[256], hid_t group, const char *name)
  * 64 kB is not replaced but appended each time: 32768 columns would take a minute and 1 GB. */
 enum { MOST_ATTACHED = 4000 };
 
-static ss_status
+static void
 begin_signal(h5_writer *w, const ss_header *head)
 {
     const char *const scales[] = { head->n_columns <= MOST_ATTACHED ? "t" : NULL };
     hsize_t dims = w->length;
-    h5_dataset v = { .name = "t", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE,
-                     .chunk = chunk_of(w, 8 * (head->n_columns + 1)) };
-    hid_t group = ss_h5_new_group(w->output.file.id, "signal");
-    w->piece = v.chunk > 0 ? (size_t)v.chunk : H5_PIECE;
-    if ((w->column = calloc(head->n_columns + 1, sizeof *w->column)) == NULL)
-        return SS_ENOMEM;
-    if (group < 0 || !write_clock(group, head) || (w->times = ss_h5_new_dataset(group, &v, 1, &dims, NULL)) < 0)
-        return fail(w, 0, "/signal");
-    for (; w->n_columns < head->n_columns; w->n_columns++) {
+    dataset v = { .name = "t", .unit = "s", .long_name = "time", .type = H5T_IEEE_F64LE,
+                  .chunk = chunk_of(w, 8 * (head->n_columns + 1)) };
+    hid_t group = new_group(w, w->file.id, "signal");
+    w->piece = v.chunk > 0 ? (size_t)v.chunk : PIECE;
+    if ((w->column = calloc(head->n_columns + 1, sizeof *w->column)) == NULL && w->status == SS_OK)
+        w->status = SS_ENOMEM;
+    write_clock(w, group, head);
+    w->times = new_dataset(w, group, &v, 1, &dims, NULL);
+    for (; w->status == SS_OK && w->n_columns < head->n_columns; w->n_columns++) {
         const ss_column *column = &head->column[w->n_columns];
         char link[256];
         link_name(link, group, column->name);
@@ -158,61 +332,56 @@ begin_signal(h5_writer *w, const ss_header *head)
         for (size_t i = 0; i < sizeof known / sizeof *known; i++)
             if (strcmp(column->name, known[i].name) == 0 && strcmp(column->unit, known[i].unit) == 0)
                 v.long_name = known[i].long_name;
-        hid_t id = w->column[w->n_columns] = ss_h5_new_dataset(group, &v, 1, &dims, scales);
-        if (id < 0 || (strcmp(link, column->name) != 0 && !ss_h5_write_text(id, "column", column->name)))
-            return fail(w, group, link);
+        w->column[w->n_columns] = new_dataset(w, group, &v, 1, &dims, scales);
+        if (strcmp(link, column->name) != 0)
+            write_text(w, w->column[w->n_columns], "column", column->name);
     }
     H5Gclose(group);
-    return SS_OK;
 }
 
-static ss_status
+static void
 append_rows(h5_writer *w, double *const column[], size_t n)
 {
     if (w->column == NULL || (!w->growing && n > w->length - w->samples))
-        return ss_fail(&w->output.error, SS_EINVAL, "more samples than the file was begun with");
-    for (size_t i = 0, m; i < n; i += m, w->samples += m) {
+        w->status = ss_fail(&w->error, SS_EINVAL, "more samples than the file was begun with");
+    for (size_t i = 0, m; w->status == SS_OK && i < n; i += m, w->samples += m) {
         size_t left = w->piece - w->samples % w->piece;
         hsize_t at = w->samples;
         m = n - i < left ? n - i : left;
-        if (!write_times(w, w->times, NULL, w->samples, m))
-            return fail(w, 0, "/signal/t");
+        write_times(w, w->times, NULL, w->samples, m);
         for (size_t c = 0; c < w->n_columns; c++)
-            if (!ss_h5_write_piece(w->column[c], 1, &at, m, H5T_NATIVE_DOUBLE, column[c] + i))
-                return fail(w, 0, "/signal");
+            write_values(w, w->column[c], 1, &at, m, H5T_NATIVE_DOUBLE, column[c] + i);
     }
-    return SS_OK;
 }
 
 /* --- /events ------------------------------------------------------------------------------- */
 
-static ss_status
+static void
 write_all_events(h5_writer *w)
 {
     enum { KIND_LENGTH = 8 };           /* "reverse" and a NUL */
     static const ss_event none;
     const ss_event *event = w->event != NULL ? w->event : &none;
-    hid_t group = ss_h5_new_group(w->output.file.id, "events"), text = H5Tcopy(H5T_C_S1);
+    hid_t group = new_group(w, w->file.id, "events"), text = H5Tcopy(H5T_C_S1);
     char *kind = calloc(w->n_events + 1, KIND_LENGTH);
     H5Tset_size(text, KIND_LENGTH);
     for (size_t i = 0; kind != NULL && i < w->n_events; i++)
         snprintf(kind + i * KIND_LENGTH, KIND_LENGTH, "%s", ss_event_kind_name(event[i].kind));
-    const h5_dataset v[] = {
-        { .name = "t", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE, .values = &event->t },
-        { .name = "kind", .unit = "", .long_name = "what begins: stick, slip, or slip the other way",
-          .file_type = text, .values = kind },
-        { .name = "x", .unit = "m", .long_name = "displacement", .file_type = H5T_IEEE_F64LE,
-          .values = &event->x },
-        { .name = "v", .unit = "m/s", .long_name = "velocity", .file_type = H5T_IEEE_F64LE, .values = &event->v },
+    const dataset v[] = {
+        { .name = "t", .unit = "s", .long_name = "time", .type = H5T_IEEE_F64LE, .values = &event->t },
+        { .name = "kind", .unit = "", .long_name = "what begins: stick, slip, or slip the other way", .type = text,
+          .values = kind },
+        { .name = "x", .unit = "m", .long_name = "displacement", .type = H5T_IEEE_F64LE, .values = &event->x },
+        { .name = "v", .unit = "m/s", .long_name = "velocity", .type = H5T_IEEE_F64LE, .values = &event->v },
         { .name = "direction", .unit = "1", .long_name = "sign of the slip that begins, or ended at a stick",
-          .file_type = H5T_STD_I8LE, .values = &event->direction },
+          .type = H5T_STD_I8LE, .values = &event->direction },
     };
-    ss_status st = kind == NULL ? SS_ENOMEM : group < 0 ? fail(w, 0, "/events")
-        : ss_h5_write_lists(&w->output.file, group, v, sizeof v / sizeof *v, w->n_events, sizeof *event);
+    if (kind == NULL && w->status == SS_OK)
+        w->status = SS_ENOMEM;
+    write_lists(w, group, v, sizeof v / sizeof *v, w->n_events, sizeof *event);
     H5Tclose(text);
     H5Gclose(group);
     free(kind);
-    return st;
 }
 
 /* --- /wavelet ------------------------------------------------------------------------------ */
@@ -244,55 +413,53 @@ copy_grid(h5_writer *w, const ss_coefficients *grid)
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head, NULL);
 }
 
-static int
-write_lattice(hid_t object, const ss_scale *scale)
+static void
+write_lattice(h5_writer *w, hid_t object, const ss_scale *scale)
 {
-    return ss_h5_write_number(object, "b_num", H5T_IEEE_F64LE, scale->b_num)
-           && ss_h5_write_number(object, "b_den", H5T_IEEE_F64LE, scale->b_den);
+    write_number(w, object, "b_num", H5T_IEEE_F64LE, scale->b_num);
+    write_number(w, object, "b_den", H5T_IEEE_F64LE, scale->b_den);
 }
 
 /* The scales as lists, and the lattice that all share, or else a group for each. */
-static ss_status
+static void
 begin_wavelet(h5_writer *w, const ss_coefficients *grid)
 {
     const ss_header *head = grid->head;
     const ss_column none = { "", "" }, *column = head->n_columns > 0 ? head->column : &none;
-    ss_status st = copy_grid(w, grid);
-    if (st != SS_OK)
-        return st;
-    w->group = ss_h5_new_group(w->output.file.id, "wavelet");
-    if (w->group < 0 || !ss_h5_write_text(w->group, "column", column->name)
-        || !ss_h5_write_text(w->group, "column_units", column->unit) || !write_clock(w->group, head)
-        || !ss_h5_write_number(w->group, "center", H5T_IEEE_F64LE, grid->center)
-        || !ss_h5_write_number(w->group, "dense", H5T_STD_I8LE, w->dense)
-        || !ss_h5_write_number(w->group, "scales", H5T_STD_I32LE, (double)w->n_scales))
-        return fail(w, 0, "/wavelet");
-    const h5_dataset v[] = {
-        { .name = "scale", .unit = "s", .long_name = "scale a", .file_type = H5T_IEEE_F64LE,
-          .values = &w->scale->a },
+    if (w->status == SS_OK)
+        w->status = copy_grid(w, grid);
+    if (w->status != SS_OK)
+        return;
+    w->group = new_group(w, w->file.id, "wavelet");
+    write_text(w, w->group, "column", column->name);
+    write_text(w, w->group, "column_units", column->unit);
+    write_clock(w, w->group, head);
+    write_number(w, w->group, "center", H5T_IEEE_F64LE, grid->center);
+    write_number(w, w->group, "dense", H5T_STD_I8LE, w->dense);
+    write_number(w, w->group, "scales", H5T_STD_I32LE, (double)w->n_scales);
+    const dataset v[] = {
+        { .name = "scale", .unit = "s", .long_name = "scale a", .type = H5T_IEEE_F64LE, .values = &w->scale->a },
         { .name = "frequency", .unit = "Hz", .long_name = "frequency label omega_c / (2 pi a)",
-          .file_type = H5T_IEEE_F64LE, .values = &w->scale->f },
-        { .name = "m", .unit = "1", .long_name = "log2 of the scale in seconds", .file_type = H5T_IEEE_F64LE,
+          .type = H5T_IEEE_F64LE, .values = &w->scale->f },
+        { .name = "m", .unit = "1", .long_name = "log2 of the scale in seconds", .type = H5T_IEEE_F64LE,
           .values = &w->scale->m },
-        { .name = "j", .unit = "1", .long_name = "number of the scale, a = 2^(j/voices) s",
-          .file_type = H5T_STD_I32LE, .values = &w->scale->j },
+        { .name = "j", .unit = "1", .long_name = "number of the scale, a = 2^(j/voices) s", .type = H5T_STD_I32LE,
+          .values = &w->scale->j },
     };
-    st = ss_h5_write_lists(&w->output.file, w->group, v, sizeof v / sizeof *v, w->n_scales,
-                                     sizeof *w->scale);
-    if (st == SS_OK && w->dense && !write_lattice(w->group, &w->scale[0]))
-        return fail(w, 0, "/wavelet");
-    for (size_t i = 0; st == SS_OK && !w->dense && i < w->n_scales; i++) {
+    write_lists(w, w->group, v, sizeof v / sizeof *v, w->n_scales, sizeof *w->scale);
+    if (w->dense)
+        write_lattice(w, w->group, &w->scale[0]);
+    for (size_t i = 0; !w->dense && i < w->n_scales; i++) {
         const ss_scale *scale = &w->scale[i];
         char name[32];
         snprintf(name, sizeof name, "scale%03zu", i);
-        hid_t group = w->datasets[i].group = ss_h5_new_group(w->group, name);
-        if (group < 0 || !ss_h5_write_number(group, "m", H5T_IEEE_F64LE, scale->m)
-            || !ss_h5_write_number(group, "scale", H5T_IEEE_F64LE, scale->a)
-            || !ss_h5_write_number(group, "frequency", H5T_IEEE_F64LE, scale->f)
-            || !ss_h5_write_number(group, "j", H5T_STD_I32LE, scale->j) || !write_lattice(group, scale))
-            st = fail(w, w->group, name);
+        hid_t group = w->datasets[i].group = new_group(w, w->group, name);
+        write_number(w, group, "m", H5T_IEEE_F64LE, scale->m);
+        write_number(w, group, "scale", H5T_IEEE_F64LE, scale->a);
+        write_number(w, group, "frequency", H5T_IEEE_F64LE, scale->f);
+        write_number(w, group, "j", H5T_STD_I32LE, scale->j);
+        write_lattice(w, group, scale);
     }
-    return st;
 }
 
 /* A number that, added and then subtracted, rounds to a multiple of the largest power of two that is at
@@ -321,7 +488,7 @@ largest_of(const double *x, size_t n, double most)
  * 32-bit floats hold exactly unless the unit is below 2^-149.  The error there is far below the
  * 16 eps a^1/2 max|x| that W has anyway: |W| is at most 1.9 a^1/2 max|x|, and here at least 1e-20 at one
  * scale. */
-static ss_status
+static void
 open_datasets(h5_writer *w, size_t i, double most)
 {
     static const char *const scales[] = { "scale", "time" };
@@ -332,27 +499,25 @@ open_datasets(h5_writer *w, size_t i, double most)
     struct scale_datasets *d = &w->datasets[w->dense ? 0 : i];
     d->single = w->tolerance >= 1e-7 && most >= 1e-20 && most <= 1e20;
     hid_t group = w->dense ? w->group : d->group, type = d->single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-    const h5_dataset v[] = {
-        { .name = "time", .unit = "s", .long_name = "time", .file_type = H5T_IEEE_F64LE,
-          .chunk = chunk },
-        { .name = "re", .unit = w->unit, .long_name = "real part of the wavelet coefficient",
-          .file_type = type, .chunk = chunk, .in_rows = 1 },
-        { .name = "im", .unit = w->unit, .long_name = "imaginary part of the wavelet coefficient",
-          .file_type = type, .chunk = chunk, .in_rows = 1 },
-        { .name = "edge", .unit = "1", .long_name = "1 inside the cone of influence",
-          .file_type = H5T_STD_U8LE, .chunk = chunk, .in_rows = 1 },
+    const dataset v[] = {
+        { .name = "time", .unit = "s", .long_name = "time", .type = H5T_IEEE_F64LE, .chunk = chunk },
+        { .name = "re", .unit = w->unit, .long_name = "real part of the wavelet coefficient", .type = type,
+          .chunk = chunk, .in_rows = 1 },
+        { .name = "im", .unit = w->unit, .long_name = "imaginary part of the wavelet coefficient", .type = type,
+          .chunk = chunk, .in_rows = 1 },
+        { .name = "edge", .unit = "1", .long_name = "1 inside the cone of influence", .type = H5T_STD_U8LE,
+          .chunk = chunk, .in_rows = 1 },
     };
     for (size_t k = 0; k < PARTS; k++) {
-        d->part[k] = k == TIME ? ss_h5_new_dataset(group, &v[k], 1, &length, NULL)
-            : ss_h5_new_dataset(group, &v[k], rank, dims + 2 - rank, scales + 2 - rank);
+        d->part[k] = k == TIME ? new_dataset(w, group, &v[k], 1, &length, NULL)
+            : new_dataset(w, group, &v[k], rank, dims + 2 - rank, scales + 2 - rank);
         /* the CF conventions name so the label of a row that is not its index */
-        if (d->part[k] < 0 || (k != TIME && w->dense && !ss_h5_write_text(d->part[k], "coordinates", "frequency")))
-            return fail(w, group, v[k].name);
+        if (k != TIME && w->dense)
+            write_text(w, d->part[k], "coordinates", "frequency");
     }
     if (!w->dense && H5Gclose(group) < 0)
-        return fail(w, w->group, "re");
+        fail(w, w->group, "re");
     d->group = -1;
-    return SS_OK;
 }
 
 /* Split coefficients into re and im, rounded by adding and subtracting `shift`. */
@@ -366,17 +531,17 @@ split(double *restrict re, double *restrict im, const double *restrict x, size_t
 }
 
 /* Write re or im of n coefficients.  Were HDF5 to make 32-bit floats of them, it would zero 1 MB in each call. */
-static int
+static void
 write_part(h5_writer *w, hid_t id, int single, int rank, const hsize_t at[], size_t n, const double *x)
 {
     for (size_t k = 0; single && k < n; k++)
         w->single[k] = (float)x[k];
-    return ss_h5_write_piece(id, rank, at, n, single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE,
-                             single ? (const void *)w->single : x);
+    write_values(w, id, rank, at, n, single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE,
+                 single ? (const void *)w->single : x);
 }
 
 /* Write n coefficients of scale i, at most a piece. */
-static int
+static void
 write_piece(h5_writer *w, size_t i, size_t n, const double *x, size_t samples)
 {
     const ss_scale *scale = &w->scale[i];
@@ -387,102 +552,140 @@ write_piece(h5_writer *w, size_t i, size_t n, const double *x, size_t samples)
     split(w->value[0], w->value[1], x, n, rounding_of(w->tolerance, w->datasets[i].most));
     for (size_t k = 0; k < n; k++)
         w->edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, w->rate, w->start, w->gap, w->n_gaps);
-    return write_part(w, d->part[RE], d->single, rank, at, n, w->value[0])
-        && write_part(w, d->part[IM], d->single, rank, at, n, w->value[1])
-        && ss_h5_write_piece(d->part[EDGE], rank, at, n, H5T_NATIVE_UCHAR, w->edge)
-        && (w->dense || write_times(w, d->part[TIME], scale, first, n));
+    write_part(w, d->part[RE], d->single, rank, at, n, w->value[0]);
+    write_part(w, d->part[IM], d->single, rank, at, n, w->value[1]);
+    write_values(w, d->part[EDGE], rank, at, n, H5T_NATIVE_UCHAR, w->edge);
+    if (!w->dense)
+        write_times(w, d->part[TIME], scale, first, n);
+    w->datasets[i].done += n;
 }
 
 /* Write the next n coefficients of a scale, as pairs, of a record with so many samples until now. */
-static ss_status
+static void
 append_coefficients(h5_writer *w, const ss_scale *scale, size_t first, size_t n, const double *x, size_t samples)
 {
     size_t i = 0;
     while (i < w->n_scales && w->scale[i].j != scale->j)
         i++;
     struct scale_datasets *d = &w->datasets[i], *shared = &w->datasets[w->dense ? 0 : i];
-    if (i == w->n_scales || d->done != first || (!w->growing && n > w->scale[i].n - first))
-        return ss_fail(&w->output.error, SS_EINVAL, "coefficients that are not the next of a scale");
-    ss_status st = SS_OK;
+    if (i == w->n_scales || d->done != first || (!w->growing && n > w->scale[i].n - first)) {
+        w->status = ss_fail(&w->error, SS_EINVAL, "coefficients that are not the next of a scale");
+        return;
+    }
     d->most = w->tolerance > 0 ? largest_of(x, n, d->most) : 0;
     if (shared->part[RE] < 0 && n > 0)
-        st = open_datasets(w, i, d->most);
-    if (st == SS_OK && shared->single && d->most > FLT_MAX)
-        st = ss_h5_fail(&w->output.file, SS_ERANGE, w->group, "re", "coefficients of at most 1e20 precede "
-                        "some above 3.4e38, which 32-bit floats do not hold; keep all bits");
-    if (st != SS_OK)
-        return st;
-    for (size_t m; n > 0; n -= m, x += 2 * m) {
-        m = n < H5_PIECE ? n : H5_PIECE;
-        if (!write_piece(w, i, m, x, samples))
-            return fail(w, w->group, "re");
-        d->done += m;
+        open_datasets(w, i, d->most);
+    if (w->status == SS_OK && shared->single && d->most > FLT_MAX)
+        w->status = ss_h5_fail(&w->file, SS_ERANGE, w->group, "re", "coefficients of at most 1e20 precede "
+                               "some above 3.4e38, which 32-bit floats do not hold; keep all bits");
+    for (size_t m; w->status == SS_OK && n > 0; n -= m, x += 2 * m) {
+        m = n < PIECE ? n : PIECE;
+        write_piece(w, i, m, x, samples);
     }
-    int good = 1;
     for (size_t k = 0; !w->growing && !w->dense && d->done == w->scale[i].n && k < PARTS; k++) {
-        good &= d->part[k] < 0 || H5Dclose(d->part[k]) >= 0;
+        if (d->part[k] >= 0 && H5Dclose(d->part[k]) < 0)
+            fail(w, w->group, "re");
         d->part[k] = -1;
     }
-    return good ? SS_OK : fail(w, w->group, "re");
 }
 
 /* Write the length and the times that all scales share, which are known only at the end.  Each scale must have all
  * the coefficients that it has in a record of so many samples. */
-static ss_status
+static void
 end_wavelet(h5_writer *w, size_t samples)
 {
-    hid_t root = w->output.file.id;
     double last = (double)(samples - 1) / w->rate;
-    for (size_t i = 0; i < w->n_scales; i++) {
+    for (size_t i = 0; w->status == SS_OK && i < w->n_scales; i++) {
         const ss_scale *scale = &w->scale[i];
         size_t done = w->datasets[i].done;
         if (!w->growing ? done != scale->n
             : !(done > 0 && ss_scale_b(scale, done - 1) <= last && ss_scale_b(scale, done) > last))
-            return ss_fail(&w->output.error, SS_EINVAL, "coefficients of scale %g are missing", scale->m);
+            w->status = ss_fail(&w->error, SS_EINVAL, "coefficients of scale %g are missing", scale->m);
     }
     char text[SS_NUMBER_MAX];
     ss_number_format(text, (double)samples);
-    if ((w->dense && !write_times(w, w->datasets->part[TIME], &w->scale[0], 0, samples))
-        || (H5Aexists(root, "samples") <= 0 && !ss_h5_write_text(root, "samples", text))
-        || !ss_h5_write_number(w->group, "samples", H5T_STD_I64LE, (double)samples))
-        return fail(w, 0, "/wavelet");
-    return SS_OK;
+    if (w->dense)
+        write_times(w, w->datasets->part[TIME], &w->scale[0], 0, samples);
+    if (H5Aexists(w->file.id, "samples") <= 0)
+        write_text(w, w->file.id, "samples", text);
+    write_number(w, w->group, "samples", H5T_STD_I64LE, (double)samples);
 }
 
 /* --- the file ------------------------------------------------------------------------------ */
 
-static ss_status
-write_notes(h5_writer *w, const ss_header *head)
+/* Make the file, with its notes. */
+static void
+begin_file(h5_writer *w, const ss_header *head)
 {
-    hid_t root = w->output.file.id;
-    if (!ss_h5_write_text(root, H5_VERSION_NOTE, SS_VERSION))
-        return fail(w, 0, "/");
-    for (size_t i = 0; head != NULL && i < head->n_notes; i++) {
+    w->file.disk.fd = open(w->file.path, O_RDWR | O_CREAT | O_TRUNC, 0666);
+    if (w->file.disk.fd < 0) {
+        w->status = ss_fail_errno(&w->error, w->file.path, errno);
+        return;
+    }
+    hid_t access = ss_h5_disk_access(&w->file.disk, &w->file.driver), how = H5Pcreate(H5P_FILE_CREATE);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);   /* programs read it since 2008 */
+    H5Pset_obj_track_times(how, 0);
+    H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    H5Pset_attr_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    w->file.id = access >= 0 ? H5Fcreate(w->file.path, H5F_ACC_TRUNC, how, access) : -1;
+    H5Pclose(how);
+    H5Pclose(access);
+    w->status = w->file.id >= 0 ? SS_OK : SS_ENOMEM;
+    write_text(w, w->file.id, H5_VERSION_NOTE, SS_VERSION);
+    for (size_t i = 0; w->status == SS_OK && head != NULL && i < head->n_notes; i++) {
         const char *colon = strstr(head->note[i], ": ");
         size_t length = colon != NULL ? (size_t)(colon - head->note[i]) : strlen(head->note[i]);
         char *key = strndup(head->note[i], length);
         if (key == NULL)
-            return SS_ENOMEM;
-        int good = H5Aexists(root, key) > 0 || ss_h5_write_text(root, key, colon != NULL ? colon + 2 : "");
+            w->status = SS_ENOMEM;
+        else if (H5Aexists(w->file.id, key) <= 0)
+            write_text(w, w->file.id, key, colon != NULL ? colon + 2 : "");
         free(key);
-        if (!good)
-            return fail(w, 0, head->note[i]);
     }
-    return SS_OK;
 }
 
-/* Run a step of a writer that has not failed.  The first failure, which may be the disk's, is kept for all calls
- * that follow. */
-#define STEP(base, err, work) do { \
+/* Ask for what the disk has kept, and let each failure have a text. */
+static void
+check_disk(h5_writer *w)
+{
+    if (w->file.disk.error != 0 && w->status == SS_OK)
+        w->status = ss_fail_errno(&w->error, w->file.path, w->file.disk.error);
+    if (w->status == SS_ENOMEM)
+        ss_fail_memory(&w->error, w->file.path);
+}
+
+/* Close everything.  An incomplete file is removed.  Closing it again does nothing. */
+static void
+close_file(h5_writer *w)
+{
+    struct stat is;
+    if (w->file.id >= 0 && H5Fclose(w->file.id) < 0)    /* and all objects in it */
+        fail(w, 0, "");
+    if (w->file.driver > 0)
+        H5FDunregister(w->file.driver);
+    w->file.id = -1;
+    w->file.driver = 0;
+    if (w->file.disk.fd < 0)
+        return;
+    if (close(w->file.disk.fd) != 0 && w->file.disk.error == 0)
+        w->file.disk.error = errno;
+    w->file.disk.fd = -1;
+    check_disk(w);
+    if (w->status != SS_OK && stat(w->file.path, &is) == 0 && S_ISREG(is.st_mode))
+        unlink(w->file.path);
+}
+
+/* Run a step of a writer that has not failed. */
+#define STEP(base, err, ...) do { \
         h5_writer *w = (h5_writer *)(base); \
-        ss_status st = w->status; \
         H5E_BEGIN_TRY { \
-            if (st == SS_OK) \
-                st = work; \
-            w->status = ss_h5_output_check(&w->output, st); \
+            if (w->status == SS_OK) \
+                __VA_ARGS__; \
+            check_disk(w); \
         } H5E_END_TRY \
         if (w->status != SS_OK && (err) != NULL) \
-            *(err) = w->output.error; \
+            *(err) = w->error; \
         return w->status; \
     } while (0)
 
@@ -500,16 +703,14 @@ write_coefficients(ss_writer *base, const ss_scale *scale, size_t first, size_t 
 }
 
 /* Events are written at the end, as their number is known then. */
-static ss_status
+static void
 keep_events(h5_writer *w, const ss_event *event, size_t n)
 {
     ss_event *more = ss_list_grow(w->event, &w->room, w->n_events + n, sizeof *more);
-    if (more == NULL)
-        return SS_ENOMEM;
-    w->event = more;
-    for (size_t i = 0; i < n; i++)
+    w->event = more != NULL ? more : w->event;
+    w->status = more != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t i = 0; more != NULL && i < n; i++)
         more[w->n_events++] = event[i];
-    return SS_OK;
 }
 
 static ss_status
@@ -518,12 +719,12 @@ write_events(ss_writer *base, const ss_event *event, size_t n, ss_error *err)
     STEP(base, err, keep_events(w, event, n));
 }
 
-static ss_status
+static void
 append_note(h5_writer *w, const char *key, const char *value)
 {
-    hid_t root = w->output.file.id;
-    int good = H5Aexists(root, key) <= 0 || H5Adelete(root, key) >= 0;
-    return good && ss_h5_write_text(root, key, value) ? SS_OK : fail(w, 0, key);
+    if (H5Aexists(w->file.id, key) > 0 && H5Adelete(w->file.id, key) < 0)
+        fail(w, 0, key);
+    write_text(w, w->file.id, key, value);
 }
 
 static ss_status
@@ -532,24 +733,22 @@ write_note(ss_writer *base, const char *key, const char *value, ss_error *err)
     STEP(base, err, append_note(w, key, value));
 }
 
-/* Write what is left, and check that all samples of the file have been given. */
-static ss_status
-complete(h5_writer *w, size_t samples)
-{
-    int fits = w->growing || samples == w->length;
-    if ((w->n_scales > 0 && (samples < 1 || !fits)) || (w->column != NULL && (w->samples != samples || !fits)))
-        return ss_fail(&w->output.error, SS_EINVAL, "%zu samples are not what the file has", samples);
-    ss_status st = w->has_events ? write_all_events(w) : SS_OK;
-    return st == SS_OK && w->n_scales > 0 ? end_wavelet(w, samples) : st;
-}
-
-static ss_status
+/* Write what is left, check that all samples of the file have been given, and close it. */
+static void
 end(h5_writer *w, size_t samples)
 {
+    int fits = w->growing || samples == w->length;
     if (w->ended)
-        return ss_fail(&w->output.error, SS_EINVAL, "the file is complete");
+        w->status = ss_fail(&w->error, SS_EINVAL, "the file is complete");
+    else if ((w->n_scales > 0 && (samples < 1 || !fits))
+             || (w->column != NULL && (w->samples != samples || !fits)))
+        w->status = ss_fail(&w->error, SS_EINVAL, "%zu samples are not what the file has", samples);
     w->ended = 1;
-    return ss_h5_output_close(&w->output, complete(w, samples));
+    if (w->status == SS_OK && w->has_events)
+        write_all_events(w);
+    if (w->status == SS_OK && w->n_scales > 0)
+        end_wavelet(w, samples);
+    close_file(w);
 }
 
 static ss_status
@@ -562,8 +761,9 @@ static void
 free_writer(ss_writer *base)
 {
     h5_writer *w = (h5_writer *)base;
+    w->status = w->status == SS_OK ? SS_STOP : w->status;       /* a file that has not ended is incomplete */
     H5E_BEGIN_TRY {
-        ss_h5_output_close(&w->output, SS_STOP);     /* does nothing if it has ended */
+        close_file(w);
     } H5E_END_TRY
     free(w->event);
     free(w->column);
@@ -571,25 +771,25 @@ free_writer(ss_writer *base)
     free(w->scale);
     free(w->datasets);
     free(w->gap);
-    free(w->output.path);
+    free((char *)w->file.path);
     free(w);
 }
 
 static ss_status
-begin(h5_writer *w, const ss_contents *what)
+begin(ss_writer *base, const ss_contents *what, const ss_header *head, ss_error *err)
 {
-    const ss_header *head = what->grid != NULL ? what->grid->head : what->signal;
-    w->rate = head != NULL ? head->rate : 1;
-    w->start = head != NULL ? head->start : 0;
-    w->length = what->n;
-    w->growing = what->n == 0;
-    w->has_events = what->events;
-    ss_status st = w->output.path != NULL ? ss_h5_output_open(&w->output) : SS_ENOMEM;
-    if (st == SS_OK)
-        st = write_notes(w, head);
-    if (st == SS_OK && what->signal != NULL)
-        st = begin_signal(w, what->signal);
-    return st == SS_OK && what->grid != NULL ? begin_wavelet(w, what->grid) : st;
+    STEP(base, err, {
+        w->rate = head != NULL ? head->rate : 1;
+        w->start = head != NULL ? head->start : 0;
+        w->length = what->n;
+        w->growing = what->n == 0;
+        w->has_events = what->events;
+        begin_file(w, head);
+        if (w->status == SS_OK && what->signal != NULL)
+            begin_signal(w, what->signal);
+        if (w->status == SS_OK && what->grid != NULL)
+            begin_wavelet(w, what->grid);
+    });
 }
 
 static ss_status
@@ -602,20 +802,18 @@ writer_new(ss_writer **out, const char *path, const ss_contents *what, ss_error 
     if (st != SS_OK)
         return st;
     h5_writer *w = calloc(1, sizeof *w);
-    if (w == NULL)
+    char *copy = strdup(path);
+    if (w == NULL || copy == NULL) {
+        free(w);
+        free(copy);
         return ss_fail_memory(err, path);
+    }
     w->base.calls = &calls;
-    w->output.path = strdup(path);
-    w->output.file = (h5_file){ .id = -1, .path = path, .err = &w->output.error, .disk.fd = -1 };
-    H5E_BEGIN_TRY {
-        st = ss_h5_output_check(&w->output, begin(w, what));
-    } H5E_END_TRY
-    w->output.file.path = w->output.path;
+    w->file = (h5_file){ .id = -1, .path = copy, .err = &w->error, .disk.fd = -1 };
+    st = begin(&w->base, what, head, err);
     if (st == SS_OK)
         *out = &w->base;
-    else if (err != NULL)
-        *err = w->output.error;
-    if (st != SS_OK)
+    else
         free_writer(&w->base);
     return st;
 }
