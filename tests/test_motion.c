@@ -609,6 +609,11 @@ cannot_tell_laws_that_leave_the_same(void **unused)
     for (int b = 0; b < BLOCKS; b++)    /* two times, but not surely more than 1.5 times */
         block[2][b] = c[2].left / BLOCKS * (b % 2 ? 1.8 : 0.2);
     assert_int_equal(ss_verdict_find(answer, sizeof answer, c, 3, 1, &best), SS_NAMED);
+    c[2].left = c[2].fitted = c[2].noise = .3;      /* no more than noise is left, but that is much */
+    for (int b = 0; b < BLOCKS; b++)
+        block[2][b] = c[2].left / BLOCKS * (1 + 0.001 * (b % 2));
+    assert_int_equal(ss_verdict_find(answer, sizeof answer, c, 3, 1, &best), SS_NONE_FITS);
+    assert_non_null(strstr(answer, "none of these: too little is explained; other explains 0.7"));
 }
 
 /* --- no law --------------------------------------------------------------------------------- */

@@ -220,6 +220,7 @@ refuses_what_it_cannot_know(void **state)
         { "Abtastrate;25600 Hz\nKanal;Kraft\nF;x\n1;2\n2;3\n", NULL, 0, SS_ECLOCK,
           "but line 1 may give the rate: 'Abtastrate;25600 Hz'" },
         { "Flow rate,3\nSamples,2\nSampling: 25.6 kHz\nF,x\n1,2\n2,3\n", NULL, 0, SS_ECLOCK, "but line 3 may give" },
+        { "Pirate 3\nSample rate: 25.6 kHz\nF,x\n1,2\n2,3\n", NULL, 0, SS_ECLOCK, "but line 2 may give" },
         { "# dt = 1e-4 s\nF,x\n1,2\n2,3\n", NULL, 0, SS_ECLOCK, "but line 1 may give the rate: 'dt = 1e-4 s'" },
         { "Fr\351quence d'\351chantillonnage;100\nF;x\n1;2\n2;3\n", NULL, 0, SS_ECLOCK, "but line 1 may give" },
         { "operated by 3\nF,offset\n1,2\n2,3\n", NULL, 0, SS_ECLOCK, "in: no column of time" },

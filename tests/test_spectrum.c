@@ -135,8 +135,10 @@ a_spectrum_comes_from_pieces_too(void **state)
     ss_spectrum_free(whole);
     ss_welch_free(welch);
     assert_int_equal(ss_welch_new(&welch, 1000000000, RATE, 0, &err), SS_OK);
+    assert_int_equal(ss_welch_add(welch, (double[]){ 1, 2, INFINITY }, 3, &err), SS_EINVAL);
+    assert_string_equal(err.text, "sample 3 is not finite");
     assert_int_equal(ss_welch_end(&pieces, welch, &err), SS_EINVAL);
-    assert_non_null(strstr(err.text, "at least 4194304 samples, not"));
+    assert_non_null(strstr(err.text, "at least 4194304 samples, not 3"));
     ss_welch_free(welch);
 }
 
