@@ -348,6 +348,20 @@ fills_gaps_and_says_where(void **state)
         }
 }
 
+/* Between two gaps the spline through two rows is a line, and one row stands alone. */
+static void
+resamples_what_lies_between_gaps(void **state)
+{
+    static const double truth[] = { 1, 1.5, 2, 0, 0, 0, 7, 0, 0, 0, 1, 2.5, 4 };
+    const ss_read_opts opts = { READ_OPTS, .gaps = SS_GAPS_SPLIT, .resample = 2 };
+    (void)state;
+    ss_signal *s = read_text("t,x\n0,1\n1,2\n2,nan\n3,7\n4,nan\n5,1\n6,4\n", &opts);
+    assert_int_equal(s->n, sizeof truth / sizeof *truth);
+    for (size_t i = 0; i < s->n; i++)
+        assert_true(fabs(s->values[i] - truth[i]) < 1e-14);
+    ss_signal_free(s);
+}
+
 static void
 knows_what_is_near_a_gap(void **state)
 {
@@ -418,6 +432,7 @@ main(void)
         cmocka_unit_test(selects_columns_and_rows),
         cmocka_unit_test(resamples_a_signal_at_its_own_samples),
         cmocka_unit_test(fills_gaps_and_says_where),
+        cmocka_unit_test(resamples_what_lies_between_gaps),
         cmocka_unit_test(knows_what_is_near_a_gap),
         cmocka_unit_test(refuses_gaps_of_a_damaged_note),
         cmocka_unit_test(reads_gaps_in_any_order),

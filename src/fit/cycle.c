@@ -69,19 +69,16 @@ fold(cycle *c, char *why, size_t size, const double *x, const char *missing, siz
         snprintf(why, size, "what repeats is no more than the noise");
 }
 
-/* The power of the mean cycle, about its mean. */
+/* The power of the mean cycle; that of its mean is in it, which is the same for every period. */
 static double
 repeating(const double *x, const char *missing, size_t n, double samples)
 {
-    double sum[CYCLE_MOST], count[CYCLE_MOST], power = 0, all = 0, counted = 0;
+    double sum[CYCLE_MOST], count[CYCLE_MOST], power = 0;
     size_t bins = bins_of(samples);
     gather(sum, count, bins, x, missing, n, 1 / samples);
-    for (size_t i = 0; i < bins; i++) {
+    for (size_t i = 0; i < bins; i++)
         power += count[i] > 0 ? sum[i] * sum[i] / count[i] : 0;
-        all += sum[i];
-        counted += count[i];
-    }
-    return power - all * all / fmax(counted, 1);
+    return power;
 }
 
 /* The period within 1 % of the given one at which most power repeats. */
