@@ -26,8 +26,8 @@ draw(uint64_t *state)
 }
 
 ss_status
-ss_morlet_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const size_t k[], size_t n, double *w,
-                 ss_error *err)
+ss_morlet_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const size_t k[], size_t n,
+                 double *w, ss_error *err)
 {
     wavelet *wave = ss_wavelet_new(&plan->opts, scale->a, plan->rate, rec->n);
     if (wave == NULL)

@@ -91,7 +91,8 @@ add_adjoint(solver *s, size_t i, span part, const double *w, double *to)
     else
         for (size_t k = 0; k < part.n; k++) {
             const double one[2] = { factor * w[2 * k], factor * w[2 * k + 1] };
-            ss_wavelet_add(s->plan->wave[i], s->plan->n, ss_scale_spot(sc, part.first + k, s->plan->rate), one, to);
+            spot at = ss_scale_spot(sc, part.first + k, s->plan->rate);
+            ss_wavelet_add(s->plan->wave[i], s->plan->n, at, one, to);
         }
 }
 

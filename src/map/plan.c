@@ -108,15 +108,17 @@ ss_morlet_keep_wavelets(ss_morlet *plan, size_t bytes)
 }
 
 ss_status
-ss_morlet_part(const ss_morlet *plan, const transformed *of, double *scratch, const ss_map_part *part, ss_error *err)
+ss_morlet_part(const ss_morlet *plan, const transformed *of, double *scratch, const ss_map_part *part,
+               ss_error *err)
 {
     const ss_scale *scale = &plan->scale[part->scale];
+    const span range = { part->first, part->n };
     double factor = plan->opts.norm == SS_NORM_L1 ? 1 : sqrt(scale->a), *w = part->w;
     factor = ldexp(factor, of->rec.exponent);
     int fits = factor > 1e-250 && factor < 1e300;   /* |W| is below 4 in these units */
     factor = fits ? factor : 1;
     if (ss_blocks_covers(plan->blocks, part->scale))
-        ss_blocks_scale(plan->blocks, part->scale, &of->spectra, scratch, (span){ part->first, part->n }, factor, w);
+        ss_blocks_scale(plan->blocks, part->scale, &of->spectra, scratch, range, factor, w);
     else {
         wavelet *own = NULL;
         const wavelet *wave = plan->wave != NULL ? plan->wave[part->scale] : NULL;

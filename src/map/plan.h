@@ -73,8 +73,8 @@ ss_status ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend de
 ss_status ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent,
                            ss_error *err);
 /* The coefficients of a scale at n translations k by the definition, so finished. */
-ss_status ss_morlet_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const size_t k[], size_t n,
-                           double *w, ss_error *err);
+ss_status ss_morlet_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const size_t k[],
+                           size_t n, double *w, ss_error *err);
 
 /* SS_OK if every option lies in its range and n samples at this rate are a record. */
 ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err);
@@ -99,15 +99,16 @@ size_t ss_scale_count(const ss_scale *scale, double t);
 ss_status ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
                              const ss_morlet_opts *opts, ss_error *err);
 
-/* The wavelet of a scale at whole samples, for records of n samples at most; threads share it.  NULL: no memory. */
+/* The wavelet of a scale at whole samples, for records of n samples at most, which threads share.  NULL: no
+ * memory. */
 typedef struct wavelet wavelet;
 wavelet *ss_wavelet_new(const ss_morlet_opts *opts, double a, double rate, size_t n);
 size_t ss_wavelet_bytes(double a, double rate, size_t n);
 void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
 /* Let a plan keep so many bytes of wavelets at most, the shortest first. */
 ss_status ss_morlet_keep_wavelets(ss_morlet *plan, size_t bytes);
-/* The coefficient at a place by the definition, as exactly as double precision allows, in units of a^1/2 and of the
- * record; and the adjoint: Re(w h) is added to the n samples x. */
+/* The coefficient at a place by the definition, as exactly as double precision allows, in units of a^1/2 and of
+ * the record; and the adjoint: Re(w h) is added to the n samples x. */
 void ss_wavelet_sum(const wavelet *wave, const record *rec, spot at, double w[2]);
 void ss_wavelet_add(const wavelet *wave, size_t n, spot at, const double w[2], double *x);
 
@@ -125,8 +126,8 @@ typedef struct transformed {
 /* Make it of the plan's n samples; to be ended, failed or not. */
 ss_status ss_morlet_begin(const ss_morlet *plan, const double *x, transformed *of, ss_error *err);
 void ss_morlet_end(transformed *of);
-/* Compute n parts on the plan's threads, if they are worth that.  The error is that of the first part that fails.  done, unless it
- * is NULL, is raised by their coefficients and reported as progress. */
+/* Compute n parts on the plan's threads, if they are worth that.  The error is that of the first part that fails.
+ * done, unless it is NULL, is raised by their coefficients and reported as progress. */
 ss_status ss_morlet_parts(const ss_morlet *plan, const transformed *of, const ss_map_part part[], size_t n,
                           size_t *done, ss_error *err);
 

@@ -47,8 +47,8 @@ set_rates(wavelet *wave, const ss_morlet_opts *opts, double a, double rate)
     wave->second = wavelet_second(opts);
 }
 
-/* Taps on either side, and one: those within REACH a of a centre half a sample away, and no more than n, which leave
- * out nothing. */
+/* Taps on either side, and one: those within REACH a of a centre half a sample away, and no more than n, which
+ * leave out nothing. */
 static size_t
 taps_of(double a, double rate, size_t n)
 {

@@ -164,11 +164,18 @@ run_level(size_t level, size_t number, double *spectrum, void *user)
     return run_window(&win);
 }
 
+/* What run_level is asked for. */
+static window
+blocks_of(ss_stream *s, ptrdiff_t limit, ss_error *err)
+{
+    return (window){ .stream = s, .in_blocks = 1, .limit = limit, .of.rec.exponent = s->exponent, .err = err };
+}
+
 /* All coefficients in blocks that need no sample from limit on, PTRDIFF_MAX: all. */
 static ss_status
 run_blocks_to(ss_stream *s, ptrdiff_t limit, ss_error *err)
 {
-    window asked = { .stream = s, .in_blocks = 1, .limit = limit, .of.rec.exponent = s->exponent, .err = err };
+    window asked = blocks_of(s, limit, err);
     return s->cascade != NULL ? ss_cascade_end(s->cascade, s->samples, run_level, &asked) : SS_OK;
 }
 
@@ -207,7 +214,7 @@ run_sums(ss_stream *s, ptrdiff_t start, ss_error *err)
 static ss_status
 run_full(ss_stream *s, ss_error *err)
 {
-    window asked = { .stream = s, .in_blocks = 1, .limit = PTRDIFF_MAX, .of.rec.exponent = s->exponent, .err = err };
+    window asked = blocks_of(s, PTRDIFF_MAX, err);
     ptrdiff_t start, n = (ptrdiff_t)s->length;
     ss_status st = s->cascade != NULL ? ss_cascade_run(s->cascade, run_level, &asked) : SS_OK;
     s->full = s->cascade != NULL ? s->samples + ss_cascade_room(s->cascade) : SIZE_MAX;

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "motion/bernstein.h"
 #include "motion/event.h"
+#include "motion/method.h"
 
 static guard_value
 guard_at(double s, void *user)
@@ -33,6 +34,22 @@ ss_engine_begin(engine *e)
 {
     e->has_start = 0;
     e->type->begin(e);
+}
+
+void
+ss_engine_begin_steps(engine *e)
+{
+    const state *m = &e->m->now;
+    e->rhs++;
+    m->model->rates(m, base_force(m, m->u), m->q, e->dq0);
+    e->shortest = ss_step_floor(m);
+}
+
+ss_status
+ss_engine_fail_short(const engine *e, ss_error *err)
+{
+    return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the step fell below %.3g s",
+                   e->how->name, e->tol, e->m->origin.hi + e->m->now.u, e->shortest);
 }
 
 void

@@ -15,6 +15,9 @@ typedef enum reading {
 } reading;
 
 struct engine_type {
+    size_t size;                                /* of the engine, which begins with a struct engine */
+    /* Fill in what is its own.  May be NULL. */
+    ss_status (*make)(engine *e, ss_error *err);
     /* The motion has entered a mode: discard what belongs to the one before. */
     void (*begin)(engine *e);
     /* Take one step from now and fill h, q1, dq1.  The step is at most h_max long, but may be
@@ -45,6 +48,12 @@ struct engine_type {
 struct engine {
     const struct engine_type *type;
     motion *m;
+    const struct method *how;
+    double tol;                             /* of steps, which the numbers that follow are for */
+    double scale[MAX_DIM];                  /* of the parts of the state */
+    double unit[MAX_DIM];                   /* powers of two near these: converting rounds nothing */
+    double shortest;                        /* the shortest step allowed in the mode [s] */
+    double next;                            /* the length of the next step, about [s] */
     double h;                               /* of the last step */
     double dq0[MAX_DIM];                    /* rate of change of the state at its start */
     double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
@@ -58,16 +67,15 @@ struct engine {
     unsigned long steps, rhs, events;
 };
 
-/* Make the engine of a method that can move the scene, for the motion in its present state.  name is that
- * of a GSL stepper; elsewhere it serves messages. */
-ss_status ss_ode_new(engine **out, motion *m, const char *name, int multistep, double tol, ss_error *err);
-ss_status ss_taylor_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
-ss_status ss_radau_new(engine **out, motion *m, const char *name, double tol, ss_error *err);
-ss_status ss_exact_new(engine **out, motion *m, ss_error *err);
+extern const struct engine_type ss_exact_engine, ss_taylor_engine, ss_radau_engine, ss_ode_engine;
 void ss_engine_free(engine *e);                     /* NULL is allowed */
 
 /* The motion has entered a mode. */
 void ss_engine_begin(engine *e);
+/* For engines that take steps: the rate of change at the start of a mode, and its shortest step; and SS_ETOL, as a
+ * step would have to be shorter. */
+void ss_engine_begin_steps(engine *e);
+ss_status ss_engine_fail_short(const engine *e, ss_error *err);
 /* Fill start and end. */
 void ss_engine_derive(engine *e);
 /* Take a step, see struct engine_type; SS_ERANGE if the state becomes infinite or NaN. */

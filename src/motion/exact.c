@@ -20,9 +20,7 @@
 
 #include <complex.h>
 #include <float.h>
-#include <stdlib.h>
 #include <string.h>
-#include "base/error.h"
 
 /* |k - m Omega^2 + i c Omega| below this part of k is treated as resonance.  Above it, P loses at most one
  * digit to cancellation. */
@@ -338,18 +336,7 @@ exact_go_on(engine *e)
         exact_begin(e);
 }
 
-static const struct engine_type exact_type = {
-    .begin = exact_begin, .step = exact_step, .ahead = exact_ahead, .at = exact_at,
+const struct engine_type ss_exact_engine = {
+    .size = sizeof(exact), .begin = exact_begin, .step = exact_step, .ahead = exact_ahead, .at = exact_at,
     .response = exact_response, .go_on = exact_go_on
 };
-
-ss_status
-ss_exact_new(engine **out, motion *m, ss_error *err)
-{
-    exact *x = calloc(1, sizeof *x);
-    if (x == NULL)
-        return ss_fail_memory(err, NULL);
-    x->base = (engine){ .type = &exact_type, .m = m };
-    *out = &x->base;
-    return SS_OK;
-}

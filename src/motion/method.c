@@ -1,6 +1,7 @@
 /* method.c -- all methods, and the choice of one for a scene.  No other file names a method. */
 #include "motion/method.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 
@@ -117,12 +118,26 @@ ss_method_named(const struct method **how, const char *name, const ss_scene *sce
 ss_status
 ss_engine_new(engine **out, motion *m, const struct method *how, double tol, ss_error *err)
 {
-    switch (how->kind) {
-    case CLOSED_FORM: return ss_exact_new(out, m, err);
-    case COLLOCATION: return ss_radau_new(out, m, how->name, tol, err);
-    case SERIES:      return ss_taylor_new(out, m, how->name, tol, err);
-    default:          return ss_ode_new(out, m, how->name, how->kind == MULTISTEP, tol, err);
-    }
+    static const struct engine_type *const types[] = {
+        [CLOSED_FORM] = &ss_exact_engine, [SERIES] = &ss_taylor_engine, [COLLOCATION] = &ss_radau_engine,
+        [ONE_STEP] = &ss_ode_engine, [MULTISTEP] = &ss_ode_engine,
+    };
+    const struct engine_type *type = types[how->kind];
+    engine *e = calloc(1, type->size);
+    if (e == NULL)
+        return ss_fail_memory(err, NULL);
+    *e = (engine){ .type = type, .m = m, .how = how, .tol = tol,
+                   .next = fmax(ss_step_cap(&m->now), ss_step_floor(&m->now)) };
+    ss_status st = how->kind != CLOSED_FORM ? ss_motion_scales(&m->now, tol, e->scale, err) : SS_OK;
+    for (size_t k = 0; k < MAX_DIM; k++)
+        e->unit[k] = ldexp(1, ilogb(e->scale[k]));
+    if (st == SS_OK && type->make != NULL)
+        st = type->make(e, err);
+    if (st == SS_OK)
+        *out = e;
+    else
+        ss_engine_free(e);
+    return st;
 }
 
 const char *

@@ -8,11 +8,10 @@
  * For other models, such as stiff ones without this cap, one-step methods step again from the
  * start of the step.  A multistep method would lose its memory by this, so it steps to every
  * sample. */
-#include "motion/engine.h"
+#include "motion/method.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
-#include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "base/versions.h"
@@ -28,13 +27,8 @@ typedef struct ode {
     gsl_odeiv2_system system;
     gsl_odeiv2_driver *driver;              /* owns the main stepper and its error control */
     gsl_odeiv2_step *side;                  /* NULL if not needed */
-    int multistep;
     int has_curve;                          /* of the last step; asked for by the first at() in it */
     double curve[2 * ORDERS + 2][LANES];    /* its coefficients in s / h */
-    double h_next;
-    double tol;
-    double shortest;                        /* the shortest step allowed [s] */
-    double unit[MAX_DIM];                   /* of the state that GSL sees: y = q / unit */
     double zero[MAX_DIM];                   /* GSL sees this in place of a y of 0 */
 } ode;
 
@@ -46,21 +40,20 @@ rates(ode *o, double u, const double q[], double dqdt[])
     m->model->rates(m, base_force(m, u), q, dqdt);
 }
 
-/* The units for GSL are powers of two, so converting rounds nothing.  Implicit methods solve equations in
- * which x, v and theta stand side by side.  In m, m/s and N they can be 1e20 apart, and the solution would
- * be nothing but rounding. */
+/* GSL sees y = q / unit.  Implicit methods solve equations in which x, v and theta stand side by side.  In m, m/s
+ * and N they can be 1e20 apart, and the solution would be nothing but rounding. */
 static void
 to_units(const ode *o, const double q[], double y[])
 {
     for (size_t i = 0; i < o->system.dimension; i++)
-        y[i] = q[i] / o->unit[i];
+        y[i] = q[i] / o->base.unit[i];
 }
 
 static void
 from_units(const ode *o, const double y[], double q[])
 {
     for (size_t i = 0; i < o->system.dimension; i++)
-        q[i] = y[i] * o->unit[i];
+        q[i] = y[i] * o->base.unit[i];
 }
 
 /* Most of the time of a run goes into this function. */
@@ -85,7 +78,7 @@ jacobian(double u, const double y[], double *dfdy, double dfdt[], void *params)
     o->base.m->now.model->jacobian(&o->base.m->now, u, q, dfdy, dfdt);
     to_units(o, dfdt, dfdt);
     for (size_t i = 0; i < n * n; i++)
-        dfdy[i] *= o->unit[i % n] / o->unit[i / n];
+        dfdy[i] *= o->base.unit[i % n] / o->base.unit[i / n];
     return GSL_SUCCESS;
 }
 
@@ -96,9 +89,7 @@ ode_begin(engine *e)
     gsl_odeiv2_step_reset(o->driver->s);
     if (o->side != NULL)
         gsl_odeiv2_step_reset(o->side);
-    const state *m = &e->m->now;
-    rates(o, m->u, m->q, e->dq0);
-    o->shortest = ss_step_floor(m);
+    ss_engine_begin_steps(e);
 }
 
 static int
@@ -149,7 +140,7 @@ ode_step(engine *e, double h_max, ss_error *err)
 
     if (m->model->sight != NULL)
         h_max = fmin(h_max, m->model->sight(m, e->dq0));
-    double h = fmin(o->h_next, h_max);
+    double h = fmin(e->next, h_max);
     if (!(h > 0))
         return ss_fail(err, SS_ERANGE, "no step from t = %.9g s is short enough: rates of change lie "
                        "beyond double precision", e->m->origin.hi + m->u);
@@ -166,17 +157,15 @@ ode_step(engine *e, double h_max, ss_error *err)
                 from_units(o, dydt, e->dq1);
             else
                 rates(o, m->u + h, e->q1, e->dq1);
-            if (h >= o->h_next || h_adjusted > o->h_next)
-                o->h_next = h_adjusted;     /* one cut short by h_max does not show the next length */
+            if (h >= e->next || h_adjusted > e->next)
+                e->next = h_adjusted;       /* one cut short by h_max does not show the next length */
             if (all_finite(e->dq1, dim))
                 break;
             h_adjusted = h / 2;
         }
-        if (!(h_adjusted >= o->shortest))
-            return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the "
-                           "step fell below %.3g s", step->type->name, o->tol, e->m->origin.hi + m->u,
-                           o->shortest);
-        o->h_next = h = h_adjusted;
+        if (!(h_adjusted >= e->shortest))
+            return ss_engine_fail_short(e, err);
+        e->next = h = h_adjusted;
     }
     e->h = h;
     e->steps++;
@@ -192,7 +181,7 @@ step_to(ode *o, double s, double q[])
     double y[MAX_DIM], error[MAX_DIM], dqdt[MAX_DIM], h = s;
     memcpy(q, e->m->now.q, sizeof e->q1);
     memcpy(dqdt, e->dq0, sizeof dqdt);
-    for (double at = 0; at < s && h > o->shortest;) {
+    for (double at = 0; at < s && h > e->shortest;) {
         if (!apply(o, o->side, at, q, dqdt, fmin(h, s - at), y, error, NULL)) {
             h /= 2;
             continue;
@@ -281,7 +270,7 @@ static void
 ode_go_on(engine *e)
 {
     const state *m = &e->m->now;
-    if (!((ode *)e)->multistep) {
+    if (e->how->kind != MULTISTEP) {
         e->has_start &= !m->moves;          /* a new origin changes positions, and the measured base */
         ss_motion_rebase(e->m);
     } else if ((m->scene->base != NULL && m->u >= m->u_knot)
@@ -301,11 +290,6 @@ ode_release(engine *e)
         gsl_odeiv2_step_free(o->side);
 }
 
-static const struct engine_type ode_type = {
-    .begin = ode_begin, .step = ode_step, .at = ode_at, .go_on = ode_go_on,
-    .release = ode_release
-};
-
 /* GSL's methods, which know their names.  The linker knows their addresses only at run time, so this is a
  * table of pointers to them. */
 static const gsl_odeiv2_step_type **const steppers[] = {
@@ -322,50 +306,40 @@ set_zeros(ode *o)
     double omega_n = own_frequency(m->scene), memory = 0;
     if (m->model->memory != NULL)
         m->model->memory(m, &memory);
-    o->zero[0] = BSIMP_ZERO * (m->x_scale / o->unit[0]);
-    o->zero[1] = BSIMP_ZERO * (m->x_scale * omega_n / o->unit[1]);
-    o->zero[2] = BSIMP_ZERO * (memory / o->unit[2]);
+    o->zero[0] = BSIMP_ZERO * (m->x_scale / o->base.unit[0]);
+    o->zero[1] = BSIMP_ZERO * (m->x_scale * omega_n / o->base.unit[1]);
+    o->zero[2] = BSIMP_ZERO * (memory / o->base.unit[2]);
 }
 
-ss_status
-ss_ode_new(engine **out, motion *of, const char *name, int multistep, double tol, ss_error *err)
+static ss_status
+ode_make(engine *e, ss_error *err)
 {
-    const state *m = &of->now;
+    ode *o = (ode *)e;
+    const state *m = &e->m->now;
     size_t i = 0;
     double scale[MAX_DIM];
-    while (i < STEPPERS && strcmp(name, (*steppers[i])->name) != 0)
+    while (i < STEPPERS && strcmp(e->how->name, (*steppers[i])->name) != 0)
         i++;
     if (i == STEPPERS)
-        return ss_fail(err, SS_EINVAL, "GSL has no stepper '%s'", name);
+        return ss_fail(err, SS_EINVAL, "GSL has no stepper '%s'", e->how->name);
     const gsl_odeiv2_step_type *type = *steppers[i];
-    ss_status st = ss_motion_scales(m, tol, scale, err);
-    if (st != SS_OK)
-        return st;
-    ode *o = calloc(1, sizeof *o);
-    if (o == NULL)
-        return ss_fail_memory(err, NULL);
-    o->base = (engine){ .type = &ode_type, .m = of,
-                        .lands_on_samples = multistep && m->model->next == NULL };
+    int multistep = e->how->kind == MULTISTEP, sides = !m->model->linear && !multistep;
+    e->lands_on_samples = multistep && m->model->next == NULL;
     o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
-    o->multistep = multistep;
-    o->tol = tol;
-    o->h_next = fmax(ss_step_cap(m), ss_step_floor(m));
-    for (size_t k = 0; k < m->model->dim; k++) {
-        o->unit[k] = ldexp(1, ilogb(scale[k]));
-        scale[k] /= o->unit[k];
-    }
+    for (size_t k = 0; k < m->model->dim; k++)
+        scale[k] = e->scale[k] / e->unit[k];
     if (type == gsl_odeiv2_step_bsimp && m->x_scale > 0 && !m->model->linear && m->model->scales == NULL)
         set_zeros(o);
-    o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, type, o->h_next,
-                                                   tol, ss_motion_relative(m, tol), 1, 0, scale);
-    int sides = !m->model->linear && !multistep;
+    o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, type, e->next,
+                                                   e->tol, ss_motion_relative(m, e->tol), 1, 0, scale);
     if (sides)
         o->side = gsl_odeiv2_step_alloc(type, m->model->dim);
-    if (o->driver == NULL || (sides && o->side == NULL)
-        || (sides && gsl_odeiv2_step_set_driver(o->side, o->driver) != GSL_SUCCESS)) {
-        ss_engine_free(&o->base);
-        return ss_fail_memory(err, NULL);
-    }
-    *out = &o->base;
-    return SS_OK;
+    int made = o->driver != NULL && (!sides || o->side != NULL)
+        && (!sides || gsl_odeiv2_step_set_driver(o->side, o->driver) == GSL_SUCCESS);
+    return made ? SS_OK : ss_fail_memory(err, NULL);
 }
+
+const struct engine_type ss_ode_engine = {
+    .size = sizeof(ode), .make = ode_make, .begin = ode_begin, .step = ode_step, .at = ode_at, .go_on = ode_go_on,
+    .release = ode_release
+};

@@ -7,7 +7,6 @@
 #include "motion/engine.h"
 
 #include <gsl/gsl_integration.h>
-#include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "base/versions.h"
@@ -21,11 +20,8 @@ typedef double stages[STAGES];                  /* numbers of each place, or of 
 
 typedef struct radau {
     engine base;
-    const char *name;
-    double tol, relative, scale[MAX_DIM];
-    double unit[MAX_DIM];                       /* in which the parts of the state are near each other */
+    double relative;                            /* error over the size of the state */
     double allowed[MAX_DIM];                    /* error in this step [unit] */
-    double h_next, shortest;                    /* [s] */
     stages place;                               /* as parts of the step, whose start is one more place */
     double start;                               /* weights of the values at start and places in the highest */
     stages weight;                              /* Chebyshev coefficient of the polynomial */
@@ -67,14 +63,16 @@ solve(equations M, int n, double out[])
     return 1;
 }
 
-/* Radau's points are those of Gauss with the weight 1 - x, and 1.  SS_ENOMEM. */
+/* Radau's points are those of Gauss with the weight 1 - x, and 1. */
 static ss_status
-set_places(radau *r)
+radau_make(engine *e, ss_error *err)
 {
+    radau *r = (radau *)e;
+    r->relative = ss_motion_relative(&e->m->now, e->tol);
     gsl_integration_fixed_workspace *gauss
         = gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, STAGES - 1, 0, 1, 1, 0);
     if (gauss == NULL)
-        return SS_ENOMEM;
+        return ss_fail_memory(err, NULL);
     memcpy(r->place, gsl_integration_fixed_nodes(gauss), (STAGES - 1) * sizeof *r->place);
     gsl_integration_fixed_free(gauss);
     r->place[STAGES - 1] = 1;
@@ -160,15 +158,15 @@ linearise(radau *r, double h, equations M, stages lack, stages speed[PARTS])
         const double u = m->u + r->place[i] * h;
         double q[MAX_DIM], rate[MAX_DIM] = { 0 };
         for (int k = 0; k < MAX_DIM; k++)
-            q[k] = m->q[k] + r->unit[k] * r->change[k][i];
+            q[k] = m->q[k] + r->base.unit[k] * r->change[k][i];
         m->model->rates(m, base_force(m, u), q, rate);
         m->model->jacobian(m, u, q, d[i], by_time);
         r->base.rhs++;
         for (int k = 0; k < n * n; k++)
-            d[i][k] *= h * r->unit[k % n] / r->unit[k / n];
+            d[i][k] *= h * r->base.unit[k % n] / r->base.unit[k / n];
         for (int k = 0; k < n; k++) {
             double *to = k == 0 ? &lack[i] : &M[(k - 1) * STAGES + i][RIGHT];
-            *to = h * rate[k] / r->unit[k];
+            *to = h * rate[k] / r->base.unit[k];
             for (int j = 0; j < STAGES; j++)
                 *to -= r->slope[i][j] * r->change[k][j];
             if (k > 0)
@@ -243,10 +241,7 @@ static void
 radau_begin(engine *e)
 {
     radau *r = (radau *)e;
-    const state *m = &e->m->now;
-    e->rhs++;
-    m->model->rates(m, base_force(m, m->u), m->q, e->dq0);
-    r->shortest = ss_step_floor(m);
+    ss_engine_begin_steps(e);
     r->over = 0;
 }
 
@@ -259,7 +254,7 @@ radau_at(engine *e, reading where, double s, turn base, double q[], double dqdt[
     (void)where;
     read_changes(r, r->change, s / e->h, change);
     for (int k = 0; k < MAX_DIM; k++)
-        q[k] = m->q[k] + r->unit[k] * change[k];
+        q[k] = m->q[k] + r->base.unit[k] * change[k];
     e->rhs++;
     m->model->rates(m, base_force_by(m, base, m->u + s), q, dqdt);
 }
@@ -277,27 +272,26 @@ radau_step(engine *e, double h_max, ss_error *err)
         double rates[MAX_DIM] = { 0 };          /* by the last polynomial, as those of the state may be rounding */
         for (int k = 0; k < MAX_DIM && r->over > 0; k++)
             for (int j = 0; j < STAGES; j++)
-                rates[k] += r->slope[STAGES - 1][j] * last[k][j] * r->unit[k] / e->h;
+                rates[k] += r->slope[STAGES - 1][j] * last[k][j] * r->base.unit[k] / e->h;
         h_max = fmin(h_max, m->model->sight(m, r->over > 0 ? rates : e->dq0));
     }
-    double h = fmin(r->h_next, h_max);
+    double h = fmin(e->next, h_max);
     for (size_t k = 0; k < m->model->dim; k++)
-        r->allowed[k] = (r->tol * r->scale[k] + r->relative * fabs(m->q[k])) / r->unit[k];
+        r->allowed[k] = (e->tol * e->scale[k] + r->relative * fabs(m->q[k])) / e->unit[k];
     for (;;) {
         const double over = find_changes(r, h, e->h, last) ? excess(r) : INFINITY;
         double change = fmax(0.85 * pow(over, -1. / STAGES), 0.2);
         if (over <= 1) {
             if (r->over > 0)
                 change *= fmax(0.5, fmin(h / e->h * pow(r->over / over, 1. / STAGES), 1));
-            if (h >= r->h_next || h * change < r->h_next)
-                r->h_next = h * change;
+            if (h >= e->next || h * change < e->next)
+                e->next = h * change;
             r->over = over;
             break;
         }
-        r->h_next = h *= change;
-        if (!(h >= r->shortest))
-            return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the step fell "
-                           "below %.3g s", r->name, r->tol, e->m->origin.hi + m->u, r->shortest);
+        e->next = h *= change;
+        if (!(h >= e->shortest))
+            return ss_engine_fail_short(e, err);
     }
     e->h = h;
     e->steps++;
@@ -312,31 +306,7 @@ radau_go_on(engine *e)
     ss_motion_rebase(e->m);
 }
 
-static const struct engine_type radau_type = {
-    .begin = radau_begin, .step = radau_step, .at = radau_at, .go_on = radau_go_on
+const struct engine_type ss_radau_engine = {
+    .size = sizeof(radau), .make = radau_make, .begin = radau_begin, .step = radau_step, .at = radau_at,
+    .go_on = radau_go_on
 };
-
-ss_status
-ss_radau_new(engine **out, motion *of, const char *name, double tol, ss_error *err)
-{
-    const state *m = &of->now;
-    radau *r = calloc(1, sizeof *r);
-    if (r == NULL)
-        return ss_fail_memory(err, NULL);
-    ss_status st = ss_motion_scales(m, tol, r->scale, err);
-    if (st == SS_OK && set_places(r) != SS_OK)
-        st = ss_fail_memory(err, NULL);
-    if (st != SS_OK) {
-        free(r);
-        return st;
-    }
-    r->base = (engine){ .type = &radau_type, .m = of };
-    r->name = name;
-    r->tol = tol;
-    r->relative = ss_motion_relative(m, tol);
-    r->h_next = fmax(ss_step_cap(m), ss_step_floor(m));
-    for (size_t k = 0; k < m->model->dim; k++)
-        r->unit[k] = ldexp(1, ilogb(r->scale[k]));
-    *out = &r->base;
-    return SS_OK;
-}

@@ -1,11 +1,10 @@
 /* signal.c -- a motion as a signal. */
 #include <stickslip/sim.h>
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "scene/model.h"
+#include "scene/value.h"
 
 static const struct { const char *name, *unit; } column[SS_SIM_COLUMNS] = {
     { "x", "m" }, { "v", "m/s" }, { "a", "m/s^2" }, { "f", "N" }, { "s", "N" }, { "y", "m" },
@@ -54,26 +53,16 @@ ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
         row[i] = value[columns->pick[i]] + 0.0;         /* no -0 */
 }
 
-/* Add the scene's text as notes, without the rate, which every header has. */
+/* Add the scene as notes, without the rate, which every header has. */
 static ss_status
 note_scene(ss_header *head, const ss_scene *scene, ss_error *err)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (out == NULL)
-        return ss_fail_memory(err, NULL);
-    ss_status st = ss_scene_write(scene, out, err);
-    if (fclose(out) != 0)
-        st = ss_fail_memory(err, NULL);
-    for (char *line = text; st == SS_OK && *line != '\0';) {
-        char *equals = strstr(line, " = "), *end = strchr(line, '\n');
-        *equals = *end = '\0';
-        if (strcmp(line, "rate") != 0)
-            st = ss_header_note(head, line, equals + 3, err);
-        line = end + 1;
-    }
-    free(text);
+    ss_status st = SS_OK;
+    const scene_key *k;
+    char room[SS_NUMBER_MAX];
+    for (size_t i = 0; st == SS_OK && (k = ss_key_next(scene, &i)) != NULL;)
+        if (strcmp(k->name, "rate") != 0)
+            st = ss_header_note(head, k->name, ss_value_text(scene, k, room), err);
     if (st == SS_OK && scene->base != NULL && *scene->base->cksum != '\0')
         st = ss_header_note(head, "base_cksum", scene->base->cksum, err);
     return st;

@@ -12,9 +12,7 @@
 #include "motion/engine.h"
 
 #include <float.h>
-#include <stdlib.h>
 #include <string.h>
-#include "base/error.h"
 #include "base/versions.h"
 
 /* The orders for the tolerances 1e-1 and 1e-14; every order is even. */
@@ -32,14 +30,9 @@ enum { LONGEST = STEPS_PER_PERIOD / 2 };
 
 typedef struct taylor {
     engine base;
-    const char *name;
     int order;
-    double tol;
-    double scale[MAX_DIM];                  /* of the state's parts */
-    double relative;                        /* of their size, such a part counts as scale */
-    double shortest;                        /* the shortest step allowed in the mode [s] */
+    double relative;                        /* of the size of the state's parts, this part counts as scale */
     double longest;
-    double next;                            /* the length of the next step, about [s] */
     double unit, per_unit;                  /* [s], [1/s] */
     double per_order[MOST_ORDER + 2];       /* 1 / (n + 1) */
     double c[MOST_ORDER + 2][SERIES_PARTS]; /* of the state and of v' in s / unit */
@@ -63,13 +56,13 @@ tolerated(const taylor *t)
     double largest = 0, sum = 0;
     for (size_t i = 0; i < MAX_DIM; i++) {
         double term = fabs(last[i]) > fabs(before[i]) ? fabs(last[i]) : fabs(before[i]);
-        double size = term / (t->scale[i] + t->relative * fabs(q[i]));
+        double size = term / (t->base.scale[i] + t->relative * fabs(q[i]));
         largest = size > largest ? size : largest;
         sum += last[i] + before[i];
     }
     if (!isfinite(sum))
         return 0;
-    return powf((float)fmin(t->tol / largest, FLT_MAX), (float)t->per_order[t->order - 1]);
+    return powf((float)fmin(t->base.tol / largest, FLT_MAX), (float)t->per_order[t->order - 1]);
 }
 
 static void
@@ -133,11 +126,8 @@ static void
 taylor_begin(engine *e)
 {
     taylor *t = (taylor *)e;
-    const state *m = &e->m->now;
-    t->longest = LONGEST * ss_step_cap(m);
-    t->shortest = ss_step_floor(m);
-    e->rhs++;
-    m->model->rates(m, base_force(m, m->u), m->q, e->dq0);
+    t->longest = LONGEST * ss_step_cap(&e->m->now);
+    ss_engine_begin_steps(e);
 }
 
 /* Expand the series in a unit in which it is finite, and return the longest step [unit] that keeps the
@@ -145,7 +135,7 @@ taylor_begin(engine *e)
 static double
 longest_step(taylor *t)
 {
-    for (t->unit = fmin(t->next, t->longest); t->unit >= t->shortest; t->unit *= 0x1p-10) {
+    for (t->unit = fmin(t->base.next, t->longest); t->unit >= t->base.shortest; t->unit *= 0x1p-10) {
         expand(t);
         double step = tolerated(t);
         if (step > 0)
@@ -163,13 +153,12 @@ taylor_step(engine *e, double h_max, ss_error *err)
     (void)h_max;
     if (step > 0 && m->model->reach != NULL)
         step = m->model->reach(m, t->c, step);
-    t->next = step * t->unit;
-    if (!(t->next >= t->shortest))
-        return ss_fail(err, SS_ETOL, "%s cannot keep the tolerance %.3g at t = %.9g s: the step "
-                       "fell below %.3g s", t->name, t->tol, e->m->origin.hi + m->u, t->shortest);
+    e->next = step * t->unit;
+    if (!(e->next >= e->shortest))
+        return ss_engine_fail_short(e, err);
     for (size_t i = 0; i < MAX_DIM; i++)
         e->dq0[i] = t->per_unit * t->c[1][i];
-    e->h = m->scene->base != NULL ? fmin(t->next, m->u_knot - m->u) : t->next;
+    e->h = m->scene->base != NULL ? fmin(e->next, m->u_knot - m->u) : e->next;
     e->steps++;
     t->taken = BATCH;
     evaluate(t, e->h, e->q1, e->dq1);
@@ -218,32 +207,22 @@ taylor_keep(engine *e, double tol)
 {
     taylor *t = (taylor *)e;
     t->order = order_of(tol);
-    t->tol = tol;
+    e->tol = tol;
     t->relative = ss_motion_relative(&e->m->now, tol) / tol;
 }
 
-static const struct engine_type taylor_type = {
-    .begin = taylor_begin, .step = taylor_step, .at = taylor_at, .curve = taylor_curve, .keep = taylor_keep,
-    .go_on = taylor_go_on
-};
-
-ss_status
-ss_taylor_new(engine **out, motion *m, const char *name, double tol, ss_error *err)
+static ss_status
+taylor_make(engine *e, ss_error *err)
 {
-    taylor *t = calloc(1, sizeof *t);
-    if (t == NULL)
-        return ss_fail_memory(err, NULL);
-    ss_status st = ss_motion_scales(&m->now, tol, t->scale, err);
-    if (st != SS_OK) {
-        free(t);
-        return st;
-    }
-    t->base = (engine){ .type = &taylor_type, .m = m };
-    t->name = name;
-    taylor_keep(&t->base, tol);
-    t->next = ss_step_cap(&m->now);
+    taylor *t = (taylor *)e;
+    (void)err;
+    taylor_keep(e, e->tol);
     for (int n = 0; n < MOST_ORDER + 2; n++)
         t->per_order[n] = 1.0 / (n + 1);
-    *out = &t->base;
     return SS_OK;
 }
+
+const struct engine_type ss_taylor_engine = {
+    .size = sizeof(taylor), .make = taylor_make, .begin = taylor_begin, .step = taylor_step, .at = taylor_at,
+    .curve = taylor_curve, .keep = taylor_keep, .go_on = taylor_go_on
+};

@@ -77,6 +77,8 @@ const scene_key *ss_key_of_any(const char *name);
 enum { KEY_UNKNOWN_ROOM = 160 };
 const char *ss_key_unknown(char text[KEY_UNKNOWN_ROOM], const char *name);
 int ss_key_is_named(const ss_scene *scene, const scene_key *k);    /* has it this TERM? */
+/* The next key that a scene is written with, from number *i on, which goes on behind it; NULL after the last. */
+const scene_key *ss_key_next(const ss_scene *scene, size_t *i);
 /* The first TERM that a scene has; NULL if none. */
 const char *ss_scene_term(const ss_scene *scene);
 /* 1 if the key belongs to the record that is made of the motion, not to the motion. */

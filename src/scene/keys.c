@@ -86,6 +86,16 @@ ss_key_is_named(const ss_scene *scene, const scene_key *k)
     return k->room > 0 ? *field != '\0' : *(const double *)(const void *)field != 0;
 }
 
+const scene_key *
+ss_key_next(const ss_scene *scene, size_t *i)
+{
+    const scene_key *k;
+    do
+        k = ss_key_at(scene->model, (*i)++);
+    while (k != NULL && k->required == TERM && !ss_key_is_named(scene, k));
+    return k;
+}
+
 int
 ss_key_is_of_record(const char *name)
 {

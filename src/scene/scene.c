@@ -49,8 +49,8 @@ ss_scene_check(const ss_scene *scene, ss_error *err)
     char wrong[WRONG_ROOM];
     if (model == NULL)
         return ss_fail(err, SS_EINVAL, "the scene has no model");
-    for (size_t i = 0; (k = ss_key_at(model, i)) != NULL; i++)
-        if ((k->required != TERM || ss_key_is_named(scene, k)) && !ss_value_check(scene, k, wrong))
+    for (size_t i = 0; (k = ss_key_next(scene, &i)) != NULL;)
+        if (!ss_value_check(scene, k, wrong))
             return ss_fail(err, SS_EINVAL, "%s", wrong);
     for (size_t i = 0; model->rig_is_own && (k = ss_key_at(ss_model_at(0), i)) != NULL; i++)
         if (ss_key_of_field(model, k->offset) == NULL && ss_key_is_named(scene, k))
@@ -72,10 +72,8 @@ ss_scene_write(const ss_scene *scene, FILE *out, ss_error *err)
     if (st != SS_OK)
         return st;
     const scene_key *k;
-    for (size_t i = 0; (k = ss_key_at(scene->model, i)) != NULL; i++) {
-        char room[SS_NUMBER_MAX];
-        if (k->required != TERM || ss_key_is_named(scene, k))
-            fprintf(out, "%s = %s\n", k->name, ss_value_text(scene, k, room));
-    }
+    char room[SS_NUMBER_MAX];
+    for (size_t i = 0; (k = ss_key_next(scene, &i)) != NULL;)
+        fprintf(out, "%s = %s\n", k->name, ss_value_text(scene, k, room));
     return ferror(out) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
 }

@@ -11,36 +11,28 @@
 #include "io/input.h"
 #include "io/record.h"
 #include "motion/method.h"
+#include "scene/value.h"
 #include "study/sweep/grid.h"
 
-/* 1 if this key is varied, or is not about the motion but about its record. */
 static int
-is_left_out(const ss_sweep_opts *opts, const char *key)
+is_varied(const ss_sweep_opts *opts, const char *key)
 {
-    for (size_t i = 0; i < opts->n_axes; i++)
-        if (strcmp(key, opts->axis[i].key) == 0)
-            return 1;
-    return strcmp(key, "settle") == 0 || strcmp(key, "duration") == 0 || strcmp(key, "rate") == 0;
+    size_t i = 0;
+    while (i < opts->n_axes && strcmp(key, opts->axis[i].key) != 0)
+        i++;
+    return i < opts->n_axes;
 }
 
-/* Write the keys of the scene that are the same in all rows. */
+/* Write the keys of the motion that are the same in all rows. */
 static ss_status
 write_scene(struct rows *rows, const ss_sweep_text *sweep)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *all = open_memstream(&text, &size);
-    ss_status st = all == NULL ? SS_ENOMEM : ss_scene_write(sweep->scene, all, NULL);
-    if (all != NULL && fclose(all) != 0)
-        st = SS_ENOMEM;
-    for (char *line = text, *end; st == SS_OK && *line != '\0'; line = end + 1) {
-        char *equals = strstr(line, " = ");
-        end = strchr(line, '\n');
-        *equals = *end = '\0';
-        if (!is_left_out(sweep->opts, line))
-            ss_rows_note(rows, "%s: %s", line, equals + 3);
-    }
-    free(text);
+    ss_status st = ss_scene_check(sweep->scene, NULL);
+    const scene_key *k;
+    char room[SS_NUMBER_MAX];
+    for (size_t i = 0; st == SS_OK && (k = ss_key_next(sweep->scene, &i)) != NULL;)
+        if (!is_varied(sweep->opts, k->name) && !ss_key_is_of_record(k->name))
+            ss_rows_note(rows, "%s: %s", k->name, ss_value_text(sweep->scene, k, room));
     return st;
 }
 
