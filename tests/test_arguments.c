@@ -477,6 +477,10 @@ sweeps_refuse_null(void **state)
     assert_refused(ss_steady_find(NULL, &scene, NULL, &e), &e);
     assert_refused(ss_steady_find(&steady, NULL, NULL, &e), &e);
     assert_int_equal(ss_steady_find(&steady, &scene, &(ss_steady_opts){ .size = 1 }, &e), SS_EINVAL);
+    ss_scene light = scene;
+    light.mass = 0;
+    assert_int_equal(ss_steady_find(&steady, &light, NULL, &e), SS_EINVAL);
+    assert_string_equal(e.text, "mass = 0 is out of range, it must be > 0");
     assert_refused(ss_steady_check(&how, NULL, &e), &e);
     assert_int_equal(ss_steady_check(&(ss_steady_opts){ .tol = 1 }, &scene, &e), SS_EINVAL);
     assert_int_equal(ss_sweep_check(&scene, &(ss_sweep_opts){ .shards = 1 }, &e), SS_EINVAL);

@@ -116,6 +116,8 @@ folds_at_the_period_that_repeats(void **state)
     assert_true(fabs(c.power / power - 1) <= 0.01);
     /* the scatter within a bin is noise and what the wave changes within it */
     assert_true(c.noise > 0.9 * 0.01 / 62.5 && c.noise < 4 * 0.01 / 62.5);
+    assert_int_equal(ss_cycle_find(&c, why, sizeof why, x, NULL, N, 1000, 1000. / 1024), SS_OK);
+    assert_int_equal(c.n, 1024);
     free(x);
 }
 

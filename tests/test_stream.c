@@ -97,6 +97,7 @@ stream_of(const double *x, size_t n, double rate, const ss_morlet_opts *opts, bl
     c.plan = *plan;
     c.w = malloc(2 * ss_morlet_grid(*plan)->total * sizeof *c.w);
     assert_int_equal(ss_stream_grid(stream)->n_scales, ss_morlet_grid(*plan)->n_scales);
+    assert_int_equal(ss_stream_grid(stream)->total, 0);        /* not known yet */
     feed(stream, x, n, how);
     assert_int_equal(c.total, ss_morlet_grid(*plan)->total);
     ss_stream_free(stream);
