@@ -360,6 +360,10 @@ labels_that_are_asked_for_are_drawn(void **state)
     }
     assert_true(at_border > 20);
     free(script);
+    opts.top = 0.5;
+    script = contour_script(c, &opts);
+    assert_non_null(strstr(script, "\nlevel = -6.02 "));
+    free(script);
     opts.fmin = 2000;
     opts.fmax = 0;
     assert_int_equal(ss_plot_contour(stdout, c, &opts, NULL, &err), SS_EINVAL);

@@ -440,6 +440,27 @@ errors_cover_cycles_in_turn(void **state)
     errors_cover(fill_in_turn, "in turn", 0.8, 0.003, 1);
 }
 
+/* A saw of six to eight teeth whose drops are all a whole number of samples apart, 100, though its period is not: the
+ * first and the last drop lie anywhere between two samples. */
+static void
+errors_cover_drops_between_samples(void **state)
+{
+    enum { SAMPLES = 700 };
+    double x[SAMPLES], worst = 0;
+    (void)state;
+    for (double period = 99.86; period < 100.15; period += 0.04)
+        for (double phase = 0; phase < 1; phase += 0.1) {
+            ss_cycles found;
+            for (size_t i = 0; i < SAMPLES; i++)
+                x[i] = fmod((double)i / period + phase, 1);
+            assert_int_equal(ss_cycles_find(x, SAMPLES, 0, &found), SS_OK);
+            if (!isnan(found.frequency.value))
+                worst = fmax(worst, fabs(found.frequency.value - 1 / period) / found.frequency.error);
+        }
+    print_message("off by up to %.1f errors\n", worst);
+    assert_true(worst > 0 && worst < 3);
+}
+
 static void
 errors_cover_held_samples(void **state)
 {
@@ -460,6 +481,7 @@ main(void)
         cmocka_unit_test(errors_cover_jumps_in_step),
         cmocka_unit_test(errors_cover_hum_in_step),
         cmocka_unit_test(errors_cover_cycles_in_turn),
+        cmocka_unit_test(errors_cover_drops_between_samples),
         cmocka_unit_test(errors_cover_held_samples),
     };
     return cmocka_run_group_tests_name("repetition", tests, NULL, NULL);
