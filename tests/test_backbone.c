@@ -836,6 +836,31 @@ two_near_modes_are_no_mechanism(void **state)
     }
 }
 
+/* A hammer presses for a period: the decay begins behind it, and has the damping of the rig. */
+static void
+a_blow_is_left_out(void **state)
+{
+    (void)state;
+    seed = 9;
+    for (int k = 0; k < 4; k++) {
+        decay_turn *turn;
+        size_t turns;
+        double error;
+        ss_signal *signal = record(&rigs[0], .01, "m", &turn, &turns);
+        for (int i = 0; i < 40; i++)
+            signal->values[i] += (.3 + .1 * k) * sin(PI * i / 40);
+        ss_backbone *b = find(signal, NULL);
+        if (b->start == NULL || strcmp(b->start, "a blow before it") != 0)
+            fail_msg("the decay begins for this reason: %s", b->start != NULL ? b->start : "none");
+        assert_true(b->n > 0 && b->row[0].t > .1);
+        const double zeta = number(b, "damping_ratio", &error);
+        assert_true(fabs(zeta - .01) < 3 * error && error < 1e-4);
+        ss_backbone_free(b);
+        ss_signal_free(signal);
+        free(turn);
+    }
+}
+
 int
 main(void)
 {
@@ -858,6 +883,7 @@ main(void)
         cmocka_unit_test(velocity_and_acceleration_have_the_frequency),
         cmocka_unit_test(extreme_amplitudes), cmocka_unit_test(each_column_has_its_own),
         cmocka_unit_test(flat_tops_with_noise_are_left_out), cmocka_unit_test(two_near_modes_are_no_mechanism),
+        cmocka_unit_test(a_blow_is_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
