@@ -13,7 +13,7 @@
 #include "new_signal.h"
 #include "unit.h"
 
-enum { RATE = 1000, N = 6000, DRAWS = 100 };
+enum { RATE = 1000, N = 6000, DRAWS = 60 };
 #define SECONDS ((double)N / RATE)
 
 static double
@@ -356,6 +356,19 @@ fill_in_turn(gsl_rng *rng, double *x)
     return f / 2;
 }
 
+/* The same by 3 to 6 %, while the waveform changes as much from the begin of the record to its end. */
+static double
+fill_in_turn_drifting(gsl_rng *rng, double *x)
+{
+    double f = between(rng, 15, 60) / SECONDS, phase = gsl_rng_uniform(rng), more = between(rng, 0.03, 0.06);
+    for (size_t i = 0; i < N; i++) {
+        double cycle = f * (double)i / RATE + phase, late = (double)i / N;
+        double sine = sin(2 * M_PI * cycle) + 0.1 * late * sin(6 * M_PI * cycle);
+        x[i] = pow(fmax(0, sine), 2) * (fmod(floor(cycle), 2) > 0 ? 1 + more : 1);
+    }
+    return f / 2;
+}
+
 /* Ramps, seen by a sensor that holds each third sample, so that cycles of no whole number of these differ. */
 static double
 fill_held(gsl_rng *rng, double *x)
@@ -462,6 +475,13 @@ errors_cover_drops_between_samples(void **state)
 }
 
 static void
+errors_cover_drift_in_turn(void **state)
+{
+    (void)state;
+    errors_cover(fill_in_turn_drifting, "drift in turn", 0.6, 0.003, 1);
+}
+
+static void
 errors_cover_held_samples(void **state)
 {
     (void)state;
@@ -482,6 +502,7 @@ main(void)
         cmocka_unit_test(errors_cover_hum_in_step),
         cmocka_unit_test(errors_cover_cycles_in_turn),
         cmocka_unit_test(errors_cover_drops_between_samples),
+        cmocka_unit_test(errors_cover_drift_in_turn),
         cmocka_unit_test(errors_cover_held_samples),
     };
     return cmocka_run_group_tests_name("repetition", tests, NULL, NULL);

@@ -35,7 +35,8 @@
  * cycles.  Then a part of that length is the period, if the signal repeats after the part as well as after the whole.
  *
  * Cycles may differ in turn: then several of them repeat far better than one, and these are the period.  How well,
- * is judged between samples of a smoothed signal, and a jump that lies between two is no difference.
+ * is judged between samples of a smoothed signal, and a jump that lies between two is no difference.  Samples are compared
+ * with the mean of those as many cycles before and behind, as a waveform that drifts differs from both, but not from that.
  *
  * A hum may make several cycles more alike than one.  What differs after a part of them is then its line alone.
  * It may also keep all lags at multiples of its own period: the rate of what is slow tells. */
@@ -46,7 +47,6 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "base/fft.h"
 #include "base/gauss.h"
 #include "base/versions.h"
@@ -67,14 +67,15 @@
 #define PULLED 16               /* a hum pulls the lag by less than one part in so many */
 #define FINEST 0.03             /* of a sample: jumps that a filter has rounded draw lags to whole samples by so much */
 #define ROUGH 4.0               /* times: see least_unlike */
-#define ALIKE 5e-4              /* of the variance: cycles that differ by less are alike */
+#define ALIKE 2e-4              /* of the variance: cycles that differ by less are alike */
 #define CLEARER 4.0             /* by chance, cycles with noise or a clock that wanders differ by a factor of 2 */
-#define ONE 0.8                 /* of what differs: more is one line */
-#define LOW 2.5                 /* times the frequency: the lines of a motion itself may be strong up to there */
+#define ONE 0.5                 /* of what differs: more is one line */
+#define LOW 3.0                 /* times the frequency: the lines of a motion itself may be strong up to there */
 #define SEEN 0.6                /* of the cycles: what repeats after more is seen by too few */
 #define MOST 64.0               /* periods that are looked at for that */
 #define SLOW 16.0               /* of a period: part of it that is averaged over */
 enum { FEWEST_SAMPLES = 64 };   /* of a record: fewer are no longer than what is read about a lag */
+enum { SHORTEST = 5 };          /* samples: a part that is shorter is not looked at */
 enum { MULTIPLES = 6 };         /* cycles that may be taken for one beside a hum, or that differ in turn */
 enum { PARTS = 16 };            /* cycles that may be taken for one, at most */
 enum { LAGS = 3 };              /* lags over 2, 4 and 8 cycles, so long a signal must be like itself */
@@ -438,30 +439,33 @@ average(double *x, size_t n, size_t m)
     }
 }
 
-/* Means over m samples of means over m of n; NULL: no memory. */
+/* Means over m of means over m of the n means of q samples each; NULL: no memory. */
 static double *
-smoothed(const double *x, size_t n, size_t m)
+smoothed(const double *x, size_t n, size_t q, size_t m)
 {
-    double *out = malloc((n + 1) * sizeof *out);
-    if (out == NULL)
-        return NULL;
-    memcpy(out, x, n * sizeof *x);
-    average(out, n, m);
-    average(out, n - m + 1, m);
+    double *out = block_means(x, n, q);
+    if (out != NULL) {
+        average(out, n, m);
+        average(out, n - m + 1, m);
+    }
     return out;
 }
 
-/* The signal some lag later. */
+/* The signal some lag later, and as much earlier where at least two periods have both. */
 enum { TAPS = 8, BEFORE = TAPS / 2 - 1 };
 typedef struct later {
     size_t lag;                 /* in whole samples */
     double tap[TAPS];           /* Lanczos's, for a value between samples */
+    int has_both;
+    size_t first, end;          /* of the samples that have one, or both */
 } later;
 
 static later
-later_by(double lag)
+later_by(const view *v, double lag, double period)
 {
-    later by = { .lag = (size_t)lag };
+    later by = { .lag = (size_t)lag, .has_both = 2 * (lag + TAPS + period) < (double)v->n };
+    by.first = by.has_both ? by.lag + TAPS : BEFORE;
+    by.end = v->n - by.lag - TAPS;
     for (int k = 0; k < TAPS; k++) {
         double t = M_PI * (lag - (double)by.lag - (k - BEFORE));
         by.tap[k] = t == 0 ? 1 : sin(t) / t * sin(2 * t / TAPS) / (2 * t / TAPS);
@@ -469,30 +473,35 @@ later_by(double lag)
     return by;
 }
 
-/* What a sample differs by from what is there later; a jump between two samples there is no difference. */
+/* What a sample differs by from what is there later, or from the mean of that and what is there earlier, which stays the
+ * same while a waveform drifts.  A jump between two samples there is no difference.  As large in white noise. */
 static double
 off(const double *x, const later *by)
 {
-    const double *there = x + by->lag;
-    double at = 0;
+    const double *behind = x + by->lag, *before = x - by->lag;
+    double at = 0, low = fmin(behind[0], behind[1]), high = fmax(behind[0], behind[1]);
     for (int k = 0; k < TAPS; k++)
-        at += by->tap[k] * there[k - BEFORE];
-    return beyond(x[0], there[0], there[1], at);
+        at += by->tap[k] * (by->has_both ? 0.5 * (behind[k - BEFORE] + before[BEFORE - k]) : behind[k - BEFORE]);
+    if (!by->has_both)
+        return beyond(x[0], low, high, at);
+    low = 0.5 * (low + fmin(before[0], before[-1]));
+    high = 0.5 * (high + fmax(before[0], before[-1]));
+    return sqrt(4 / 3.) * beyond(x[0], low, high, at);
 }
 
-/* The frequency of the one line that is so large a part of what differs after a lag [per sample], or 0. */
+/* The frequency of the one line that is half of what differs after a lag [per sample], or 0. */
 static ss_status
-line_between(const view *v, double lag, double part, double *f)
+line_between(const view *v, double lag, double period, double *f)
 {
-    const later by = later_by(lag);
-    const size_t m = (v->n - by.lag - TAPS) / 2 * 2;
+    const later by = later_by(v, lag, period);
+    const size_t m = (by.end - by.first) / 2 * 2;
     real_fft r;
     double all = 0, line = 0, at = 0;
     size_t top = 1;
     if (ss_real_fft_new(&r, m, 0) != SS_OK)
         return SS_ENOMEM;
     for (size_t i = 0; i < m; i++)
-        r.x[i] = off(v->x + BEFORE + i, &by) * (1 - cos(2 * M_PI * (double)i / (double)m));
+        r.x[i] = off(v->x + by.first + i, &by) * (1 - cos(2 * M_PI * (double)i / (double)m));
     ss_real_fft_run(&r);
     for (size_t k = 0; k <= m / 2; k++) {
         r.x[k] = r.x[2 * k] * r.x[2 * k] + r.x[2 * k + 1] * r.x[2 * k + 1];
@@ -501,7 +510,7 @@ line_between(const view *v, double lag, double part, double *f)
     }
     for (size_t k = top - 1; k <= top + 1; k++)
         line += r.x[k], at += (double)k * r.x[k];
-    *f = line > part * all ? at / line / (double)m : 0;
+    *f = line > ONE * all ? at / line / (double)m : 0;
     ss_real_fft_free(&r);
     return SS_OK;
 }
@@ -524,14 +533,14 @@ least_unlike(const view *v)
 static double
 unlikeness(const view *v, double lag, double period)
 {
-    const later by = later_by(lag);
-    const size_t last = (size_t)fmin((double)(v->n - by.lag - TAPS), BEFORE + MOST * period);
+    const later by = later_by(v, lag, period);
+    const size_t last = (size_t)fmin((double)by.end, (double)by.first + MOST * period);
     double sum[(size_t)MOST] = { 0 };
     size_t n = 0;
-    for (size_t i = BEFORE; i < last; n++) {
-        const size_t first = i, end = (size_t)fmin((double)last, BEFORE + (double)(n + 1) * period);
+    for (size_t i = by.first; i < last; n++) {
+        const size_t from = i, end = (size_t)fmin((double)last, (double)by.first + (double)(n + 1) * period);
         for (; i < end; i++)
-            sum[n] += pow(off(v->x + i, &by), 2) / (double)(end - first);
+            sum[n] += pow(off(v->x + i, &by), 2) / (double)(end - from);
     }
     gsl_sort(sum, 1, n);
     return gsl_stats_quantile_from_sorted_data(sum, 1, n, 0.75);
@@ -562,20 +571,21 @@ after(const view *v, double period, double about, double *lag)
 }
 
 /* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as
- * many, and many, too, and not after others.  If half of what differs is one line, it is below what repeats, or not far
- * above and after many cycles no more is left of it: else it is a hum's. */
+ * many, too, and not after others.  If half of what differs is one line, it is below what repeats, or not far above: else
+ * it is a hum's.  0: they may differ in turn, or beside a hum or by chance, as the record shows them once, or as more differs
+ * the longer one waits. */
 static ss_status
 cycles_in_turn(const view *v, double period, size_t *in_turn)
 {
     enum { LOOKED_AT = 2 * MULTIPLES + 2 };
-    const double most = (double)v->n / period;
+    const double most = (double)v->n / period, least = least_unlike(v);
     double unlike[LOOKED_AT] = { 0 }, f = 0, lag, each = period;
     size_t known = 2, best = 1;
     *in_turn = 1;
     unlike[1] = after(v, period, period, &lag);
-    if (!(unlike[1] > least_unlike(v)))
+    if (!(unlike[1] > least))
         return SS_OK;
-    ss_status st = line_between(v, lag, 0.5, &f);
+    ss_status st = line_between(v, lag, period, &f);
     for (; known < LOOKED_AT && (double)known < SEEN * most; known++) {
         unlike[known] = after(v, period, (double)known * each, &lag);
         if (unlike[known] < unlike[best]) {     /* it tells best how long the cycles are */
@@ -583,14 +593,15 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
             each = lag / (double)known;
         }
     }
-    for (size_t p = 2; p <= MULTIPLES && 2.5 * (double)p < most && *in_turn == 1; p++) {
-        double bound = unlike[1] / CLEARER, many = floor(0.5 * most / (double)p) * (double)p;
+    for (size_t p = 2; p <= MULTIPLES && p + 1 < known && *in_turn == 1; p++) {
+        double bound = unlike[1] / CLEARER, many = fmax(1, floor(0.4 * most / (double)p)) * (double)p;
         double last = after(v, period, many * each, &lag);
-        int agree = last < bound && (f * period < 1 || (f * period < LOW && last < 2 * unlike[p]));
+        int agree = f * period < LOW;
         for (size_t q = 2; agree && q <= 2 * p + 1 && q < known; q++)
-            agree = (unlike[q] < bound) == (q % p == 0);
+            agree = q % p == 0 ? unlike[q] < unlike[q - 1] / CLEARER : unlike[q] >= bound;
         if (agree)
-            *in_turn = p;
+            *in_turn = 2 * p < known && last < (f * period < 1 ? bound : 2 * unlike[p])
+                       && unlike[2 * p] < fmax(pow(CLEARER, 2) * unlike[p], least) ? p : 0;
     }
     return st;
 }
@@ -604,7 +615,7 @@ parts_of(const view *v, double period, int *some)
     *some = 0;
     for (size_t p = PARTS; p > 1; p--) {
         const double lag = period / (double)p;
-        near = lag < 5 ? lag : lag_near(v, lag, lag);
+        near = lag < SHORTEST ? lag : lag_near(v, lag, lag);
         if (near == lag)                        /* it is no more alike there than sooner or later */
             continue;
         if (unlikeness(v, near, period) <= as_well)
@@ -622,8 +633,8 @@ parts_beside_hum(const view *v, double period, double *hum, size_t *parts)
     ss_status st = SS_OK;
     for (*parts = MULTIPLES + 1; st == SS_OK && *hum == 0 && *parts > 1;) {
         double f = 0, lag = period / (double)--*parts;
-        if (lag >= 5 && relative(v, 0, (size_t)(lag + 0.5), v->n - (size_t)(lag + 0.5)) < 1 - CYCLES_ALIKE)
-            st = line_between(v, lag, ONE, &f);
+        if (lag >= SHORTEST && relative(v, 0, (size_t)(lag + 0.5), v->n - (size_t)(lag + 0.5)) < 1 - CYCLES_ALIKE)
+            st = line_between(v, lag, lag, &f);
         double multiple = f * period, off = fabs(multiple - round(multiple)) * ((double)v->n - lag) / period;
         *hum = f * lag > LOW || (multiple > LOW && off > 0.5) ? f : 0;
     }
@@ -636,7 +647,7 @@ static ss_status
 compare_slow(const double *x, size_t n, ss_cycles *found)
 {
     const size_t m = 1 + (size_t)(found->period.value / SLOW);
-    double *slow = smoothed(x, n, m);
+    double *slow = smoothed(x, n, 1, m);
     ss_cycles other;
     if (slow == NULL)
         return SS_ENOMEM;
@@ -661,7 +672,7 @@ compare_cycles(const double *x, size_t n, double period, ss_cycles *out)
     const size_t held = (size_t)fmin((double)seen / (double)changes, 1 + period / SLOW), m = seen / held;
     if (m < FEWEST_SAMPLES || (double)seen < 2.5 * period)
         return SS_OK;
-    double *means = block_means(x, m, held), *smooth = means != NULL ? smoothed(means, m, 2) : NULL, hum = 0;
+    double *smooth = smoothed(x, m, held, 2), hum = 0;
     const view v = { smooth, m - 2 };
     int some = 0;
     ss_status st = smooth != NULL ? SS_OK : SS_ENOMEM;
@@ -672,17 +683,15 @@ compare_cycles(const double *x, size_t n, double period, ss_cycles *out)
         *out = repeats_not(by_chance);
     if (st == SS_OK && isfinite(out->period.value))
         st = cycles_in_turn(&v, out->period.value / (double)held, &in_turn);
-    const int is_seen_twice = 2 * (double)in_turn * out->period.value <= SEEN * (double)seen;
     if (st == SS_OK && in_turn > 1)
         st = find_at(x, n, out->period.value * (double)in_turn, out);
-    if (st == SS_OK && in_turn > 1 && isfinite(out->period.value)
-            && (!is_seen_twice || fabs(out->period.value - round(out->period.value)) < 2 * FINEST))
-        *out = repeats_not(is_seen_twice ? "several cycles are a whole number of samples: it may repeat after one"
-                           : by_chance);
+    if (in_turn == 0)
+        *out = repeats_not("cycles may differ in turn, or beside a hum, or by chance");
+    else if (in_turn > 1 && fabs(out->period.value - round(out->period.value)) < 2 * FINEST)
+        *out = repeats_not("several cycles are a whole number of samples: it may repeat after one");
     parts = 1;
     if (st == SS_OK && isfinite(out->period.value))
         st = parts_beside_hum(&v, out->period.value / (double)held, &hum, &parts);
-    free(means);
     free(smooth);
     if (st == SS_OK && parts > 1)
         st = find_at(x, n, out->period.value / (double)parts, out);
