@@ -37,7 +37,6 @@ enum {
 #define GROWS 2.0               /* times the last amplitude: what grows again */
 #define HIT 3.0                 /* times what the blocks behind it leave: a blow is in the first
                                    block */
-#define SURE .02                /* error of ln A below which a block alone is not biased */
 #define SHORTEST 1.5            /* periods of a block */
 #define NOISY 10.0              /* dB above a floor: it matters below */
 #define HIGH 25.0               /* the same: it does not matter above */
@@ -242,24 +241,19 @@ block_length(const decay *d, bend at, double amplitude, double noise)
     return (size_t)ceil(fmax(fmax(length, (double)(d->end - d->first) / MANY), 14 + 3. * (double)d->beside.n));
 }
 
-/* The best of fits of the first block, from many frequencies; of a long one to its start first. */
+/* Fit the first block, a part of it first if it is long: that is found from a frequency that is not near. */
 static int
 first_block(const decay *d, block *b, size_t length, double s)
 {
     size_t part = (size_t)fmin((double)length, ceil(LONG * 2 * M_PI / d->w));
-    int found = 0;
-    for (double w = d->w * (1 - 2 * NEAR); w < d->w * (1 + 2 * NEAR); w += M_PI / 2 / (double)part) {
-        block trial;
-        if (ss_block_fit(&trial, d->x, d->first, d->first + part, (bend){ .s = s, .w = w }, &d->beside, 0)
-            && fabs(trial.rate[PHASE] - d->w) < 3 * NEAR * d->w && (!found || trial.left < b->left)) {
-            *b = trial;
-            found = 1;
-        }
+    bend at = { .s = s, .w = d->w };
+    for (;; part = 3 * part < length ? 3 * part : length) {
+        if (!ss_block_fit(b, d->x, d->first, d->first + part, at, &d->beside, 0))
+            return 0;
+        if (part == length)
+            return fabs(b->rate[PHASE] - d->w) < 3 * NEAR * d->w;
+        at.w = b->rate[PHASE];
     }
-    for (; found && part < length; part *= 3)
-        found = ss_block_fit(b, d->x, d->first, d->first + (3 * part < length ? 3 * part : length),
-                             (bend){ .s = s, .w = b->rate[PHASE] }, &d->beside, 0);
-    return found;
 }
 
 /* Follow the decay, from first on, as far as it is seen.  Each block starts from s and w of those before, weighed
@@ -368,8 +362,7 @@ refit(decay *d)
 {
     for (size_t i = 0; i < d->n_blocks; i++) {
         block *b = &d->block[i], again;
-        if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside,
-                         b->cov[LEVEL][0] * b->noise > SURE * SURE)) {
+        if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside, 1)) {
             again.at = b->at;
             again.level = b->level;
             again.phase = b->phase;

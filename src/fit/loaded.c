@@ -374,16 +374,11 @@ fit_line(law *l, double *room, double *squares, double *logarithms)
     const track *r = l->record;
     double c[2];
     for (size_t i = 0; i < r->n; i++) {
-        l->rows[3 * i] = 1;
-        l->rows[3 * i + 1] = r->load[i] / way_of(r);
-        l->rows[3 * i + 2] = r->mu[i];
+        l->rows[2 * i] = 1;
+        l->rows[2 * i + 1] = r->load[i] / way_of(r);
     }
-    *logarithms = ss_wander_whiten(l->rows, &l->noise, r->t, l->rows, r->n, 3);
-    for (size_t i = 0; i < r->n; i++) {
-        room[i] = l->rows[3 * i + 2];
-        l->rows[2 * i] = l->rows[3 * i];
-        l->rows[2 * i + 1] = l->rows[3 * i + 1];
-    }
+    *logarithms = ss_wander_whiten(l->rows, &l->noise, r->t, l->rows, r->n, 2);
+    ss_wander_whiten(room, &l->noise, r->t, r->mu, r->n, 1);
     return ss_least_linear(l->rows, room, r->n, 2, c, squares, NULL);
 }
 

@@ -331,23 +331,18 @@ begin(const trial *of, double u[UNKNOWNS])
     const block *b = of->b;
     const double unit = of->unit, ln_a = of->ln_a;
     const double only[UNKNOWNS] = { [C] = 1, [SHAPE] = u[SHAPE] };
-    double left = 0, sum[5] = { 0 }, of_c[2], w[2];
-    for (int pass = 0; pass < 2; pass++) {
-        for (size_t i = 0; i < of->n; i++) {
-            law_at(of, only, b[i].level - ln_a, of_c, w);
-            double s = b[i].at.s / unit, g = of_c[0], off = s - u[S] - u[C] * g;
-            double weight = 1 / (pow(b[i].error[LEVEL] / unit, 2) + pow(TRUST * s, 2));
-            left += pass * weight * off * off;
-            sum[0] += weight, sum[1] += weight * g, sum[2] += weight * g * g;
-            sum[3] += weight * s, sum[4] += weight * s * g;
-        }
-        if (pass > 0)
-            break;
-        double det = sum[0] * sum[2] - sum[1] * sum[1], c = (sum[0] * sum[4] - sum[1] * sum[3]) / det;
-        int both = law->free[S] && law->free[C] && det > 1e-12 * sum[0] * sum[2];
-        u[C] = !law->free[C] ? 0 : both ? fmax(c, 1e-3) : sum[4] / sum[2];
-        u[S] = !law->free[S] ? 0 : both ? fmax((sum[3] - u[C] * sum[1]) / sum[0], 1e-3) : sum[3] / sum[0];
+    double sum[6] = { 0 }, of_c[2], w[2];
+    for (size_t i = 0; i < of->n; i++) {
+        law_at(of, only, b[i].level - ln_a, of_c, w);
+        double s = b[i].at.s / unit, g = of_c[0];
+        double weight = 1 / (pow(b[i].error[LEVEL] / unit, 2) + pow(TRUST * s, 2));
+        sum[0] += weight, sum[1] += weight * g, sum[2] += weight * g * g;
+        sum[3] += weight * s, sum[4] += weight * s * g, sum[5] += weight * s * s;
     }
+    double det = sum[0] * sum[2] - sum[1] * sum[1], c = (sum[0] * sum[4] - sum[1] * sum[3]) / det;
+    int both = law->free[S] && law->free[C] && det > 1e-12 * sum[0] * sum[2];
+    u[C] = !law->free[C] ? 0 : both ? fmax(c, 1e-3) : sum[4] / sum[2];
+    u[S] = !law->free[S] ? 0 : both ? fmax((sum[3] - u[C] * sum[1]) / sum[0], 1e-3) : sum[3] / sum[0];
     const bend *first = &b->at, *last = &b[of->n - 1].at;
     double end = b[of->n - 1].level - ln_a;
     u[LN_A] = b->level - ln_a;
@@ -359,7 +354,7 @@ begin(const trial *of, double u[UNKNOWNS])
         u[BEND] = fmax(u[BEND], 0);
     law_at(of, u, end, of_c, w);
     u[W] = last->w / unit - w[0];
-    return left;
+    return sum[5] + u[S] * (u[S] * sum[0] + 2 * u[C] * sum[1] - 2 * sum[3]) + u[C] * (u[C] * sum[2] - 2 * sum[4]);
 }
 
 /* Solve sum |z[k + 2] - c[1] z[k + 1] - c[0] z[k]|^2 / |z[k]|^2 = least for c, or with modes z[k] = c[0] m[0]^k +
