@@ -21,32 +21,6 @@ enum { FIXED_HEADER = 24, MAX_ANNOTATION = 1 << 20, MAX_CHANNELS = 4096 };
 static const unsigned width[] = { 0, 0, 1, 2, 3, 4, 4, 8 };
 enum { ENCODING_FLOAT = 6, ENCODING_DOUBLE = 7 };
 
-/* Read our header from the annotation; *out becomes NULL if this is not one.  SS_EDATA: it is malformed. */
-static ss_status
-read_annotation(ss_header **out, const char *magic, char *text, const char **reason)
-{
-    ss_status st = SS_OK;
-    ss_header *head = *out = NULL;
-    size_t length_of_magic = strlen(magic);
-    if (strncmp(text, magic, length_of_magic) != 0 || text[length_of_magic] != '\n')
-        return SS_OK;
-    ss_header_new(&head, 0, 0, NULL);
-    if (head == NULL)
-        return SS_ENOMEM;
-    for (char *line = text + length_of_magic + 1, *next; st == SS_OK && *line == '#'; line = next) {
-        size_t length = strcspn(line, "\n");
-        next = line + length + (line[length] == '\n');
-        line[length] = '\0';
-        st = ss_header_read_line(head, line, reason);
-    }
-    if (st != SS_OK) {
-        ss_header_free(head);
-        return st;
-    }
-    *out = head;
-    return SS_OK;
-}
-
 /* The nearest rate in whole Hz, which is all that AU has; the annotation has the exact rate. */
 static uint32_t
 whole_rate(double rate)
@@ -54,26 +28,33 @@ whole_rate(double rate)
     return rate < 1 ? 1 : rate < UINT32_MAX ? (uint32_t)rint(rate) : UINT32_MAX;
 }
 
+/* Take our header from the annotation, if it is there and has the columns of the file. */
 static ss_status
 make_header(ss_source *s, ss_kind kind, char *annotation, uint32_t rate, size_t channels, ss_error *err)
 {
-    ss_header *head;
-    const char *reason = "";
-    ss_status st = read_annotation(&head, ss_kind_magic(kind), annotation, &reason);
-    if (st == SS_EDATA)
-        return ss_fail(err, st, "%s: AU annotation: %s", s->name, reason);
-    if (st != SS_OK)
-        return ss_fail_memory(err, s->name);
-    if (head != NULL && head->n_columns == channels) {
-        ss_header_free(s->head);
-        s->head = head;
-    } else {
-        ss_header_free(head);
-        st = ss_frames_columns(s->head, channels);
+    const char *magic = ss_kind_magic(kind), *reason = "";
+    size_t n = strlen(magic), length;
+    ss_header *own = s->head, *head = NULL;
+    ss_status st = SS_OK;
+    if (strncmp(annotation, magic, n) == 0 && annotation[n] == '\n')
+        st = ss_header_new(&head, 0, 0, NULL);
+    for (char *line = annotation + (head != NULL ? n + 1 : 0); head != NULL && st == SS_OK && *line == '#';) {
+        char *next = line + (length = strcspn(line, "\n"));
+        next += *next == '\n';
+        line[length] = '\0';
+        st = ss_header_read_line(head, line, &reason);
+        line = next;
     }
+    if (st == SS_OK && head != NULL && head->n_columns == channels) {
+        s->head = head;
+        head = own;
+    } else if (st == SS_OK)
+        st = ss_frames_columns(own, channels);
+    ss_header_free(head);
     if (!(s->head->rate > 0) || whole_rate(s->head->rate) != rate)
         s->head->rate = rate;
-    return st == SS_OK ? st : ss_fail_memory(err, s->name);
+    return st == SS_EDATA ? ss_fail(err, st, "%s: AU annotation: %s", s->name, reason)
+        : st == SS_OK ? st : ss_fail_memory(err, s->name);
 }
 
 static ss_status

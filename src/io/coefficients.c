@@ -16,6 +16,8 @@
 #include "map/plan.h"
 #include "io/reader.h"
 
+enum { LARGEST_M = 500 };       /* the largest |log2 a| */
+
 /* A scale of which rows have been read. */
 typedef struct part {
     ss_scale scale;             /* n is the grid's, SIZE_MAX until that is known */
@@ -29,12 +31,9 @@ typedef struct coefficient_reader {
     ss_error *err;
     ss_coefficients *coef;      /* its n is 0 until the length is known */
     ss_morlet_opts opts;        /* the options that determine the grid */
-    part *part;
-    size_t n_parts, room, last; /* last: the part of the previous row */
-    size_t *part_of;            /* for every possible j its part, counted from 1; 0: none yet */
+    part **part;                /* of every possible j, from the largest on; NULL: no row has it */
+    size_t possible, n_parts;
 } coefficient_reader;
-
-enum { LARGEST_M = 500 };       /* the largest |log2 a| */
 
 /* SS_EDATA, with the number of the current line of text, or row of AU. */
 SS_PRINTF(2, 3)
@@ -53,56 +52,37 @@ refuse(const coefficient_reader *r, const char *format, ...)
 
 /* --- rows */
 
+/* Set the number of translations of a scale, and what else follows from j and a. */
 static ss_status
-new_part(coefficient_reader *r, int j, const double number[])
+set_scale(coefficient_reader *r, ss_scale *scale, int j, double a)
 {
     ss_error why = { 0 };
-    part *parts = ss_list_room(r->part, &r->room, r->n_parts, sizeof *parts);
-    if (parts == NULL)
-        return SS_ENOMEM;
-    r->part = parts;
-    part *p = &r->part[r->n_parts];
-    *p = (part){ .n = 0 };
-    if (ss_morlet_scale_at(&p->scale, j, number[1], r->coef->n, r->coef->head->rate, &r->opts, &why)
-        != SS_OK)
+    if (ss_morlet_scale_at(scale, j, a, r->coef->n, r->coef->head->rate, &r->opts, &why) != SS_OK)
         return refuse(r, "%s", why.text);
-    if (r->coef->n == 0)
-        p->scale.n = SIZE_MAX;
-    r->n_parts++;
-    return SS_OK;
-}
-
-/* Find or add the part to which this row belongs; r->last becomes its index. */
-static ss_status
-find_part(coefficient_reader *r, const double number[])
-{
-    double m = number[0], a = number[1], f = number[3], j = rint(m * r->opts.voices);
-    if (!(fabs(m) <= LARGEST_M) || fabs(m * r->opts.voices - j) > 1e-9
-        || !(fabs(a / exp2(m) - 1) < 1e-12)
-        || !(fabs(f * 2 * M_PI * a / r->opts.center - 1) < 1e-12))
-        return refuse(r, "m, a and f are not those of a scale with center %g and %d voice%s",
-                      r->opts.center, r->opts.voices, PLURAL(r->opts.voices));
-    size_t *known = &r->part_of[(int)j + LARGEST_M * r->opts.voices];
-    if (*known == 0) {
-        ss_status st = new_part(r, (int)j, number);
-        if (st != SS_OK)
-            return st;
-        *known = r->n_parts;
-    }
-    r->last = *known - 1;
+    scale->n = r->coef->n == 0 ? SIZE_MAX : scale->n;
     return SS_OK;
 }
 
 static ss_status
 append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
 {
-    ss_status st = find_part(r, number);
-    if (st != SS_OK)
-        return st;
-    part *p = &r->part[r->last];
+    const int voices = r->opts.voices;
+    double m = number[0], a = number[1], f = number[3], j = rint(m * voices);
+    if (!(fabs(m) <= LARGEST_M) || fabs(m * voices - j) > 1e-9 || !(fabs(a / exp2(m) - 1) < 1e-12)
+        || !(fabs(f * 2 * M_PI * a / r->opts.center - 1) < 1e-12))
+        return refuse(r, "m, a and f are not those of a scale with center %g and %d voice%s", r->opts.center,
+                      voices, PLURAL(voices));
+    part **known = &r->part[LARGEST_M * voices - (int)j], *p = *known;
+    if (p == NULL) {
+        if ((p = *known = calloc(1, sizeof *p)) == NULL)
+            return SS_ENOMEM;
+        ss_status st = set_scale(r, &p->scale, (int)j, a);
+        if (st != SS_OK)
+            return st;
+        r->n_parts++;
+    }
     if (p->n == p->scale.n)
-        return refuse(r, "scale %g has %zu coefficient%s, this is one more", p->scale.m, p->n,
-                      PLURAL(p->n));
+        return refuse(r, "scale %g has %zu coefficient%s, this is one more", p->scale.m, p->n, PLURAL(p->n));
     double b = ss_scale_b(&p->scale, p->n);
     if (!(fabs(number[2] - b) <= 1e-12 * b))
         return refuse(r, "b is %.9g s where the grid has %.9g s", number[2], b);
@@ -119,18 +99,19 @@ append_row(coefficient_reader *r, const double number[COEFFICIENT_COLUMNS])
 static ss_status
 set_length(coefficient_reader *r, double samples)
 {
-    ss_error why = { 0 };
     if (r->coef->n > 0)
         return refuse(r, "the number of samples is given twice");
     if (!(samples >= 1 && samples <= 0x1p53 && samples == floor(samples)))
         return refuse(r, "%g samples are not the length of a record", samples);
     r->coef->n = (size_t)samples;
-    for (part *p = r->part; p < r->part + r->n_parts; p++) {
-        ss_scale *sc = &p->scale;
-        if (ss_morlet_scale_at(sc, sc->j, sc->a, r->coef->n, r->coef->head->rate, &r->opts, &why) != SS_OK)
-            return refuse(r, "%s", why.text);
-        if (p->n > sc->n)
-            return refuse(r, "scale %g has %zu coefficient%s, not %zu", sc->m, sc->n, PLURAL(sc->n), p->n);
+    for (size_t i = 0; i < r->possible; i++) {
+        part *p = r->part[i];
+        ss_status st = p != NULL ? set_scale(r, &p->scale, p->scale.j, p->scale.a) : SS_OK;
+        if (st != SS_OK)
+            return st;
+        if (p != NULL && p->n > p->scale.n)
+            return refuse(r, "scale %g has %zu coefficient%s, not %zu", p->scale.m, p->scale.n, PLURAL(p->scale.n),
+                          p->n);
     }
     return SS_OK;
 }
@@ -167,13 +148,6 @@ read_rows_of_scales(coefficient_reader *r)
 
 /* --- the whole */
 
-static int
-longer_first(const void *a, const void *b)
-{
-    const part *p = a, *q = b;
-    return (p->scale.j < q->scale.j) - (p->scale.j > q->scale.j);
-}
-
 static ss_status
 assemble(coefficient_reader *r)
 {
@@ -183,26 +157,27 @@ assemble(coefficient_reader *r)
         return ss_fail(r->err, SS_EDATA, "%s: a header without coefficients", r->in->source->name);
     if (coef->n == 0)
         return refuse(r, "cut short: a stream ends with its number of samples");
-    for (size_t i = 0; i < r->n_parts; i++) {
-        const part *p = &r->part[i];
+    if ((coef->scale = malloc(r->n_parts * sizeof *coef->scale)) == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < r->possible; i++) {
+        part *p = r->part[i];
+        if (p == NULL)
+            continue;
         if (p->n < p->scale.n)
-            return refuse(r, "ends with %zu of the %zu coefficients of scale %g", p->n, p->scale.n,
-                          p->scale.m);
+            return refuse(r, "ends with %zu of the %zu coefficients of scale %g", p->n, p->scale.n, p->scale.m);
+        p->scale.offset = total;
+        coef->scale[coef->n_scales++] = p->scale;
         total += p->n;
     }
-    qsort(r->part, r->n_parts, sizeof *r->part, longer_first);
-    coef->scale = malloc(r->n_parts * sizeof *coef->scale);
-    coef->w = malloc(2 * total * sizeof *coef->w);
-    if (coef->scale == NULL || coef->w == NULL)
+    if ((coef->w = malloc(2 * total * sizeof *coef->w)) == NULL)
         return SS_ENOMEM;
-    for (size_t offset = 0; coef->n_scales < r->n_parts; coef->n_scales++) {
-        part *p = &r->part[coef->n_scales];
-        p->scale.offset = offset;
-        coef->scale[coef->n_scales] = p->scale;
-        memcpy(coef->w + 2 * offset, p->w, 2 * p->n * sizeof *p->w);
+    for (size_t i = 0; i < r->possible; i++) {
+        part *p = r->part[i];
+        if (p == NULL)
+            continue;
+        memcpy(coef->w + 2 * p->scale.offset, p->w, 2 * p->n * sizeof *p->w);
         free(p->w);                     /* now, as there may be no memory for all of them twice */
         p->w = NULL;
-        offset += p->n;
     }
     return SS_OK;
 }
@@ -234,8 +209,9 @@ read_all(coefficient_reader *r, FILE *in, const char *name)
         ss_fail(r->err, st, "%s: %s", r->in->source->name, why.text);
     if (st != SS_OK)
         return st;
-    r->part_of = calloc(2 * LARGEST_M * (size_t)r->opts.voices + 1, sizeof *r->part_of);
-    if (r->part_of == NULL)
+    r->possible = 2 * LARGEST_M * (size_t)r->opts.voices + 1;
+    r->part = calloc(r->possible, sizeof(part *));
+    if (r->part == NULL)
         return SS_ENOMEM;
     st = read_rows_of_scales(r);
     return st == SS_OK ? assemble(r) : st;
@@ -251,10 +227,12 @@ ss_coefficients_read(ss_coefficients **out, FILE *in, const char *name, ss_error
     if (format != NULL)
         return format->open_map(out, name, err);
     ss_status st = read_all(&r, in, name);
-    for (size_t i = 0; i < r.n_parts; i++)
-        free(r.part[i].w);
+    for (size_t i = 0; r.part != NULL && i < r.possible; i++) {
+        if (r.part[i] != NULL)
+            free(r.part[i]->w);
+        free(r.part[i]);
+    }
     free(r.part);
-    free(r.part_of);
     ss_reader_free(r.in);
     if (st == SS_OK)
         *out = r.coef;

@@ -19,30 +19,17 @@ enum {
 /* A length from here on is unknown: SoX writes this one, other programs 2^31 - 1 or 2^32 - 1. */
 #define UNKNOWN_FROM UINT32_C(0x7ffff000)
 
-typedef struct description {    /* the contents of "fmt "; channels is 0 until it has been read */
-    unsigned code, channels, bits;
-    uint32_t rate;
-} description;
-
 static uint32_t
 little_endian(const char *at, unsigned n)
 {
     return (uint32_t)ss_bytes_get(at, n, 1);
 }
 
+/* Read the contents of "fmt ", which are so long and stay where they are. */
 static ss_status
-skip(struct input *in, uint32_t length, ss_error *err)
+read_format(struct frames *f, uint32_t length, unsigned *channels, ss_error *err)
 {
-    uint64_t left = (uint64_t)length + length % 2;
-    ss_status st = ss_input_skip(in, &left, err);
-    if (st == SS_OK && left > 0)
-        return ss_fail(err, SS_EDATA, "%s: truncated WAV header", in->name);
-    return st;
-}
-
-static ss_status
-read_description(struct input *in, uint32_t length, description *d, ss_error *err)
-{
+    struct input *in = f->in;
     if (length < FMT_LEAST || length > FMT_MOST)
         return ss_fail(err, SS_EDATA, "%s: WAV header: a format of %lu bytes", in->name,
                        (unsigned long)length);
@@ -50,29 +37,33 @@ read_description(struct input *in, uint32_t length, description *d, ss_error *er
     if (st != SS_OK)
         return st;
     const char *p = in->buffer + in->lo;
-    *d = (description){ little_endian(p, 2), little_endian(p + 2, 2), little_endian(p + 14, 2),
-                        little_endian(p + 4, 4) };
-    unsigned frame = little_endian(p + 12, 2);
-    if (d->code == CODE_EXTENSIBLE && length >= FMT_EXTENSIBLE)
-        d->code = little_endian(p + 24, 2);
-    int known = d->code == CODE_PCM ? d->bits >= 8 && d->bits <= 32 && d->bits % 8 == 0
-        : d->code == CODE_FLOAT && (d->bits == 32 || d->bits == 64);
+    unsigned code = little_endian(p, 2), frame = little_endian(p + 12, 2), bits = little_endian(p + 14, 2);
+    uint32_t rate = little_endian(p + 4, 4);
+    *channels = little_endian(p + 2, 2);
+    if (code == CODE_EXTENSIBLE && length >= FMT_EXTENSIBLE)
+        code = little_endian(p + 24, 2);
+    int known = code == CODE_PCM ? bits >= 8 && bits <= 32 && bits % 8 == 0
+        : code == CODE_FLOAT && (bits == 32 || bits == 64);
     if (!known)
         return ss_fail(err, SS_EDATA, "%s: WAV of code %u with %u bits is not supported; PCM of 8, 16, "
-                       "24 and 32 bits and floating point are", in->name, d->code, d->bits);
-    if (d->channels < 1 || d->channels > MAX_CHANNELS || d->rate < 1)
-        return ss_fail(err, SS_EDATA, "%s: WAV header: impossible: %u channels at %lu Hz", in->name,
-                       d->channels, (unsigned long)d->rate);
-    if (frame != 0 && frame != d->channels * d->bits / 8)
+                       "24 and 32 bits and floating point are", in->name, code, bits);
+    if (*channels < 1 || *channels > MAX_CHANNELS || rate < 1)
+        return ss_fail(err, SS_EDATA, "%s: WAV header: impossible: %u channels at %lu Hz", in->name, *channels,
+                       (unsigned long)rate);
+    if (frame != 0 && frame != *channels * bits / 8)
         return ss_fail(err, SS_EDATA, "%s: WAV header: impossible: %u channels of %u bits in %u bytes",
-                       in->name, d->channels, d->bits, frame);
-    return skip(in, length, err);
+                       in->name, *channels, bits, frame);
+    f->base.head->rate = rate;
+    f->type = (sample_type){ .bytes = bits / 8, .is_float = code == CODE_FLOAT, .is_unsigned = bits == 8,
+                             .little_endian = 1 };
+    return SS_OK;
 }
 
 /* Read the chunks before the data.  *place becomes the place of the data in the file, *length its length. */
 static ss_status
-read_chunks(struct input *in, description *d, uint64_t *place, uint32_t *length, ss_error *err)
+read_chunks(struct frames *f, unsigned *channels, uint64_t *place, uint32_t *length, ss_error *err)
 {
+    struct input *in = f->in;
     *place = RIFF_HEADER;
     for (int i = 0; i < MAX_CHUNKS; i++) {
         ss_status st = ss_input_whole(in, CHUNK_HEADER, "WAV header", err);
@@ -81,18 +72,19 @@ read_chunks(struct input *in, description *d, uint64_t *place, uint32_t *length,
         char name[4];
         memcpy(name, in->buffer + in->lo, sizeof name);
         *length = little_endian(in->buffer + in->lo + 4, 4);
+        uint64_t left = (uint64_t)*length + *length % 2;
         in->lo += CHUNK_HEADER;
         *place += CHUNK_HEADER;
-        int is_data = memcmp(name, "data", 4) == 0;
-        if (is_data && d->channels > 0)
-            return SS_OK;
-        if (is_data)
-            return ss_fail(err, SS_EDATA, "%s: WAV header: data before their format", in->name);
-        st = memcmp(name, "fmt ", 4) == 0 ? read_description(in, *length, d, err)
-            : skip(in, *length, err);
+        if (memcmp(name, "data", 4) == 0)
+            return *channels > 0 ? SS_OK
+                : ss_fail(err, SS_EDATA, "%s: WAV header: data before their format", in->name);
+        *place += left;
+        if (memcmp(name, "fmt ", 4) == 0)
+            st = read_format(f, *length, channels, err);
+        if (st == SS_OK && (st = ss_input_skip(in, &left, err)) == SS_OK && left > 0)
+            st = ss_fail(err, SS_EDATA, "%s: truncated WAV header", in->name);
         if (st != SS_OK)
             return st;
-        *place += (uint64_t)*length + *length % 2;
     }
     return ss_fail(err, SS_EDATA, "%s: WAV header: no data in the first %d chunks", in->name,
                    MAX_CHUNKS);
@@ -102,7 +94,7 @@ static ss_status
 open_wav(ss_source **out, const struct opening *o, ss_error *err)
 {
     struct input *in = o->in;
-    description d = { 0 };
+    unsigned channels = 0;
     uint32_t length = 0;
     uint64_t place = 0;
     struct frames *f = ss_frames_new(in, err);
@@ -114,13 +106,10 @@ open_wav(ss_source **out, const struct opening *o, ss_error *err)
         return st;
     uint32_t all = little_endian(in->buffer + in->lo + 4, 4);
     in->lo += RIFF_HEADER;
-    if ((st = read_chunks(in, &d, &place, &length, err)) != SS_OK)
+    if ((st = read_chunks(f, &channels, &place, &length, err)) != SS_OK)
         return st;
-    if ((st = ss_frames_columns(f->base.head, d.channels)) != SS_OK)
+    if ((st = ss_frames_columns(f->base.head, channels)) != SS_OK)
         return ss_fail(err, st, "%s: %s", in->name, ss_strerror(st));
-    f->base.head->rate = d.rate;
-    f->type = (sample_type){ .bytes = d.bits / 8, .is_float = d.code == CODE_FLOAT, .is_unsigned = d.bits == 8,
-                             .little_endian = 1 };
     int unknown = (length >= UNKNOWN_FROM && !(in->size >= (double)(place + length))) || (length == 0 && all == 0);
     f->bytes_left = unknown ? UINT64_MAX : length;
     f->end = place + length;

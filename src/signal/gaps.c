@@ -30,7 +30,6 @@ struct run {
 struct runs {
     struct run *run;
     size_t n, room, next;
-    int open;                   /* 1: the value that was added last is missing */
     size_t there;               /* the number of values that are not missing */
     double last;                /* the last of these */
 };
@@ -45,24 +44,23 @@ struct filled {
 static int
 add_value(struct runs *r, size_t row, double value)
 {
-    int missing = isnan(value);
-    if (missing && !r->open) {
+    struct run *run = r->n > 0 && r->run[r->n - 1].end == row ? &r->run[r->n - 1] : NULL;
+    if (!isnan(value)) {
+        if (run != NULL)
+            *run = (struct run){ run->first, row, run->first > 0 ? run->left : value, value };
+        r->last = value;
+        r->there++;
+        return 1;
+    }
+    if (run == NULL) {
         struct run *more = ss_list_room(r->run, &r->room, r->n, sizeof *more);
         if (more == NULL)
             return 0;
         r->run = more;
-        more[r->n++] = (struct run){ .first = row, .left = r->last };
+        run = &more[r->n++];
+        *run = (struct run){ row, row, r->last, r->last };
     }
-    if (r->open || missing)
-        r->run[r->n - 1].end = row + (size_t)missing;
-    if (r->open && !missing) {
-        struct run *run = &r->run[r->n - 1];
-        run->right = value;
-        run->left = run->first > 0 ? run->left : value;
-    }
-    r->open = missing;
-    r->last = missing ? r->last : value;
-    r->there += !missing;
+    run->end = row + 1;
     return 1;
 }
 
@@ -161,13 +159,9 @@ ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err)
         }
     }
     free(column);
-    for (size_t c = 0; st == SS_OK && c < columns; c++) {
-        struct runs *r = &g->column[c];
-        if (g->base.row > 0 && r->there == 0)
+    for (size_t c = 0; st == SS_OK && c < columns; c++)
+        if (g->base.row > 0 && g->column[c].there == 0)
             st = ss_fail(err, SS_EDATA, "%s: column %s: no numbers", g->base.name, g->base.head->column[c].name);
-        if (r->open)
-            r->run[r->n - 1].right = r->last;
-    }
     if (st == SS_OK && note_spans(&g->rows, g->base.head) != SS_OK)
         st = ss_fail_memory(err, g->base.name);
     return st == SS_OK ? ss_source_rewind(&g->base, err) : st;

@@ -169,22 +169,6 @@ ss_h5_refuse_values(hid_t dataset, double *bytes)
         ? "claims more values than a file of this size can hold" : NULL;
 }
 
-/* If HDF5_PLUGIN_PRELOAD has forbidden plugins for good, HDF5 gives no mask, and 0 is returned. */
-unsigned
-ss_h5_forbid_plugins(void)
-{
-    unsigned mask = 0;
-    H5PLget_loading_state(&mask);
-    H5PLset_loading_state(0);
-    return mask;
-}
-
-void
-ss_h5_restore_plugins(unsigned mask)
-{
-    H5PLset_loading_state(mask);
-}
-
 /* --- attributes and values ----------------------------------------------------------------- */
 
 int
@@ -380,16 +364,4 @@ ss_h5_read_rows(hid_t id, int by_columns, size_t row, size_t n, double *values)
     at[along] = row;
     count[along] = n;
     return ss_h5_read_piece(id, rank, at, count, values);
-}
-
-ss_status
-ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n)
-{
-    char text[64];
-    for (size_t i = 0; i < n; i++)
-        if (!isfinite(x[i])) {
-            snprintf(text, sizeof text, "value %zu is not finite", i + 1);
-            return ss_h5_fail(file, SS_EDATA, group, name, text);
-        }
-    return SS_OK;
 }

@@ -53,16 +53,15 @@ hid_t ss_h5_open_group(hid_t group, const char *name);
  * this file, or more than the file can hold; *bytes: so many of the file they need. */
 const char *ss_h5_refuse_values(hid_t dataset, double *bytes);
 
-/* Load no plugin from here on, for any filter of a file; returns the value that restores it. */
-unsigned ss_h5_forbid_plugins(void);
-void ss_h5_restore_plugins(unsigned mask);
-
-/* HDF5 without its messages, and without the plugins that a file may name. */
+/* HDF5 without its messages, and without the plugins that a file may name for any filter.  If HDF5_PLUGIN_PRELOAD
+ * has forbidden them for good, HDF5 gives no state to restore, and it stays 0. */
 #define QUIETLY(work) do { \
+        unsigned plugins = 0; \
         H5E_BEGIN_TRY { \
-            unsigned plugins = ss_h5_forbid_plugins(); \
+            H5PLget_loading_state(&plugins); \
+            H5PLset_loading_state(0); \
             work \
-            ss_h5_restore_plugins(plugins); \
+            H5PLset_loading_state(plugins); \
         } H5E_END_TRY \
     } while (0)
 
@@ -80,8 +79,6 @@ int ss_h5_read_piece(hid_t id, int rank, const hsize_t at[], const hsize_t count
  * is by columns. */
 int ss_h5_read_rows(hid_t id, int by_columns, size_t row, size_t n, double *values);
 
-/* SS_EDATA with the place of the first value that is not finite. */
-ss_status ss_h5_check_finite(h5_file *file, hid_t group, const char *name, const double *x, size_t n);
 /* Open a dataset of real numbers, which are counted as claimed; it is to be closed even after a failure. */
 ss_status ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, int *rank, hsize_t dims[]);
 /* The same of a list of n numbers. */

@@ -132,14 +132,18 @@ read_scale(file_source *s, size_t i, size_t n, double *w)
     ss_status st = SS_OK;
     for (size_t k = 0; st == SS_OK && k < 2; k++) {
         hid_t id = s->dense ? s->part[k] : ss_h5_open_dataset(group, part_name[k], 1);
+        char text[64];
         if (!ss_h5_read_piece(id, 1 + s->dense, at + !s->dense, count + !s->dense, s->row))
             st = ss_h5_fail(&s->file, SS_EIO, group, part_name[k], "cannot be read");
         if (!s->dense)
             H5Dclose(id);
-        if (st == SS_OK)
-            st = ss_h5_check_finite(&s->file, group, part_name[k], s->row, n);
-        for (size_t c = 0; st == SS_OK && c < n; c++)
+        for (size_t c = 0; st == SS_OK && c < n; c++) {
             w[2 * c + k] = s->row[c];
+            if (isfinite(s->row[c]))
+                continue;
+            snprintf(text, sizeof text, "value %zu is not finite", c + 1);
+            st = ss_h5_fail(&s->file, SS_EDATA, group, part_name[k], text);
+        }
     }
     if (!s->dense)
         H5Gclose(group);
