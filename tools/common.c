@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 int tool_verbosity;
+ss_error tool_error;
 static const char *tool_name = "stickslip", *usage_text = "";
 
 static volatile sig_atomic_t asked_to_stop;     /* the signal that asked; 0: none did */
@@ -225,24 +226,29 @@ tool_s(size_t n)
 }
 
 void
-tool_check(ss_status status, const ss_error *err)
+tool_check_error(ss_status status, const ss_error *err)
 {
-    const char *rest, *name = status != SS_OK && err != NULL ? files_name(err->text, &rest) : NULL;
+    const char *rest, *name = status != SS_OK ? files_name(err->text, &rest) : NULL;
     if (status == SS_EIO && (ferror(stdout) || files_failed()))
         tool_die("write error: %s", strerror(errno));
     if (name != NULL)
         tool_die("%s%s%s", name, rest, tool_hint(status, err));
     if (status != SS_OK && status != SS_STOP)
-        tool_die("%s%s", err != NULL && err->text[0] != '\0' ? err->text : ss_strerror(status),
-                 tool_hint(status, err));
+        tool_die("%s%s", err->text[0] != '\0' ? err->text : ss_strerror(status), tool_hint(status, err));
 }
 
 void
-tool_check_input(ss_status status, const ss_error *err, const char *path)
+tool_check(ss_status status)
 {
+    tool_check_error(status, &tool_error);
+}
+
+void
+tool_check_input(ss_status status, const char *path)
+{
+    const char *text = tool_error.text[0] != '\0' ? tool_error.text : ss_strerror(status);
     if (status != SS_OK)
-        tool_die("%s: %s%s", tool_input_name(path), err->text[0] != '\0' ? err->text : ss_strerror(status),
-                 tool_hint(status, err));
+        tool_die("%s: %s%s", tool_input_name(path), text, tool_hint(status, &tool_error));
 }
 
 void *

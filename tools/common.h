@@ -27,12 +27,14 @@ void tool_usage(const char *format, ...) TOOL_PRINTF TOOL_NORETURN;
 void tool_leave(int status) TOOL_NORETURN;
 void tool_warn(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, unless -q */
 void tool_note(const char *format, ...) TOOL_PRINTF;        /* a line on stderr, only with -v */
-void tool_check(ss_status status, const ss_error *err);     /* dies unless SS_OK, or SS_STOP */
-/* Dies unless SS_OK, with the name of the input. */
-void tool_check_input(ss_status status, const ss_error *err, const char *path);
+extern ss_error tool_error;     /* of the library's calls: a failure ends the tool, so one is enough */
+void tool_check(ss_status status);      /* dies of tool_error unless SS_OK, or SS_STOP */
+void tool_check_error(ss_status status, const ss_error *err);   /* the same of another error */
+/* Dies of tool_error unless SS_OK, with the name of the input. */
+void tool_check_input(ss_status status, const char *path);
 const char *tool_s(size_t n);                   /* the ending of a noun of which there are n: "" or "s" */
 /* The same for the file of a base; the hint names no option, as the file is read without options. */
-void tool_check_base(ss_status status, const ss_error *err);
+void tool_check_base(ss_status status);
 /* Returns room for n entries of size bytes each, with what the list had (NULL: a new one), or
  * dies; to be freed. */
 void *tool_room(void *list, size_t n, size_t size);
@@ -45,7 +47,7 @@ double tool_seconds(void);      /* on a clock that goes evenly */
 
 extern int tool_verbosity;      /* 0; -q sets -1, -v sets 1 */
 
-/* Several values of one option, in their order; to be freed with free(text). */
+/* Several values of one option, in their order; they live as long as the tool. */
 typedef struct tool_texts {
     const char **text;
     size_t n;

@@ -364,7 +364,4 @@ files_finish(void)
     }
     n_out = 0;
     sigprocmask(SIG_SETMASK, &before, NULL);
-    free(known);
-    known = NULL;
-    n_known = 0;
 }

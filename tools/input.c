@@ -72,12 +72,11 @@ ss_reader *
 tool_read_rows(const char *path, const ss_read_opts *opts)
 {
     ss_reader *reader = NULL;
-    ss_error err = { 0 };
     FILE *in = is_stdin(path) ? stdin : NULL;
     struct stat st;
     if (in == NULL && stat(path, &st) == 0 && S_ISFIFO(st.st_mode))
         in = freopen(path, "rb", stdin);        /* which ends when the user stops */
-    tool_check(ss_reader_new(&reader, in, tool_input_name(path), opts, &err), &err);
+    tool_check(ss_reader_new(&reader, in, tool_input_name(path), opts, &tool_error));
     return reader;
 }
 
@@ -93,15 +92,14 @@ tool_columns(size_t n, size_t rows)
 size_t
 tool_rows(ss_reader *reader, double *const column[], size_t max)
 {
-    static ss_error err;                /* of a row that comes behind those that were given */
     static ss_status st;
     size_t n = 0;
     if (st == SS_OK)
-        st = ss_reader_rows(reader, column, max, &n, &err);
+        st = ss_reader_rows(reader, column, max, &n, &tool_error);
     if (tool_stopping())                /* the last row may be a part of one */
         return 0;
     if (n == 0)
-        tool_check(st, &err);
+        tool_check(st);
     return n;
 }
 
@@ -109,9 +107,8 @@ ss_signal *
 tool_read_signal(const char *path, const ss_read_opts *opts)
 {
     ss_signal *signal = NULL;
-    ss_error err = { 0 };
     FILE *in = is_stdin(path) ? stdin : NULL;
-    tool_check(ss_signal_read(&signal, in, tool_input_name(path), opts, &err), &err);
+    tool_check(ss_signal_read(&signal, in, tool_input_name(path), opts, &tool_error));
     if (opts != NULL && opts->progress.function != NULL)
         tool_reading_done();
     return signal;
@@ -121,11 +118,10 @@ ss_overlay *
 tool_read_overlay(const char *path, ss_kind kind)
 {
     ss_overlay *overlay;
-    ss_error err = { 0 };
     if (path == NULL)
         return NULL;
     FILE *in = tool_open(path);
-    tool_check(ss_overlay_read(&overlay, in, tool_input_name(path), kind, &err), &err);
+    tool_check(ss_overlay_read(&overlay, in, tool_input_name(path), kind, &tool_error));
     if (in != stdin)
         fclose(in);
     return overlay;
@@ -135,19 +131,18 @@ ss_coefficients *
 tool_read_coefficients(const char *path)
 {
     ss_coefficients *coefficients = NULL;
-    ss_error err = { 0 };
     FILE *in = is_stdin(path) ? stdin : NULL;
-    tool_check(ss_coefficients_read(&coefficients, in, tool_input_name(path), &err), &err);
+    tool_check(ss_coefficients_read(&coefficients, in, tool_input_name(path), &tool_error));
     return coefficients;
 }
 
 void
-tool_check_base(ss_status status, const ss_error *err)
+tool_check_base(ss_status status)
 {
-    const char *hint = tool_hint(status, err);
+    const char *hint = tool_hint(status, &tool_error);
     if (strncmp(hint, "; --", 4) == 0)
-        tool_die("%s; a base is read as it is, and ss-cat writes it anew: %s", err->text, hint + 2);
-    tool_check(status, err);
+        tool_die("%s; a base is read as it is, and ss-cat writes it anew: %s", tool_error.text, hint + 2);
+    tool_check(status);
 }
 
 /* Read the base of a scene that is in this file, "-" or shipped.  Its name is relative to the scene's folder. */
@@ -155,27 +150,25 @@ static void
 read_base(ss_scene *scene, const char *path)
 {
     static ss_base *base;               /* the scene points at it */
-    ss_error err = { 0 };
     const char *slash = strrchr(path, '/');
     char name[PATH_MAX + SS_BASE_FILE];
     snprintf(name, sizeof name, "%.*s%s", slash != NULL ? (int)(slash - path) + 1 : 0, path, scene->base_file);
     if (scene->base_file[0] != '\0')
         tool_reads(name);
-    tool_check_base(ss_scene_load_base(&base, scene, strcmp(path, "-") == 0 ? "" : path, &err), &err);
+    tool_check_base(ss_scene_load_base(&base, scene, strcmp(path, "-") == 0 ? "" : path, &tool_error));
 }
 
 ss_scene
 tool_read_scene(const char *path, const tool_texts *settings, const char *options)
 {
     ss_scene scene;
-    ss_error err = { 0 };
     ss_status st = is_stdin(path)
                  ? ss_scene_read(&scene, stdin, tool_input_name(path), settings->text,
-                                     settings->n, &err)
-                 : ss_scene_load(&scene, path, settings->text, settings->n, &err);
+                                     settings->n, &tool_error)
+                 : ss_scene_load(&scene, path, settings->text, settings->n, &tool_error);
     if (st == SS_EINVAL)
-        tool_usage("%s: %s", options, err.text);
-    tool_check(st, &err);
+        tool_usage("%s: %s", options, tool_error.text);
+    tool_check(st);
     read_base(&scene, path);
     return scene;
 }

@@ -82,7 +82,8 @@ int tool_choice(const char *option, const char *text, const char *const choice[]
     "      --time=NAME|N, --time-unit=UNIT, --rate=HZ, --table=N, --gaps=HOW,\n" \
     "      --resample=HZ, --from=S, --to=S, --scale=[NAME=]F, --unit=[NAME=]U\n"
 
-/* Begin with { 0 }, or with the letters of two of the options. */
+/* Begin with { 0 }, or with the letters of two of the options.  What it holds lives as long as the tool: it is
+ * static. */
 typedef struct tool_reading {
     int time_letter, rate_letter;
     ss_read_opts opts;          /* for tool_read_signal and ss_reader_new */
@@ -96,7 +97,6 @@ typedef struct tool_reading {
 void tool_reading_end(tool_reading *r, const char *column);
 /* Of delimited text only these columns are needed, whose n names are not copied; all, if n is 0. */
 void tool_reading_needs(tool_reading *r, const char *const *column, size_t n);
-void tool_reading_free(tool_reading *r);
 
 /* For tool_parse: begin, and write the rows. */
 enum { TOOL_READING_OPTIONS = 10 };

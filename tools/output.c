@@ -79,36 +79,32 @@ ss_writer *
 tool_writer(const char *path, tool_kind kind, const ss_contents *contents)
 {
     ss_writer *writer;
-    ss_error err = { 0 };
     const char *hdf5 = kind == TOOL_H5 ? tool_output_path(path) : NULL;
     FILE *out = hdf5 == NULL ? tool_output(path) : NULL;
-    tool_check(ss_writer_new(&writer, out, hdf5, tool_stream(kind), contents, &err), &err);
+    tool_check(ss_writer_new(&writer, out, hdf5, tool_stream(kind), contents, &tool_error));
     return writer;
 }
 
 void
 tool_write(const ss_signal *signal, const char *path, tool_kind kind)
 {
-    ss_error err = { 0 };
     const char *hdf5 = kind == TOOL_H5 ? tool_output_path(path) : NULL;
     FILE *out = hdf5 == NULL ? tool_output(path) : NULL;
-    tool_check(ss_record_write(&(ss_record){ .signal = signal }, out, hdf5, tool_stream(kind), &err), &err);
+    tool_check(ss_record_write(&(ss_record){ .signal = signal }, out, hdf5, tool_stream(kind), &tool_error));
 }
 
 void
 tool_write_rows(ss_writer *writer, double *const column[], size_t n)
 {
-    ss_error err = { 0 };
-    tool_check(ss_writer_rows(writer, column, n, &err), &err);
+    tool_check(ss_writer_rows(writer, column, n, &tool_error));
     if (fflush(NULL) != 0)
-        tool_check(SS_EIO, NULL);
+        tool_check(SS_EIO);
 }
 
 void
 tool_write_end(ss_writer *writer, size_t samples)
 {
-    ss_error err = { 0 };
-    tool_check(ss_writer_end(writer, samples, &err), &err);
+    tool_check(ss_writer_end(writer, samples, &tool_error));
     ss_writer_free(writer);
 }
 
@@ -132,14 +128,14 @@ rename_columns(ss_header **head, const char *path, const tool_texts *names)
         is[tool_column(*head, path, old)] = name;
         free(old);
     }
-    tool_check(ss_header_select(&made, *head, NULL, 0, 0, NULL), NULL);
+    tool_check(ss_header_select(&made, *head, NULL, 0, 0, NULL));
     for (size_t c = 0; c < columns; c++) {
         for (size_t other = 0; other < c; other++)
             if (strcmp(is[c], is[other]) == 0)
                 tool_usage("--name: two columns would have the name '%s'", is[c]);
         if ((*head)->has_time && strcmp(is[c], "t") == 0)
             tool_usage("--name: t is the name of the time");
-        tool_check(ss_header_add_column(made, is[c], (*head)->column[c].unit, NULL), NULL);
+        tool_check(ss_header_add_column(made, is[c], (*head)->column[c].unit, NULL));
     }
     made->has_time = (*head)->has_time;
     ss_header_free(*head);
@@ -161,7 +157,7 @@ tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const t
         column[i] = wanted->n > 0 ? tool_column(head, from, wanted->text[i]) : i;
         some[i] = all[column[i]];
     }
-    tool_check(ss_header_select(&chosen, head, column, n, 0, NULL), NULL);
+    tool_check(ss_header_select(&chosen, head, column, n, 0, NULL));
     if (names->n > 0)
         rename_columns(&chosen, from, names);
     got = tool_rows(reader, all, piece);        /* if this fails, nothing is written */
@@ -304,17 +300,16 @@ tool_script_to(const char *path)
 void
 tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user)
 {
-    ss_error err = { 0 };
     tool_kind kind = tool_output_kind(path, TOOL_PICTURES, TOOL_GP);
     FILE *out = tool_output(path), *script = kind == TOOL_GP ? out : tmpfile();
     if (script == NULL)
         tool_die("gnuplot cannot be started: %s", strerror(errno));
     if (kind != TOOL_GP)
         opts->format = ending[kind];
-    ss_status status = write_script(script, opts, user, &err);
+    ss_status status = write_script(script, opts, user, &tool_error);
     if (status == SS_EIO)
         tool_die("write error: %s", strerror(errno));
-    tool_check(status, &err);
+    tool_check(status);
     if (kind == TOOL_GP)
         return;
     if (fflush(script) != 0 || fseek(script, 0, SEEK_SET) != 0)

@@ -98,9 +98,3 @@ tool_reading_needs(tool_reading *r, const char *const *column, size_t n)
     r->opts.needed = column;
     r->opts.n_needed = n;
 }
-
-void
-tool_reading_free(tool_reading *r)
-{
-    free(r->calibration);
-}

@@ -45,12 +45,11 @@ main(int argc, char *argv[])
     const char *column_name = NULL, *output = NULL;
     int fits = 0, envelope = 0;
     tool_kind kind = TOOL_TSV;
-    tool_reading reading = { 0 };
+    static tool_reading reading;
     ss_backbone_opts opts;
     ss_backbone *found = NULL;
     ss_scene scene;
     ss_plot_opts plot;
-    ss_error err = { 0 };
     ss_backbone_opts_init(&opts, sizeof opts);
     ss_plot_opts_init(&plot, sizeof plot);
     const tool_option options[] = {
@@ -78,21 +77,20 @@ main(int argc, char *argv[])
     const char *path = tool_input(argc, argv, first);
     ss_signal *signal = tool_read_signal(path, &reading.opts);
     size_t column = tool_column(signal->head, path, column_name);
-    ss_status st = ss_backbone_find(&found, signal, column, &opts, &err);
+    ss_status st = ss_backbone_find(&found, signal, column, &opts, &tool_error);
     if (st == SS_OK && fits)
-        st = ss_backbone_scene(&scene, found, signal, column, opts.mass, &err);
-    tool_check_input(st, &err, path);
+        st = ss_backbone_scene(&scene, found, signal, column, opts.mass, &tool_error);
+    tool_check_input(st, path);
     if (found->why != NULL)
         tool_note("no decay: %s", found->why);
     if (fits)
-        tool_check(ss_scene_write(&scene, tool_output(output), &err), &err);
+        tool_check(ss_scene_write(&scene, tool_output(output), &tool_error));
     else if (kind < TOOL_STREAM)
         tool_draw(output, &plot, draw, &(picture){ found, signal, column });
     else
-        tool_check(ss_backbone_write(found, signal, column, tool_output(output), tool_stream(kind), &err), &err);
+        tool_check(ss_backbone_write(found, signal, column, tool_output(output), tool_stream(kind), &tool_error));
     ss_backbone_free(found);
     ss_signal_free(signal);
-    tool_reading_free(&reading);
     tool_end();
     return 0;
 }

@@ -1,8 +1,6 @@
 /* ss-cat.c -- any supported file as a signal stream. */
 #include "options.h"
 
-#include <stdlib.h>
-
 static const char usage[] =
 "usage: ss-cat [options] [FILE[:/dataset]]\n"
 "Read a signal in any supported form, write it as a signal stream.\n"
@@ -42,7 +40,7 @@ say_header(const ss_header *head)
 int
 main(int argc, char *argv[])
 {
-    tool_reading reading = { .time_letter = 't', .rate_letter = 'r' };
+    static tool_reading reading = { .time_letter = 't', .rate_letter = 'r' };
     tool_kind kind = TOOL_TSV;
     const tool_option options[] = {
         TOOL_TEXTS('c', "column", &wanted), TOOL_TEXTS(0, "name", &names), TOOL_OUTPUT(&output), TOOL_FORMAT(&kind) };
@@ -56,9 +54,6 @@ main(int argc, char *argv[])
     ss_reader *reader = tool_read_rows(path, &reading.opts);
     say_header(ss_reader_header(reader));
     tool_copy(reader, path, &wanted, &names, output, kind);
-    tool_reading_free(&reading);
-    free(wanted.text);
-    free(names.text);
     tool_end();
     return 0;
 }

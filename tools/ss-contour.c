@@ -65,7 +65,6 @@ write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
 static void
 draw_rows(drawing *d, ss_reader *reader)
 {
-    ss_error err = { 0 };
     ss_morlet_opts opts;
     ss_morlet_opts_init(&opts, sizeof opts);
     const ss_header *head = ss_reader_header(reader);
@@ -73,7 +72,7 @@ draw_rows(drawing *d, ss_reader *reader)
     opts.fmin = d->opts.fmin > 0 ? d->opts.fmin : LOWEST * head->rate;
     opts.fmax = d->opts.fmax;
     opts.detrend = d->detrend;
-    tool_check(ss_overview_read(&d->overview, reader, column, &opts, &err), &err);
+    tool_check(ss_overview_read(&d->overview, reader, column, &opts, &tool_error));
     d->coefficients = d->overview->coefficients;
     d->opts.signal = d->overview->signal;
     d->opts.top = d->overview->top;
@@ -89,7 +88,7 @@ draw_rows(drawing *d, ss_reader *reader)
 static void
 open_input(drawing *d)
 {
-    ss_error err = { 0 }, other;
+    ss_error other;
     ss_reader *reader = NULL;
     struct stat is;
     d->opts.progress = d->reading.opts.progress = (ss_progress){ tool_progress, d };
@@ -98,16 +97,16 @@ open_input(drawing *d)
         d->coefficients = d->own = tool_read_coefficients(d->path);
         return;
     }
-    ss_status st = ss_coefficients_read(&d->own, NULL, tool_reads(d->path), &err);
+    ss_status st = ss_coefficients_read(&d->own, NULL, tool_reads(d->path), &tool_error);
     if (st == SS_EKIND) {
         st = ss_reader_new(&reader, NULL, d->path, &d->reading.opts, &other);
         if (st == SS_OK)
             draw_rows(d, reader);
         ss_reader_free(reader);
-        tool_check(st, st == SS_EKIND ? &err : &other);
+        tool_check_error(st, st == SS_EKIND ? &tool_error : &other);
         return;
     }
-    tool_check(st, &err);
+    tool_check(st);
     d->coefficients = d->own;
 }
 
@@ -130,7 +129,6 @@ compare_clocks(const ss_signal *signal, const char *path, const ss_coefficients 
 static ss_signal *
 find_signal(drawing *d)
 {
-    ss_error err = { 0 };
     ss_signal *signal = NULL;
     const ss_header *head = d->coefficients->head;
     const char *path = d->signal_path, *column = d->column;
@@ -138,9 +136,9 @@ find_signal(drawing *d)
     if (path != NULL)
         compare_clocks(signal = tool_read_signal(path, &d->reading.opts), path, d->coefficients);
     else if (strcmp(d->path, "-") != 0) {
-        ss_status st = ss_signal_read(&signal, NULL, path = d->path, NULL, &err);
+        ss_status st = ss_signal_read(&signal, NULL, path = d->path, NULL, &tool_error);
         if (st != SS_EKIND)                     /* the file has one */
-            tool_check(st, &err);
+            tool_check(st);
     }
     if (signal == NULL)
         return NULL;
@@ -171,18 +169,17 @@ draw_view(void *user)
 {
     view *v = user;
     drawing *d = v->drawing;
-    ss_error err = { 0 };
     ss_signal *shown;
     ss_morlet_opts opts;
     ss_morlet_opts_init(&opts, sizeof opts);
     opts.fmin = d->opts.fmin;
     opts.fmax = d->opts.fmax;
     opts.detrend = d->detrend;
-    tool_check(ss_signal_new(&shown, v->head, v->n, &err), &err);
+    tool_check(ss_signal_new(&shown, v->head, v->n, &tool_error));
     shown->head->start += (double)v->at / v->head->rate;
     for (size_t c = 0; c < v->head->n_columns; c++)
         memcpy(shown->values + c * v->n, v->x[c] + v->first, v->n * sizeof **v->x);
-    tool_check(ss_morlet_transform(&d->own, shown, v->column, &opts, &err), &err);
+    tool_check(ss_morlet_transform(&d->own, shown, v->column, &opts, &tool_error));
     d->coefficients = d->own;
     d->opts.signal = shown;
     d->opts.column = v->column;
@@ -298,7 +295,6 @@ note_contents(const drawing *d)
 static void
 draw(drawing *d, ss_plot_opts *opts)
 {
-    ss_error err = { 0 };
     open_input(d);
     if (d->overview != NULL && d->signal_path != NULL)
         tool_usage("--signal is for coefficients; %s is a signal", d->path);
@@ -314,8 +310,8 @@ draw(drawing *d, ss_plot_opts *opts)
     if (d->kind < TOOL_STREAM)
         tool_draw(d->output, opts, write_script, d);
     else
-        tool_check(ss_ridge_write(tool_output(d->output), d->coefficients, &d->opts, opts, tool_stream(d->kind), &err),
-                   &err);
+        tool_check(ss_ridge_write(tool_output(d->output), d->coefficients, &d->opts, opts, tool_stream(d->kind),
+                                  &tool_error));
     ss_signal_free(signal);
 }
 
@@ -323,7 +319,7 @@ int
 main(int argc, char *argv[])
 {
     ss_plot_opts opts;
-    drawing d = { .kind = TOOL_GP };
+    static drawing d = { .kind = TOOL_GP };
 
     ss_plot_opts_init(&opts, sizeof opts);
     ss_contour_opts_init(&d.opts, sizeof d.opts);
@@ -338,11 +334,6 @@ main(int argc, char *argv[])
         follow(&d, &opts);
     else
         draw(&d, &opts);
-    tool_reading_free(&d.reading);
-    ss_overlay_free(d.times);
-    ss_overlay_free(d.overlay);
-    ss_coefficients_free(d.own);
-    ss_overview_free(d.overview);
     tool_end();
     return 0;
 }

@@ -77,12 +77,11 @@ static found
 find_features(const request *req, const char *path)
 {
     found f = { .opts = req->opts, .signal = tool_read_signal(path, &req->reading.opts) };
-    ss_error err = { 0 };
     const ss_header *head = f.signal->head;
     f.column = tool_column(head, path, req->column);
     f.opts.displacement = find_column(head, path, req->displacement, usual_displacement);
     f.opts.force = find_column(head, path, req->force, usual_force);
-    tool_check_input(ss_features_find(&f.features, f.signal, f.column, &f.opts, &err), &err, path);
+    tool_check_input(ss_features_find(&f.features, f.signal, f.column, &f.opts, &tool_error), path);
     refer_to_load(head, f.column);
     const size_t motion = (size_t)f.opts.displacement;
     if (req->displacement != NULL && motion != f.column && isfinite(f.features->number[SS_FRICTION].value))
@@ -100,9 +99,8 @@ static void
 write_one(const request *req, const char *path, tool_kind kind)
 {
     found f = find_features(req, path);
-    ss_error err = { 0 };
     tool_check(ss_features_write(f.features, f.signal, f.column, &f.opts, tool_output(req->output),
-                                 tool_stream(kind), &err), &err);
+                                 tool_stream(kind), &tool_error));
     ss_features_free(f.features);
     ss_signal_free(f.signal);
 }
@@ -113,7 +111,6 @@ follow(const request *req, const char *path, tool_kind kind)
 {
     ss_features_stream *stream;
     ss_features_opts opts = req->opts;
-    ss_error err = { 0 };
     ss_reader *reader = tool_read_rows(path, &req->reading.opts);
     const ss_header *head = ss_reader_header(reader);
     size_t n, piece = ss_reader_piece(reader), column = tool_column(head, path, req->column);
@@ -122,12 +119,12 @@ follow(const request *req, const char *path, tool_kind kind)
     opts.progress = (ss_progress){ NULL, NULL };
     double **x = tool_columns(head->n_columns, piece);
     tool_end_at_rows(req->output);
-    tool_check(ss_features_stream_new(&stream, head, column, &opts, tool_output(req->output), tool_stream(kind), &err),
-               &err);
+    tool_check(ss_features_stream_new(&stream, head, column, &opts, tool_output(req->output), tool_stream(kind),
+                                      &tool_error));
     tool_note("rows come at most %.3g s behind the end of a transition", 2 / opts.fmin + 0.2);
     while ((n = tool_rows(reader, x, piece)) > 0)
-        tool_check(ss_features_stream_push(stream, x, n, &err), &err);
-    tool_check(ss_features_stream_end(stream, &err), &err);
+        tool_check(ss_features_stream_push(stream, x, n, &tool_error));
+    tool_check(ss_features_stream_end(stream, &tool_error));
     ss_features_stream_free(stream);
     ss_reader_free(reader);
     free(x);
@@ -146,19 +143,17 @@ static void
 find_one(size_t i, FILE *result, void *user)
 {
     const table *t = user;
-    ss_error err = { 0 };
     found f = find_features(t->req, t->path[i]);
-    tool_check(ss_summary_write(t->path[i], f.features, f.signal, f.column, NULL, result, &err), &err);
+    tool_check(ss_summary_write(t->path[i], f.features, f.signal, f.column, NULL, result, &tool_error));
 }
 
 static void
 add_row(size_t i, FILE *result, const char *why, void *user)
 {
     table *t = user;
-    ss_error err = { 0 };
     t->good += result != NULL;
     if (result == NULL)
-        tool_check(ss_summary_write(t->path[i], NULL, NULL, 0, why, t->rows, &err), &err);
+        tool_check(ss_summary_write(t->path[i], NULL, NULL, 0, why, t->rows, &tool_error));
     for (int c; result != NULL && (c = getc(result)) != EOF;)
         putc(c, t->rows);
 }
@@ -169,7 +164,6 @@ write_table(const request *req, char *const path[], size_t n, tool_kind kind)
 {
     table t = { req, path, tmpfile(), 0 };
     ss_table *all = NULL;
-    ss_error err = { 0 };
     if (t.rows == NULL)
         tool_die("%s", strerror(errno));
     for (size_t i = 0; i < n; i++)
@@ -177,8 +171,8 @@ write_table(const request *req, char *const path[], size_t n, tool_kind kind)
     tool_one_stdin((const char *const *)path, n);
     tool_jobs(path, n, req->jobs, find_one, add_row, &t);
     rewind(t.rows);
-    tool_check(ss_table_read(&all, t.rows, "summaries", SS_KIND_SUMMARIES, &err), &err);
-    tool_check(ss_summaries_write(all, tool_output(req->output), tool_stream(kind), &err), &err);
+    tool_check(ss_table_read(&all, t.rows, "summaries", SS_KIND_SUMMARIES, &tool_error));
+    tool_check(ss_summaries_write(all, tool_output(req->output), tool_stream(kind), &tool_error));
     ss_table_free(all);
     fclose(t.rows);
     return t.good;
@@ -190,7 +184,7 @@ main(int argc, char *argv[])
     static const char *const norms[] = { "l2", "l1", NULL };    /* in the order of ss_norm */
     const ss_range prominences = { 1e-3, 1000 }, positive = { 1e-100, 1e100 }, springs = { 0, 1e100 };
     const ss_range heights = { 1e-300, 1e300 }, jobs = { 1, TOOL_JOBS_MAX };
-    request req = { .kind = TOOL_TSV, .jobs = 1 };
+    static request req = { .kind = TOOL_TSV, .jobs = 1 };
     ss_features_opts_init(&req.opts, sizeof req.opts);
     const tool_option options[] = {
         TOOL_TEXT('c', "column", &req.column), TOOL_NUMBER(0, "threshold", &req.opts.threshold, prominences),
@@ -226,7 +220,6 @@ main(int argc, char *argv[])
         good = write_table(&req, file, n, kind);
     else
         write_one(&req, tool_input(argc, argv, first), kind);
-    tool_reading_free(&req.reading);
     tool_end();
     return good == 0;
 }

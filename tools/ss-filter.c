@@ -2,7 +2,6 @@
 #include "options.h"
 
 #include <float.h>
-#include <stdlib.h>
 
 static const char usage[] =
 "usage: ss-filter [options] [FILE]\n"
@@ -31,11 +30,10 @@ static void
 filter_rows(tool_kind kind, const ss_read_opts *reading)
 {
     ss_reader *reader = tool_read_rows(path, reading);
-    ss_error err = { 0 };
-    ss_status st = ss_reader_filter(reader, &opts, &err);
+    ss_status st = ss_reader_filter(reader, &opts, &tool_error);
     if (st == SS_EINVAL)
-        tool_usage("%s", err.text);
-    tool_check(st, &err);
+        tool_usage("%s", tool_error.text);
+    tool_check(st);
     tool_note("%s", ss_header_find_note(ss_reader_header(reader), "filter"));
     if (opts.order < 0 && !(opts.high_pass > 0))
         tool_warn("%s: an integral without --high-pass drifts with the mean of the signal", tool_input_name(path));
@@ -47,7 +45,7 @@ main(int argc, char *argv[])
 {
     const ss_range edges = { DBL_MIN, DBL_MAX }, stops = { 1, 160 }, derivatives = { 1, 4 },
         integrals = { 1, 2 };
-    tool_reading reading = { 0 };
+    static tool_reading reading;
     tool_kind kind = TOOL_TSV;
     int derivative = 0, integral = 0;
     ss_filter_opts_init(&opts, sizeof opts);
@@ -70,9 +68,6 @@ main(int argc, char *argv[])
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     reading.opts.progress = (ss_progress){ tool_progress, output != NULL ? &reading : NULL };
     filter_rows(kind, &reading.opts);
-    tool_reading_free(&reading);
-    free(wanted.text);
-    free(names.text);
     tool_end();
     return 0;
 }

@@ -135,7 +135,7 @@ static void
 open_output(flow *f, const request *req, const ss_header *signal, size_t column, size_t n, const ss_grid *on)
 {
     ss_header *head;
-    tool_check(ss_coefficients_header(&head, signal, column, n, &req->opts, &f->error), &f->error);
+    tool_check_error(ss_coefficients_header(&head, signal, column, n, &req->opts, &f->error), &f->error);
     const ss_coefficients grid = { .head = head, .n = n, .center = req->opts.center, .n_scales = on->n_scales,
                                    .scale = (ss_scale *)on->scale };
     f->writer = tool_writer(req->output, req->kind, &(ss_contents){ signal, &grid, 0, n });
@@ -144,13 +144,13 @@ open_output(flow *f, const request *req, const ss_header *signal, size_t column,
 
 /* Die if the transform has failed, because of the output or of the library; rows that are written stay. */
 static void
-check_flow(const flow *f, ss_status status, const ss_error *err, const char *path)
+check_flow(const flow *f, ss_status status, const char *path)
 {
     if (status == SS_STOP)
-        tool_check(SS_EIO, &f->error);
+        tool_check_error(SS_EIO, &f->error);
     if (status != SS_OK)
         fflush(NULL);
-    tool_check_input(status, err, path);
+    tool_check_input(status, path);
 }
 
 /* --- a record that is there --------------------------------------------------------------------- */
@@ -159,9 +159,8 @@ static void
 compare(const ss_morlet *plan, const double *x, const double *w, const char *path)
 {
     enum { EACH = 20 };                 /* coefficients of a scale */
-    ss_error err = { 0 };
     double difference;
-    tool_check_input(ss_morlet_compare(plan, x, w, EACH, &difference, &err), &err, path);
+    tool_check_input(ss_morlet_compare(plan, x, w, EACH, &difference, &tool_error), path);
     tool_warn("differs from the sum in full by at most %.2g of the largest |W| of a scale, "
               "at %d coefficients of each", difference, (int)EACH);
 }
@@ -183,7 +182,6 @@ transform_whole(const request *req, const char *path)
 {
     flow f = { .writer = NULL };
     ss_morlet *plan = NULL;
-    ss_error err = { 0 };
     ss_read_opts reading = req->reading.opts;
     reading.progress = (ss_progress){ tool_reading_progress, NULL };
     ss_signal *signal = tool_read_signal(path, &reading);
@@ -192,16 +190,16 @@ transform_whole(const request *req, const char *path)
     ss_morlet_opts opts = req->opts;
     opts.progress.function = tool_progress;
     double begin = tool_seconds();
-    tool_check_input(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &err), &err, path);
+    tool_check_input(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &tool_error), path);
     if (req->check)
         f.w = tool_room(NULL, 2 * ss_morlet_grid(plan)->total, sizeof *f.w);
     open_output(&f, req, signal->head, column, signal->n, ss_morlet_grid(plan));
     double **all = tool_room(NULL, signal->head->n_columns, sizeof *all);
     for (size_t c = 0; c < signal->head->n_columns; c++)
         all[c] = signal->values + c * signal->n;
-    tool_check(ss_writer_rows(f.writer, all, signal->n, &err), &err);
+    tool_check(ss_writer_rows(f.writer, all, signal->n, &tool_error));
     free(all);
-    check_flow(&f, ss_morlet_each(plan, x, write_coefficients, &f, &err), &err, path);
+    check_flow(&f, ss_morlet_each(plan, x, write_coefficients, &f, &tool_error), path);
     say_what_was_done(plan, signal->n, tool_seconds() - begin - f.seconds);
     if (req->check)
         compare(plan, x, f.w, path);
@@ -217,11 +215,9 @@ invert(const request *req, const char *path)
 {
     ss_coefficients *coef = tool_read_coefficients(path);
     ss_signal *signal;
-    ss_error err = { 0 };
     double error, accuracy = tool_given("accuracy") ? req->opts.accuracy : 1e-3;
     const ss_progress progress = { tool_progress, &error };
-    tool_check_input(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, progress, &err), &err,
-          path);
+    tool_check_input(ss_morlet_inverse(&signal, coef, fmax(accuracy, 1e-12), &error, progress, &tool_error), path);
     const char *norm = ss_header_find_note(coef->head, "norm");
     tool_note("%zu samples from coefficients of the norm %s, error about %.2g between %.4g and %.4g Hz", signal->n,
               norm != NULL ? norm : "l2", error, coef->scale[0].f, coef->scale[coef->n_scales - 1].f);
@@ -238,13 +234,12 @@ invert(const request *req, const char *path)
 static void
 push_samples(flow *f, const double *x, size_t n, const request *req, const char *path)
 {
-    ss_error err = { 0 };
     int one_by_one = req->opts.engine == SS_ENGINE_QUADRATURE;
     size_t step = one_by_one ? 1 : n;
     for (size_t i = 0; i < n; i += step) {
-        check_flow(f, ss_stream_push(f->stream, x + i, step, &err), &err, path);
+        check_flow(f, ss_stream_push(f->stream, x + i, step, &tool_error), path);
         if (one_by_one)
-            check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
+            check_flow(f, ss_stream_drain(f->stream, &tool_error), path);
     }
 }
 
@@ -255,23 +250,22 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
     const ss_header *head = ss_reader_header(reader);
     size_t n, piece = ss_reader_piece(reader);
     double **x = tool_columns(head->n_columns, piece);
-    ss_error bad = { 0 }, err = { 0 };
     do {
-        ss_status st = ss_reader_rows(reader, x, piece, &n, &bad);
+        ss_status st = ss_reader_rows(reader, x, piece, &n, &tool_error);
         if (tool_stopping() && f->samples > 0)
             n = 0, st = SS_OK;          /* the last row may be a part of one */
         f->samples += n;
         if (f->samples == 0)                   /* then nothing is written */
-            tool_check(st, &bad);
+            tool_check(st);
         if (f->writer == NULL)
             open_output(f, req, head, column, 0, ss_stream_grid(f->stream));
-        tool_check(ss_writer_rows(f->writer, x, n, &err), &err);
+        tool_check(ss_writer_rows(f->writer, x, n, &tool_error));
         push_samples(f, x[column], n, req, path);
         if (st != SS_OK)                /* coefficients that are complete before bad data are written */
-            check_flow(f, ss_stream_drain(f->stream, &err), &err, path);
+            check_flow(f, ss_stream_drain(f->stream, &tool_error), path);
         if ((st != SS_OK || ss_reader_waits(reader)) && fflush(NULL) != 0)
-            tool_check(SS_EIO, NULL);
-        tool_check(st, &bad);
+            tool_check(SS_EIO);
+        tool_check(st);
     } while (n > 0 && !tool_stopping());
     free(x);
 }
@@ -279,9 +273,8 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
 static void
 close_flow(flow *f, const char *path)
 {
-    ss_error err = { 0 };
     size_t scales = ss_stream_grid(f->stream)->n_scales;
-    check_flow(f, ss_stream_end(f->stream, &err), &err, path);
+    check_flow(f, ss_stream_end(f->stream, &tool_error), path);
     tool_write_end(f->writer, f->samples);
     tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
               f->samples, scales, ss_stream_grid(f->stream)->scale[0].f,
@@ -293,12 +286,11 @@ static void
 transform_stream(const request *req, const char *path)
 {
     flow f = { .writer = NULL };
-    ss_error err = { 0 };
     ss_reader *reader = tool_read_rows(path, &req->reading.opts);
     const ss_header *head = ss_reader_header(reader);
     size_t column = tool_column(head, path, req->column);
     tool_end_at_rows(req->output);
-    tool_check_input(ss_stream_new(&f.stream, head->rate, &req->opts, write_coefficients, &f, &err), &err, path);
+    tool_check_input(ss_stream_new(&f.stream, head->rate, &req->opts, write_coefficients, &f, &tool_error), path);
     const ss_scale *scale = ss_stream_grid(f.stream)->scale;
     size_t last = ss_stream_grid(f.stream)->n_scales - 1;
     tool_note("coefficients come at most %.3g s (of %.4g Hz) to %.3g s (of %.4g Hz) behind b",
@@ -312,7 +304,7 @@ transform_stream(const request *req, const char *path)
 int
 main(int argc, char *argv[])
 {
-    request req = { .kind = TOOL_TSV };
+    static request req = { .kind = TOOL_TSV };
     ss_morlet_opts_init(&req.opts, sizeof req.opts);
 
     tool_begin(argv, "ss-morlet", usage);
@@ -327,7 +319,6 @@ main(int argc, char *argv[])
         transform_stream(&req, path);
     else
         transform_whole(&req, path);
-    tool_reading_free(&req.reading);
     tool_end();
     return 0;
 }

@@ -49,8 +49,7 @@ static size_t n_converted, n_clipped;
 static void
 convert(double *x, size_t n)
 {
-    ss_error err = { 0 };
-    tool_check(ss_samples_quantise(x, n, bits, range, &n_clipped, &err), &err);
+    tool_check(ss_samples_quantise(x, n, bits, range, &n_clipped, &tool_error));
     n_converted += n;
 }
 
@@ -76,13 +75,13 @@ add_notes(ss_header *head)
         snprintf(text, sizeof text, "%s %s%s%s%s%s%s%s, seed %d", isnan(rms) ? "snr" : "rms",
                  number, isnan(rms) ? " dB" : "", isnan(band[0]) ? "" : ", ", limit[0],
                  isnan(band[0]) ? "" : " to ", limit[1], isnan(band[0]) ? "" : " Hz", seed);
-        tool_check(ss_header_note(head, "noise", text, NULL), NULL);
+        tool_check(ss_header_note(head, "noise", text, NULL));
     }
     if (bits > 0) {
         ss_number_format(number, range);
         snprintf(text, sizeof text, "%d bits, range %s", bits, number);
-        tool_check(ss_header_note(head, "converter", text, NULL), NULL);
-        tool_check(ss_header_note(head, "clipped", NULL, NULL), NULL);    /* by another converter; ours comes last */
+        tool_check(ss_header_note(head, "converter", text, NULL));
+        tool_check(ss_header_note(head, "clipped", NULL, NULL));    /* by another converter; ours comes last */
     }
 }
 
@@ -104,7 +103,6 @@ add_band(tool_kind kind, ss_noise *noise)
     ss_signal *signal = tool_read_signal(path, &reading.opts);
     size_t n = signal->n, columns = signal->head->n_columns;
     char text[128];
-    ss_error err = { 0 };
     double *chosen = choose_columns(signal->head), *x = signal->values;
     for (size_t c = 0; c < columns; c++, x += n) {
         if (chosen[c] == 0)
@@ -114,13 +112,13 @@ add_band(tool_kind kind, ss_noise *noise)
         double level = report(signal->head, c, isnan(rms) ? ss_variance_noise(&variance, snr) : rms);
         if (level > 0)
             tool_check(ss_noise_add_band(noise, x, n, signal->head->rate, (ss_range){ band[0], band[1] }, level,
-                                         &err), &err);
+                                         &tool_error));
         if (bits > 0)
             convert(x, n);
     }
     add_notes(signal->head);
     if (note_clipped(text, sizeof text))
-        tool_check(ss_header_note(signal->head, "clipped", text, NULL), NULL);
+        tool_check(ss_header_note(signal->head, "clipped", text, NULL));
     tool_write(signal, output, kind);
     ss_signal_free(signal);
     free(chosen);
@@ -132,7 +130,6 @@ find_levels(ss_reader *reader, const double *chosen, double *const x[])
 {
     const ss_header *head = ss_reader_header(reader);
     size_t columns = head->n_columns, n;
-    ss_error err = { 0 };
     double *level = tool_room(NULL, columns, sizeof *level);
     ss_variance *variance = tool_room(NULL, columns, sizeof *variance);
     memset(variance, 0, columns * sizeof *variance);
@@ -140,7 +137,7 @@ find_levels(ss_reader *reader, const double *chosen, double *const x[])
         for (size_t c = 0; c < columns; c++)
             ss_variance_add(&variance[c], x[c], n);
     if (!isnan(snr))
-        tool_check(ss_reader_rewind(reader, &err), &err);
+        tool_check(ss_reader_rewind(reader, &tool_error));
     for (size_t c = 0; c < columns; c++)
         level[c] = chosen[c] == 0 || (isnan(snr) && isnan(rms)) ? 0
             : report(head, c, isnan(rms) ? ss_variance_noise(&variance[c], snr) : rms);
@@ -156,23 +153,22 @@ change_rows(tool_kind kind, ss_noise *noise)
     ss_reader *reader = tool_read_rows(path, &reading.opts);
     size_t n, all = 0;
     char text[128];
-    ss_error err = { 0 };
     ss_header *head = NULL;
     size_t columns = ss_reader_header(reader)->n_columns, piece = ss_reader_piece(reader);
-    tool_check(ss_header_select(&head, ss_reader_header(reader), NULL, columns, 0, &err), &err);
+    tool_check(ss_header_select(&head, ss_reader_header(reader), NULL, columns, 0, &tool_error));
     double **x = tool_columns(columns, piece), *chosen = choose_columns(head), *level = find_levels(reader, chosen, x);
     add_notes(head);
     n = tool_rows(reader, x, piece);            /* if this fails, nothing is written */
     ss_writer *out = tool_writer(output, kind, &(ss_contents){ .signal = head });
     for (; n > 0; all += n, n = tool_rows(reader, x, piece)) {
-        tool_check(ss_noise_add(noise, x, columns, n, level, &err), &err);
+        tool_check(ss_noise_add(noise, x, columns, n, level, &tool_error));
         for (size_t c = 0; c < columns && bits > 0; c++)
             if (chosen[c] == 1)
                 convert(x[c], n);
         tool_write_rows(out, x, n);
     }
     if (note_clipped(text, sizeof text))
-        tool_check(ss_writer_note(out, "clipped", text, &err), &err);
+        tool_check(ss_writer_note(out, "clipped", text, &tool_error));
     tool_write_end(out, all);
     ss_header_free(head);
     ss_reader_free(reader);
@@ -194,7 +190,6 @@ main(int argc, char *argv[])
     const ss_range of_bits = { 1, SS_BITS_MAX }, seeds = { 0, 0x7fffffff };
     tool_kind kind = TOOL_TSV;
     ss_noise *noise;
-    ss_error err = { 0 };
     const tool_option options[] = {
         TOOL_NUMBER(0, "snr", &snr, decibels), TOOL_NUMBER(0, "rms", &rms, size),
         TOOL_VALUE(0, "band", set_band, band), TOOL_WHOLE(0, "bits", &bits, of_bits),
@@ -215,14 +210,12 @@ main(int argc, char *argv[])
     tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
     path = tool_input(argc, argv, first);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
-    tool_check(ss_noise_new(&noise, (unsigned long)seed, &err), &err);
+    tool_check(ss_noise_new(&noise, (unsigned long)seed, &tool_error));
     if (!isnan(band[0]))
         add_band(kind, noise);
     else
         change_rows(kind, noise);
     ss_noise_free(noise);
-    tool_reading_free(&reading);
-    free(wanted.text);
     tool_end();
     return 0;
 }

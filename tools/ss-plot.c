@@ -164,10 +164,9 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
          ss_plot_opts *opts)
 {
     map_drawing d = { .table = NULL };
-    ss_error err = { 0 };
     FILE *in = tool_open(path);
     double *curve = line != NULL ? read_line(line, &opts->n_curve) : NULL;
-    tool_check(ss_table_read(&d.table, in, tool_input_name(path), SS_KIND_SWEEP, &err), &err);
+    tool_check(ss_table_read(&d.table, in, tool_input_name(path), SS_KIND_SWEEP, &tool_error));
     if (in != stdin)
         fclose(in);
     d.n = find_columns(d.table, path, names, d.column, MAP_COLUMNS);
@@ -230,7 +229,6 @@ draw_signal(const char *path, const tool_texts *name, drawing d, char *const ove
 {
     const char *names[SS_PLOT_OVER + 1] = { tool_file_name(path) };
     ss_reader *others[SS_PLOT_OVER];
-    ss_error err = { 0 };
     ss_read_opts plainly, *as = opts->alike ? reading : &plainly;
     ss_read_opts_init(&plainly, sizeof plainly);
     plainly.folder = reading->folder;
@@ -251,13 +249,13 @@ draw_signal(const char *path, const tool_texts *name, drawing d, char *const ove
     opts->features = overlay;
     if (d.spectrum) {
         d.density = tool_room(NULL, d.n, sizeof *d.density);
-        tool_check(ss_plot_spectra(d.density, d.reader, d.column, d.n, opts, &err), &err);
+        tool_check(ss_plot_spectra(d.density, d.reader, d.column, d.n, opts, &tool_error));
         for (size_t i = 0; i < d.n; i++)
             d.density[i]->decibels = opts->decibels;
     }
     if (d.kind >= TOOL_STREAM)
         tool_check(ss_spectra_write(d.density, head, d.column, d.n, tool_output(output), tool_stream(d.kind),
-                                    &err), &err);
+                                    &tool_error));
     else
         tool_draw(output, opts, write_script, &d);
     ss_overlay_free(overlay);
@@ -274,10 +272,10 @@ int
 main(int argc, char *argv[])
 {
     ss_plot_opts opts;
-    tool_reading reading = { .rate_letter = 'r' };
+    static tool_reading reading = { .rate_letter = 'r' };
     const char *output = NULL, *features = NULL, *map = NULL, *line = NULL;
     char *over = NULL;
-    tool_texts wanted = { NULL, 0 }, xy = { NULL, 0 };
+    static tool_texts wanted, xy;
     drawing d = { .kind = TOOL_GP };
     const tool_option options[] = {
         TOOL_FLAG(0, "spectrum", &d.spectrum), TOOL_FLAG(0, "db", &opts.decibels),
@@ -338,9 +336,6 @@ main(int argc, char *argv[])
         draw_map(path, map, line, output, &opts);
     else
         draw_signal(path, d.xy ? &xy : &wanted, d, others, n_others, features, output, &reading.opts, &opts);
-    free(wanted.text);
-    free(xy.text);
-    tool_reading_free(&reading);
     tool_end();
     return 0;
 }

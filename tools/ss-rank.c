@@ -156,17 +156,16 @@ rank(const job *j, const ss_signal *signal, size_t column)
     ss_scene *scene = tool_room(NULL, j->n_scenes, sizeof *scene);
     char **name = tool_room(NULL, j->n_scenes, sizeof *name);
     ss_ranking *r = NULL;
-    ss_error err = { 0 };
     for (size_t i = 0; i < j->n_scenes; i++) {
         scene[i] = tool_read_scene(j->scenes[i], &j->settings, "--set");
         name[i] = tool_name_scene(j->scenes[i], &j->settings);
     }
-    tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, &j->opts, &err), &err);
+    tool_check(ss_ranking_new(&r, signal, column, scene, j->n_scenes, &j->opts, &tool_error));
     note_work(r, name, &j->opts);
     const ss_ranking_text about = {
         .signal = j->signal_name, .column = signal->head->column[column].name,
         .known_by = j->known_by, .scene = (const char *const *)name, .brief = !j->all };
-    tool_check(ss_ranking_write(r, &about, &j->opts, tool_output(j->output), tool_stream(j->kind), &err), &err);
+    tool_check(ss_ranking_write(r, &about, &j->opts, tool_output(j->output), tool_stream(j->kind), &tool_error));
     for (size_t i = 0; i < j->n_scenes; i++)
         free(name[i]);
     free(name);
@@ -178,8 +177,7 @@ static void
 fit_contact(const job *j, const ss_signal *signal, size_t column, const ss_scene *start)
 {
     ss_fit f;
-    ss_error err = { 0 };
-    tool_check(ss_scene_fit(&f, signal, column, start, &j->opts, &err), &err);
+    tool_check(ss_scene_fit(&f, signal, column, start, &j->opts, &tool_error));
     if (!f.conclusive)
         tool_die("%s: cannot tell: %s", tool_input_name(j->signal_path), f.why);
     FILE *out = tool_output(j->output);
@@ -291,11 +289,10 @@ fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *s
     const double k_over_m = start->stiffness / start->mass;
     const double loading = fabs(start->stiffness * (start->base_velocity - start->surface_velocity));
     ss_pull *p = NULL;
-    ss_error err = { 0 };
     if (j->opts.quantity != SS_SPRING)
         tool_die("column %s is taken as %s; a pull is fitted to the spring's force, --as s",
                  signal->head->column[column].name, ss_quantity_names[j->opts.quantity]);
-    tool_check(ss_pull_fit(&p, signal, column, start, &j->opts, &err), &err);
+    tool_check(ss_pull_fit(&p, signal, column, start, &j->opts, &tool_error));
     if (p->verdict != SS_NAMED)
         tool_die("%s: %s: %s", tool_input_name(j->signal_path),
                  p->verdict == SS_NONE_FITS ? "none of these" : "cannot tell", p->why);
@@ -350,14 +347,13 @@ write_residual(const job *j, const ss_signal *signal, size_t motion, size_t forc
     const double *t = signal->values + column[2] * n;
     static const char *const name[] = { "predicted", "left", "stamp" };
     ss_signal *out = NULL;
-    ss_error err = { 0 };
     ss_header *head = NULL;
-    tool_check(ss_header_select(&head, signal->head, column, 2, 0, &err), &err);
+    tool_check(ss_header_select(&head, signal->head, column, 2, 0, &tool_error));
     for (size_t i = 0; i < 3; i++) {
         const ss_column *alike = &signal->head->column[i < 2 ? force : column[2]];
-        tool_check(ss_header_add_column(head, name[i], alike->unit, &err), &err);
+        tool_check(ss_header_add_column(head, name[i], alike->unit, &tool_error));
     }
-    tool_check(ss_signal_new(&out, head, n, &err), &err);
+    tool_check(ss_signal_new(&out, head, n, &tool_error));
     for (size_t i = 0; i < n; i++) {
         const double row[] = { x[i], f[i], r->predicted[i], f[i] - r->predicted[i], t[i] };
         for (size_t k = 0; k < sizeof row / sizeof *row; k++)
@@ -372,7 +368,6 @@ static void
 write_law(const job *j, const ss_motion_ranking *r)
 {
     ss_scene scene = r->scene;
-    ss_error err = { 0 };
     if (r->verdict != SS_NAMED)
         tool_die("%s: %s", tool_input_name(j->signal_path), r->answer);
     if (scene.model == NULL)
@@ -384,17 +379,17 @@ write_law(const job *j, const ss_motion_ranking *r)
         if (equals == NULL)
             tool_usage("--set: '%s' is not KEY=VALUE", j->settings.text[i]);
         snprintf(key, sizeof key, "%.*s", (int)(equals - j->settings.text[i]), j->settings.text[i]);
-        if (ss_scene_set_text(&scene, key, equals + 1, &err) != SS_OK)
-            tool_usage("--set: %s", err.text);
+        if (ss_scene_set_text(&scene, key, equals + 1, &tool_error) != SS_OK)
+            tool_usage("--set: %s", tool_error.text);
     }
-    tool_check(ss_scene_check(&scene, &err), &err);
+    tool_check(ss_scene_check(&scene, &tool_error));
     for (size_t i = 0; i < r->n_numbers; i++)
         if (strstr(r->number[i].name, "_negative") != NULL && isnan(ss_scene_get(&scene, r->number[i].name)))
             tool_warn("the scene lacks %s: its model has the same on both sides", r->number[i].name);
     FILE *out = tool_output(j->output);
     fprintf(out, "# %s, by %s.\n# Something must move it: base_amplitude and base_frequency, or ss-sim --base=FILE.\n",
             r->answer, j->signal_name);
-    tool_check(ss_scene_write(&scene, out, &err), &err);
+    tool_check(ss_scene_write(&scene, out, &tool_error));
 }
 
 /* For tool_draw. */
@@ -426,7 +421,6 @@ rank_motion(job *j)
     if (j->fits && !(is_set(j, "mass=") && is_set(j, "stiffness=")))
         tool_usage("--fit needs --set=mass=KG and --set=stiffness=N/m of the rig in which the law is to move");
     ss_motion_ranking *r = NULL;
-    ss_error err = { 0 };
     ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
     const size_t motion = tool_column(signal->head, j->signal_path, j->motion);
     const size_t force = tool_column(signal->head, j->signal_path, j->column_name);
@@ -435,13 +429,13 @@ rank_motion(job *j)
     set_motion(j, &signal->head->column[motion]);
     j->motion_opts.time = signal->values + (signal->head->n_columns - 1) * signal->n;
     j->motion_opts.progress = (ss_progress){ tool_progress, j };
-    tool_check(ss_motion_ranking_new(&r, signal, motion, force, &j->motion_opts, &err), &err);
+    tool_check(ss_motion_ranking_new(&r, signal, motion, force, &j->motion_opts, &tool_error));
     if (j->fits)
         write_law(j, r);
     else if (j->kind < TOOL_STREAM)
         draw(j, write_motion, &(drawn){ signal, motion, force, r });
     else
-        tool_check(ss_motion_ranking_write(r, tool_output(j->output), tool_stream(j->kind), &err), &err);
+        tool_check(ss_motion_ranking_write(r, tool_output(j->output), tool_stream(j->kind), &tool_error));
     if (j->residual != NULL && r->rows == 0)
         tool_warn("%s, so no residual is written", r->answer);
     else if (j->residual != NULL)
@@ -475,7 +469,6 @@ static void
 fit_load(job *j)
 {
     const double stiffness = given_stiffness(&j->settings);
-    ss_error err = { 0 };
     ss_steps *steps = NULL;
     ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
     const size_t load = tool_column(signal->head, j->signal_path, j->load);
@@ -488,14 +481,14 @@ fit_load(job *j)
                  signal->head->column[friction].name, signal->head->column[friction].unit);
     if (signal->head->column[load].unit[0] == '\0')
         tool_die("column %s has no unit: --unit %s=um says that it is in um", j->load, j->load);
-    tool_check(ss_steps_new(&steps, signal, load, friction, normal, stiffness, j->shared, &err), &err);
+    tool_check(ss_steps_new(&steps, signal, load, friction, normal, stiffness, j->shared, &tool_error));
     for (size_t i = 0; i < steps->n; i++)
         tool_note("step at %.9g s: %zu rows, noise of %.2g", steps->step[i].at, steps->step[i].n,
                   steps->step[i].law[steps->step[i].best].noise);
     if (j->kind < TOOL_STREAM)
         draw(j, write_steps, steps);
     else
-        tool_check(ss_steps_write(steps, tool_output(j->output), tool_stream(j->kind), &err), &err);
+        tool_check(ss_steps_write(steps, tool_output(j->output), tool_stream(j->kind), &tool_error));
     ss_steps_free(steps);
     ss_signal_free(signal);
 }
@@ -608,7 +601,7 @@ rank_signal(job *j)
 int
 main(int argc, char *argv[])
 {
-    job j = { .kind = TOOL_TSV, .as = -1 };
+    static job j = { .kind = TOOL_TSV, .as = -1 };
 
     tool_begin(argv, "ss-rank", usage);
     ss_rank_opts_init(&j.opts, sizeof j.opts);
@@ -622,9 +615,6 @@ main(int argc, char *argv[])
         fit_load(&j);
     else
         rank_signal(&j);
-    tool_reading_free(&j.reading);
-    free(j.settings.text);
-    free(j.signal_name);
     tool_end();
     return 0;
 }

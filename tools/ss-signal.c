@@ -68,7 +68,6 @@ main(int argc, char *argv[])
     ss_wave_opts_init(&opts, sizeof opts);
     int seed = (int)opts.seed;
     ss_signal *signal;
-    ss_error err = { 0 };
     const tool_option options[] = {
         TOOL_NUMBER('r', "rate", &opts.rate, rates),
         TOOL_NUMBER('d', "duration", &opts.duration, durations),
@@ -91,7 +90,7 @@ main(int argc, char *argv[])
     check_sense(wave, &opts);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
 
-    tool_check(ss_wave_new(&signal, wave, &opts, &err), &err);
+    tool_check(ss_wave_new(&signal, wave, &opts, &tool_error));
     tool_note("%s: %zu sample%s", kinds[wave], signal->n, tool_s(signal->n));
     tool_write(signal, output, kind);
     ss_signal_free(signal);

@@ -119,7 +119,7 @@ write_scene(const request *req, const ss_scene *scene)
     FILE *out = tool_output(req->path);
     fprintf(out, "# %s\n", name);
     free(name);
-    tool_check(ss_scene_write(scene, out, NULL), NULL);
+    tool_check(ss_scene_write(scene, out, NULL));
 }
 
 /* Let the base move as it was measured, in place of the scene's base.  A column follows the last colon,
@@ -128,7 +128,6 @@ static void
 set_base(ss_scene *scene, const char *given)
 {
     static ss_base *base;
-    ss_error err = { 0 };
     char *path = strdup(given), *colon = path != NULL ? strrchr(path, ':') : NULL;
     if (path == NULL)
         tool_die("%s", ss_strerror(SS_ENOMEM));
@@ -137,7 +136,7 @@ set_base(ss_scene *scene, const char *given)
         *colon = '\0';
         column = colon + 1;
     }
-    tool_check_base(ss_base_load(&base, tool_reads(path), column, &err), &err);
+    tool_check_base(ss_base_load(&base, tool_reads(path), column, &tool_error));
     const char *slash = strrchr(path, '/');
     snprintf(scene->base_file, sizeof scene->base_file, "%s", slash != NULL ? slash + 1 : path);
     snprintf(scene->base_column, sizeof scene->base_column, "%s", column);
@@ -150,12 +149,11 @@ set_base(ss_scene *scene, const char *given)
 static void
 set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
 {
-    ss_error err = { 0 };
     if (accuracy > 0) {
-        ss_status st = ss_trade_choose(opts, scene, accuracy, &err);
+        ss_status st = ss_trade_choose(opts, scene, accuracy, &tool_error);
         if (st == SS_EINVAL)
-            tool_usage("--accuracy: %s", err.text);
-        tool_check(st, &err);
+            tool_usage("--accuracy: %s", tool_error.text);
+        tool_check(st);
         tool_note("accuracy %g: method %s, tol %g", accuracy, opts->method, opts->tol);
         return;
     }
@@ -193,9 +191,8 @@ note_origin(ss_header *head, const request *req)
 static void
 set_columns(const tool_option *o, char *text)
 {
-    ss_error err = { 0 };
-    if (ss_sim_columns_parse(o->to, text, &err) != SS_OK)
-        tool_usage("--columns: %s", err.text);
+    if (ss_sim_columns_parse(o->to, text, &tool_error) != SS_OK)
+        tool_usage("--columns: %s", tool_error.text);
 }
 
 static void
@@ -234,17 +231,16 @@ static void
 simulate(request *req, const ss_scene *scene, output *o)
 {
     ss_sim_stats stats = { 0 };
-    ss_error err = { 0 };
     req->opts.user = req->opts.progress.user = o;
     if (o->contents.events)
         req->opts.events = stream_event;
     if (!req->events)
         req->opts.samples = stream_samples;
     tool_end_at_rows(req->path);
-    ss_status st = ss_sim_run(scene, &req->opts, &stats, &err);
+    ss_status st = ss_sim_run(scene, &req->opts, &stats, &tool_error);
     if (st == SS_STOP && !tool_stopping())
-        tool_check(SS_EIO, &o->error);
-    tool_check(st, &err);
+        tool_check_error(SS_EIO, &o->error);
+    tool_check(st);
     tool_note("%s at tol %g: steps: %lu, right-hand sides: %lu, events: %lu", req->opts.method,
               req->opts.tol, stats.steps, stats.rhs, stats.events);
     if (stats.unresolved > 0 && req->accuracy == 0)     /* an accuracy was checked by two methods */
@@ -255,7 +251,7 @@ simulate(request *req, const ss_scene *scene, output *o)
 int
 main(int argc, char *argv[])
 {
-    request req = { .kind = TOOL_TSV };
+    static request req = { .kind = TOOL_TSV };
     output o = { .req = &req };
 
     tool_begin(argv, "ss-sim", usage);
@@ -264,7 +260,6 @@ main(int argc, char *argv[])
     ss_scene scene = tool_read_scene(req.scene_path, &req.settings, "--set");
     if (req.list) {
         write_scene(&req, &scene);
-        free(req.settings.text);
         tool_end();
         return 0;
     }
@@ -272,10 +267,9 @@ main(int argc, char *argv[])
         set_base(&scene, req.base);
     check_samples(&req, &scene);
     set_method(&req.opts, &scene, req.accuracy);
-    ss_error err = { 0 };
     ss_header *head;
     int has_events = ss_model_has_events(scene.model);
-    tool_check(ss_sim_header(&head, &scene, &req.columns, &err), &err);
+    tool_check(ss_sim_header(&head, &scene, &req.columns, &tool_error));
     note_origin(head, &req);
     if (req.events && !has_events)
         tool_warn("the %s model has no events", ss_model_name(scene.model));
@@ -285,7 +279,6 @@ main(int argc, char *argv[])
     begin(&o);
     tool_write_end(o.writer, o.samples);
     ss_header_free(head);
-    free(req.settings.text);
     tool_end();
     return 0;
 }

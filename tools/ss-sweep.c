@@ -101,10 +101,9 @@ static void
 add_axis(const tool_option *o, char *text)
 {
     request *req = o->to;
-    ss_error err = { 0 };
     req->axis = tool_room(req->axis, req->opts.n_axes + 1, sizeof *req->axis);
-    if (ss_axis_parse(&req->axis[req->opts.n_axes++], text, &err) != SS_OK)
-        tool_usage("--vary: %s", err.text);
+    if (ss_axis_parse(&req->axis[req->opts.n_axes++], text, &tool_error) != SS_OK)
+        tool_usage("--vary: %s", tool_error.text);
 }
 
 static void
@@ -192,8 +191,7 @@ read_scene(const request *req)
 int
 main(int argc, char *argv[])
 {
-    request req = { .kind = TOOL_TSV };
-    ss_error err = { 0 };
+    static request req = { .kind = TOOL_TSV };
     ss_steady_opts_init(&req.steady, sizeof req.steady);
     ss_sweep_opts_init(&req.opts, sizeof req.opts);
     req.opts.steady = &req.steady;
@@ -206,8 +204,8 @@ main(int argc, char *argv[])
     if (req.n_picks == 0)
         pick_usual(&req, &scene);
     req.opts.axis = req.axis;
-    if (ss_sweep_check(&scene, &req.opts, &err) != SS_OK)
-        tool_usage("%s", err.text);
+    if (ss_sweep_check(&scene, &req.opts, &tool_error) != SS_OK)
+        tool_usage("%s", tool_error.text);
 
     char *name = tool_name_scene(req.scene_path, &req.settings);
     req.text = (ss_sweep_text){ .name = name, .scene = &scene, .opts = &req.opts,
@@ -216,13 +214,10 @@ main(int argc, char *argv[])
     tool_end_at_rows(req.path);
     FILE *out = req.resume != NULL ? tool_output_kept(req.resume) : tool_output(req.path);
     ss_sweep_done done;
-    tool_check(ss_sweep_write(&req.text, out, req.resume, &done, &err), &err);
+    tool_check(ss_sweep_write(&req.text, out, req.resume, &done, &tool_error));
     if (req.resume != NULL)
         tool_note("%s: rows that were there: %zu", req.resume, done.kept);
     tool_note("%zu point%s, incomplete: %zu", done.rows, tool_s(done.rows), done.failed);
-    free(name);
-    free(req.settings.text);
-    free(req.axis);
     tool_end();
     return 0;
 }

@@ -119,12 +119,11 @@ static ss_trade *
 measure_scene(request *req)
 {
     ss_trade *trade = NULL;
-    ss_error err = { 0 };
     if (req->column != NULL || req->dense || req->reading.given)
         tool_usage("--column, --dense and options of reading are for a signal, and %s is a scene", req->path);
     ss_scene scene = tool_read_scene(req->path, &req->settings, "--set");
     req->name = tool_name_scene(req->path, &req->settings);
-    tool_check(ss_trade_measure(&trade, &scene, &req->opts, &err), &err);
+    tool_check(ss_trade_measure(&trade, &scene, &req->opts, &tool_error));
     tool_note("%zu row%s against %s, whose x is known within %.2g of its maximum", trade->n,
               tool_s(trade->n), trade->reference, trade->known_x);
     return trade;
@@ -134,7 +133,6 @@ static ss_trade *
 measure_signal(request *req)
 {
     ss_trade *trade = NULL;
-    ss_error err = { 0 };
     ss_morlet_opts grid;
     ss_morlet_opts_init(&grid, sizeof grid);
     if (req->settings.n > 0)
@@ -144,7 +142,7 @@ measure_signal(request *req)
     req->name = tool_name_scene(req->path, NULL);
     grid.dense = req->dense;
     tool_check(ss_trade_transform(&trade, signal->values + column * signal->n, signal->n,
-                                  signal->head->rate, &grid, &req->opts, &err), &err);
+                                  signal->head->rate, &grid, &req->opts, &tool_error));
     tool_note("%zu row%s, coefficients of each that are compared: %zu", trade->n,
               tool_s(trade->n), trade->samples);
     ss_signal_free(signal);
@@ -157,10 +155,9 @@ static void
 set_needs(const tool_option *o, char *list)
 {
     request *req = o->to;
-    ss_error err = { 0 };
     req->models = 1;
-    if (ss_needs_parse(req->need, &req->n_needs, list, &err) != SS_OK)
-        tool_usage("--need: %s", err.text);
+    if (ss_needs_parse(req->need, &req->n_needs, list, &tool_error) != SS_OK)
+        tool_usage("--need: %s", tool_error.text);
 }
 
 static ss_status
@@ -173,8 +170,7 @@ static void
 write_sentence(FILE *out, const ss_models *models, const request *req)
 {
     char *sentence;
-    ss_error err = { 0 };
-    tool_check(ss_models_answer(&sentence, models, req->need, req->n_needs, &err), &err);
+    tool_check(ss_models_answer(&sentence, models, req->need, req->n_needs, &tool_error));
     fprintf(out, "%s\n", sentence);
     free(sentence);
 }
@@ -185,12 +181,11 @@ compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
     ss_models *models = NULL;
     ss_models_opts opts;
     ss_models_opts_init(&opts, sizeof opts);
-    ss_error err = { 0 };
     ss_scene scene = tool_read_scene(req->path, &req->settings, "--set");
     req->name = tool_name_scene(req->path, &req->settings);
     plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
     opts.progress = (ss_progress){ tool_progress, req };
-    tool_check(ss_models_measure(&models, &scene, &opts, &err), &err);
+    tool_check(ss_models_measure(&models, &scene, &opts, &tool_error));
     tool_note("%zu scene%s, samples of each that are compared: %zu", models->n, tool_s(models->n),
               models->samples);
     if (kind < TOOL_STREAM)
@@ -199,7 +194,7 @@ compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
         write_sentence(tool_output(NULL), models, req);
     else
         tool_check(ss_models_write(models, req->name, req->need, req->n_needs, tool_output(req->output),
-                                   tool_stream(kind), &err), &err);
+                                   tool_stream(kind), &tool_error));
     ss_models_free(models);
 }
 
@@ -207,14 +202,13 @@ static void
 trade_accuracy(request *req, tool_kind kind, ss_plot_opts *plot)
 {
     ss_trade *trade = is_scene(req->path) ? measure_scene(req) : measure_signal(req);
-    ss_error err = { 0 };
     plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
     if (kind < TOOL_STREAM)
         tool_draw(req->output, plot, write_script, trade);
     else if (req->opts.target > 0)
         write_options(tool_output(req->output), trade, req->opts.target);
     else
-        tool_check(ss_trade_write(trade, req->name, tool_output(req->output), tool_stream(kind), &err), &err);
+        tool_check(ss_trade_write(trade, req->name, tool_output(req->output), tool_stream(kind), &tool_error));
     ss_trade_free(trade);
 }
 
@@ -222,7 +216,7 @@ int
 main(int argc, char *argv[])
 {
     const ss_range budgets = { 1e-6, DBL_MAX }, targets = { 1e-14, 1 };
-    request req = { .kind = TOOL_TSV };
+    static request req = { .kind = TOOL_TSV };
     ss_plot_opts plot;
     ss_trade_opts_init(&req.opts, sizeof req.opts);
     ss_plot_opts_init(&plot, sizeof plot);
@@ -255,9 +249,6 @@ main(int argc, char *argv[])
         compare_models(&req, kind, &plot);
     else
         trade_accuracy(&req, kind, &plot);
-    free(req.name);
-    tool_reading_free(&req.reading);
-    free(req.settings.text);
     tool_end();
     return 0;
 }
