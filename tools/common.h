@@ -145,11 +145,11 @@ void tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, co
 
 /* Call before work for tool_draw with the path after -o: dies if a script would go to a terminal unasked. */
 void tool_script_to(const char *path);
-/* Write a script to the output that -o names, a .gp or standard output, or the picture that
- * gnuplot makes of it; opts get the format of the picture.  Dies with the message of gnuplot if
- * that fails. */
-typedef ss_status tool_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err);
-void tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user);
+/* Begin a script for the output that -o names, a .gp or standard output, or for the picture that gnuplot makes of it;
+ * opts get the format of the picture. */
+FILE *tool_draw(const char *path, ss_plot_opts *opts);
+/* End it, with the status of writing it.  Dies with the message of gnuplot if that fails. */
+void tool_drawn(FILE *script, ss_status status);
 
 /* --- long work ----------------------------------------------------------------------------- */
 

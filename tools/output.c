@@ -297,23 +297,31 @@ tool_script_to(const char *path)
                  "with | gnuplot -p");
 }
 
-void
-tool_draw(const char *path, ss_plot_opts *opts, tool_script *write_script, void *user)
+static FILE *picture;                   /* the output of a script that is in a temporary file; NULL: it is the output */
+
+FILE *
+tool_draw(const char *path, ss_plot_opts *opts)
 {
     tool_kind kind = tool_output_kind(path, TOOL_PICTURES, TOOL_GP);
     FILE *out = tool_output(path), *script = kind == TOOL_GP ? out : tmpfile();
     if (script == NULL)
         tool_die("gnuplot cannot be started: %s", strerror(errno));
-    if (kind != TOOL_GP)
+    picture = kind != TOOL_GP ? out : NULL;
+    if (picture != NULL)
         opts->format = ending[kind];
-    ss_status status = write_script(script, opts, user, &tool_error);
+    return script;
+}
+
+void
+tool_drawn(FILE *script, ss_status status)
+{
     if (status == SS_EIO)
         tool_die("write error: %s", strerror(errno));
     tool_check(status);
-    if (kind == TOOL_GP)
+    if (picture == NULL)
         return;
     if (fflush(script) != 0 || fseek(script, 0, SEEK_SET) != 0)
         tool_die("write error: %s", strerror(errno));
-    run_gnuplot(script, out);
+    run_gnuplot(script, picture);
     fclose(script);
 }

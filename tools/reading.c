@@ -75,7 +75,7 @@ tool_reading_options(tool_reading *r, tool_option row[TOOL_READING_OPTIONS])
 }
 
 void
-tool_reading_end(tool_reading *r, const char *column)
+tool_reading_end(tool_reading *r, const char *const *column, size_t n)
 {
     ss_read_opts *opts = &r->opts;
     if (opts->rate > 0 && (opts->time != NULL || opts->time_unit != NULL))
@@ -88,13 +88,8 @@ tool_reading_end(tool_reading *r, const char *column)
     }
     for (size_t i = 0; i < opts->n_calibrations; i++)
         if (r->calibration[i].column == NULL)
-            r->calibration[i].column = column;
+            r->calibration[i].column = n == 1 ? *column : NULL;
     opts->calibration = r->calibration;
-}
-
-void
-tool_reading_needs(tool_reading *r, const char *const *column, size_t n)
-{
-    r->opts.needed = column;
-    r->opts.n_needed = n;
+    opts->needed = column;
+    opts->n_needed = n;
 }

@@ -24,19 +24,6 @@ TOOL_READING_USAGE
 "  -q, --quiet           no progress; -v, --verbose: what was done\n"
 "  -h, --help            show this text; --version: show the version\n";
 
-typedef struct picture {
-    const ss_backbone *found;
-    const ss_signal *signal;
-    size_t column;
-} picture;
-
-static ss_status
-draw(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
-{
-    const picture *p = user;
-    return ss_plot_backbone(out, p->found, p->signal, p->column, opts, err);
-}
-
 int
 main(int argc, char *argv[])
 {
@@ -61,7 +48,7 @@ main(int argc, char *argv[])
 
     tool_begin(argv, "ss-backbone", usage);
     int first = TOOL_PARSE(argc, argv, options, &reading);
-    tool_reading_end(&reading, column_name);
+    tool_reading_end(&reading, &column_name, column_name != NULL);
     if (fits && !(opts.mass > 0))
         tool_usage("--fit needs --mass");
     if (envelope != (opts.level_frequency > 0))
@@ -72,7 +59,6 @@ main(int argc, char *argv[])
         kind = tool_output_kind(output, TOOL_WORDS | TOOL_PICTURES, kind);
     if (!fits && kind < TOOL_STREAM)
         tool_script_to(output);
-    tool_reading_needs(&reading, &column_name, column_name != NULL);
     reading.opts.progress = (ss_progress){ tool_reading_progress, &reading };
     const char *path = tool_input(argc, argv, first);
     ss_signal *signal = tool_read_signal(path, &reading.opts);
@@ -85,9 +71,10 @@ main(int argc, char *argv[])
         tool_note("no decay: %s", found->why);
     if (fits)
         tool_check(ss_scene_write(&scene, tool_output(output), &tool_error));
-    else if (kind < TOOL_STREAM)
-        tool_draw(output, &plot, draw, &(picture){ found, signal, column });
-    else
+    else if (kind < TOOL_STREAM) {
+        FILE *script = tool_draw(output, &plot);
+        tool_drawn(script, ss_plot_backbone(script, found, signal, column, &plot, &tool_error));
+    } else
         tool_check(ss_backbone_write(found, signal, column, tool_output(output), tool_stream(kind), &tool_error));
     ss_backbone_free(found);
     ss_signal_free(signal);

@@ -47,8 +47,7 @@ main(int argc, char *argv[])
 
     tool_begin(argv, "ss-cat", usage);
     path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
-    tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
-    tool_reading_needs(&reading, wanted.text, wanted.n);
+    tool_reading_end(&reading, wanted.text, wanted.n);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     reading.opts.progress = (ss_progress){ tool_progress, output != NULL ? &reading : NULL };
     ss_reader *reader = tool_read_rows(path, &reading.opts);

@@ -49,11 +49,11 @@ typedef struct drawing {
     tool_kind kind;             /* of the output */
 } drawing;
 
-static ss_status
-write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
+static void
+draw_contours(const drawing *d, const char *path, ss_plot_opts *opts)
 {
-    const drawing *d = user;
-    return ss_plot_contour(out, d->coefficients, &d->opts, opts, err);
+    FILE *script = tool_draw(path, opts);
+    tool_drawn(script, ss_plot_contour(script, d->coefficients, &d->opts, opts, &tool_error));
 }
 
 /* --- a recording, in one pass -------------------------------------------------------------- */
@@ -184,7 +184,7 @@ draw_view(void *user)
     d->opts.signal = shown;
     d->opts.column = v->column;
     d->opts.fmin = d->opts.fmax = 0;
-    tool_draw(d->follow, v->plot, write_script, d);
+    draw_contours(d, d->follow, v->plot);
     ss_signal_free(shown);
 }
 
@@ -276,8 +276,7 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
         : tool_output_kind(d->output, d->opts.ridge ? TOOL_PICTURES | TOOL_WORDS : TOOL_PICTURES, d->kind);
     if (d->kind < TOOL_STREAM && d->follow == NULL)
         tool_script_to(d->output);
-    tool_reading_end(&d->reading, d->column);
-    tool_reading_needs(&d->reading, &d->column, d->column != NULL);
+    tool_reading_end(&d->reading, &d->column, d->column != NULL);
     tool_one_stdin((const char *const[]){ d->path, d->signal_path, d->events, d->features }, 4);
 }
 
@@ -308,7 +307,7 @@ draw(drawing *d, ss_plot_opts *opts)
         tool_usage("--column needs a signal; give one with --signal");
     note_contents(d);
     if (d->kind < TOOL_STREAM)
-        tool_draw(d->output, opts, write_script, d);
+        draw_contours(d, d->output, opts);
     else
         tool_check(ss_ridge_write(tool_output(d->output), d->coefficients, &d->opts, opts, tool_stream(d->kind),
                                   &tool_error));

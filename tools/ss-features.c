@@ -201,11 +201,12 @@ main(int argc, char *argv[])
     int first = TOOL_PARSE(argc, argv, options, &req.reading);
     if (req.opts.stiffness > 0 && !(req.opts.mass > 0))
         tool_usage("--stiffness needs --mass");
-    tool_reading_end(&req.reading, req.column);
+    tool_reading_end(&req.reading, &req.column, req.column != NULL);
     req.needed[0] = req.column;
     req.needed[1] = req.displacement != NULL ? req.displacement : usual_displacement;
     req.needed[2] = req.force != NULL ? req.force : usual_force;
-    tool_reading_needs(&req.reading, req.needed, req.column != NULL ? 3 : 0);
+    req.reading.opts.needed = req.needed;
+    req.reading.opts.n_needed = req.column != NULL ? 3 : 0;
     tool_kind kind = tool_output_kind(req.output, TOOL_WORDS, req.kind);
     req.opts.progress = (ss_progress){ tool_progress, &req };
     char *standard[] = { "-" }, **file = argc > first ? argv + first : standard;

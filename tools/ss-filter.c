@@ -63,8 +63,7 @@ main(int argc, char *argv[])
     opts.order = derivative - integral;
     if (opts.order == 0 && !(opts.low_pass > 0) && !(opts.high_pass > 0))
         tool_usage("one of --low-pass, --high-pass, --derivative and --integral is needed");
-    tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
-    tool_reading_needs(&reading, wanted.text, wanted.n);
+    tool_reading_end(&reading, wanted.text, wanted.n);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     reading.opts.progress = (ss_progress){ tool_progress, output != NULL ? &reading : NULL };
     filter_rows(kind, &reading.opts);

@@ -309,8 +309,7 @@ main(int argc, char *argv[])
 
     tool_begin(argv, "ss-morlet", usage);
     int first = parse(&req, argc, argv);
-    tool_reading_end(&req.reading, req.column);
-    tool_reading_needs(&req.reading, &req.column, req.column != NULL);
+    tool_reading_end(&req.reading, &req.column, req.column != NULL);
     check_request(&req);
     const char *path = tool_input(argc, argv, first);
     if (req.inverse)

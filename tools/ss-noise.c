@@ -207,7 +207,8 @@ main(int argc, char *argv[])
         tool_usage("--band needs --snr or --rms");
     if ((bits > 0) == isnan(range))
         tool_usage("--bits and --range need each other");
-    tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
+    tool_reading_end(&reading, wanted.text, wanted.n);
+    reading.opts.n_needed = 0;                  /* the others are written, too */
     path = tool_input(argc, argv, first);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     tool_check(ss_noise_new(&noise, (unsigned long)seed, &tool_error));

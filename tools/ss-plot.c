@@ -38,15 +38,17 @@ typedef struct drawing {
     ss_spectrum **density;      /* of each column */
 } drawing;
 
-static ss_status
-write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
+static void
+draw(const drawing *d, const char *output, ss_plot_opts *opts)
 {
-    const drawing *d = user;
+    FILE *out = tool_draw(output, opts);
     if (d->xy)
-        return ss_plot_xy(out, d->reader, d->column[0], d->column[1], opts, err);
-    if (d->spectrum)
-        return ss_plot_spectrum(out, ss_reader_header(d->reader), d->column, d->n, d->density, opts, err);
-    return ss_plot_signal(out, d->reader, d->column, d->n, opts, err);
+        tool_drawn(out, ss_plot_xy(out, d->reader, d->column[0], d->column[1], opts, &tool_error));
+    else if (d->spectrum)
+        tool_drawn(out, ss_plot_spectrum(out, ss_reader_header(d->reader), d->column, d->n, d->density, opts,
+                                         &tool_error));
+    else
+        tool_drawn(out, ss_plot_signal(out, d->reader, d->column, d->n, opts, &tool_error));
 }
 
 static size_t
@@ -83,13 +85,6 @@ set_over(const tool_option *o, char *path)
 }
 
 /* --- maps ---------------------------------------------------------------------------------- */
-
-enum { MAP_COLUMNS = 8 };
-
-typedef struct map_drawing {
-    ss_table *table;
-    size_t column[MAP_COLUMNS], n;
-} map_drawing;
 
 /* Find the columns that are named, and return their number. */
 static size_t
@@ -152,34 +147,30 @@ read_line(const char *path, size_t *n)
     return line;
 }
 
-static ss_status
-write_map(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
-{
-    const map_drawing *d = user;
-    return (is_diagram(d->table) ? ss_plot_diagram : ss_plot_map)(out, d->table, d->column, d->n, opts, err);
-}
-
 static void
 draw_map(const char *path, const char *names, const char *line, const char *output,
          ss_plot_opts *opts)
 {
-    map_drawing d = { .table = NULL };
+    enum { COLUMNS = 8 };
+    ss_table *table = NULL;
+    size_t column[COLUMNS];
     FILE *in = tool_open(path);
     double *curve = line != NULL ? read_line(line, &opts->n_curve) : NULL;
-    tool_check(ss_table_read(&d.table, in, tool_input_name(path), SS_KIND_SWEEP, &tool_error));
+    tool_check(ss_table_read(&table, in, tool_input_name(path), SS_KIND_SWEEP, &tool_error));
     if (in != stdin)
         fclose(in);
-    d.n = find_columns(d.table, path, names, d.column, MAP_COLUMNS);
-    int diagram = is_diagram(d.table);
-    if (d.n < 2 || (!diagram && (d.n < 3 || d.n > 4)))
+    size_t n = find_columns(table, path, names, column, COLUMNS);
+    int diagram = is_diagram(table);
+    if (n < 2 || (!diagram && (n < 3 || n > 4)))
         tool_usage("--map: '%s' is not %s", names, diagram ? "X,Y[,Y...]: one key was varied"
                    : "X,Y,Z or X,Y,Z,Z: two keys were varied");
     if (diagram && line != NULL)
         tool_usage("--line needs a map over two keys");
     opts->curve = curve;
-    tool_note("%s: %zu point%s", tool_input_name(path), d.table->n, tool_s(d.table->n));
-    tool_draw(output, opts, write_map, &d);
-    ss_table_free(d.table);
+    tool_note("%s: %zu point%s", tool_input_name(path), table->n, tool_s(table->n));
+    FILE *out = tool_draw(output, opts);
+    tool_drawn(out, (diagram ? ss_plot_diagram : ss_plot_map)(out, table, column, n, opts, &tool_error));
+    ss_table_free(table);
     free(curve);
 }
 
@@ -257,7 +248,7 @@ draw_signal(const char *path, const tool_texts *name, drawing d, char *const ove
         tool_check(ss_spectra_write(d.density, head, d.column, d.n, tool_output(output), tool_stream(d.kind),
                                     &tool_error));
     else
-        tool_draw(output, opts, write_script, &d);
+        draw(&d, output, opts);
     ss_overlay_free(overlay);
     for (size_t i = 0; d.density != NULL && i < d.n; i++)
         ss_spectrum_free(d.density[i]);
@@ -302,8 +293,7 @@ main(int argc, char *argv[])
     d.kind = tool_output_kind(output, TOOL_PICTURES | (d.spectrum ? TOOL_WORDS : 0), d.kind);
     if (d.kind == TOOL_GP)
         tool_script_to(output);
-    tool_reading_end(&reading, wanted.n == 1 ? wanted.text[0] : NULL);
-    tool_reading_needs(&reading, xy.n > 0 ? xy.text : wanted.text, xy.n + wanted.n);
+    tool_reading_end(&reading, xy.n > 0 ? xy.text : wanted.text, xy.n + wanted.n);
     opts.from = reading.from;           /* so that lines reach the border */
     opts.to = reading.to;
     reading.opts.from = reading.opts.to = 0;

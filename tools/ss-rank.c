@@ -44,14 +44,13 @@ typedef struct job {
     ss_motion_opts motion_opts;
 } job;
 
-/* Draw under the signal's name. */
-static void
-draw(const job *j, tool_script *script, void *user)
+/* Begin a picture under the signal's name. */
+static FILE *
+begin_picture(const job *j, ss_plot_opts *opts)
 {
-    ss_plot_opts opts;
-    ss_plot_opts_init(&opts, sizeof opts);
-    opts.title = j->signal_name;
-    tool_draw(j->output, &opts, script, user);
+    ss_plot_opts_init(opts, sizeof *opts);
+    opts->title = j->signal_name;
+    return tool_draw(j->output, opts);
 }
 
 /* --- the quantity -------------------------------------------------------------------------- */
@@ -392,20 +391,6 @@ write_law(const job *j, const ss_motion_ranking *r)
     tool_check(ss_scene_write(&scene, out, &tool_error));
 }
 
-/* For tool_draw. */
-typedef struct drawn {
-    const ss_signal *signal;
-    size_t motion, force;
-    const ss_motion_ranking *ranking;
-} drawn;
-
-static ss_status
-write_motion(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
-{
-    const drawn *d = user;
-    return ss_plot_motion(out, d->signal, d->motion, d->force, d->ranking, opts, err);
-}
-
 static int
 is_set(const job *j, const char *key)
 {
@@ -421,6 +406,7 @@ rank_motion(job *j)
     if (j->fits && !(is_set(j, "mass=") && is_set(j, "stiffness=")))
         tool_usage("--fit needs --set=mass=KG and --set=stiffness=N/m of the rig in which the law is to move");
     ss_motion_ranking *r = NULL;
+    ss_plot_opts plot;
     ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
     const size_t motion = tool_column(signal->head, j->signal_path, j->motion);
     const size_t force = tool_column(signal->head, j->signal_path, j->column_name);
@@ -432,9 +418,10 @@ rank_motion(job *j)
     tool_check(ss_motion_ranking_new(&r, signal, motion, force, &j->motion_opts, &tool_error));
     if (j->fits)
         write_law(j, r);
-    else if (j->kind < TOOL_STREAM)
-        draw(j, write_motion, &(drawn){ signal, motion, force, r });
-    else
+    else if (j->kind < TOOL_STREAM) {
+        FILE *script = begin_picture(j, &plot);
+        tool_drawn(script, ss_plot_motion(script, signal, motion, force, r, &plot, &tool_error));
+    } else
         tool_check(ss_motion_ranking_write(r, tool_output(j->output), tool_stream(j->kind), &tool_error));
     if (j->residual != NULL && r->rows == 0)
         tool_warn("%s, so no residual is written", r->answer);
@@ -459,17 +446,12 @@ given_stiffness(const tool_texts *settings)
     return stiffness;
 }
 
-static ss_status
-write_steps(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
-{
-    return ss_plot_steps(out, user, opts, err);
-}
-
 static void
 fit_load(job *j)
 {
     const double stiffness = given_stiffness(&j->settings);
     ss_steps *steps = NULL;
+    ss_plot_opts plot;
     ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
     const size_t load = tool_column(signal->head, j->signal_path, j->load);
     const size_t friction = tool_column(signal->head, j->signal_path, j->column_name);
@@ -485,9 +467,10 @@ fit_load(job *j)
     for (size_t i = 0; i < steps->n; i++)
         tool_note("step at %.9g s: %zu rows, noise of %.2g", steps->step[i].at, steps->step[i].n,
                   steps->step[i].law[steps->step[i].best].noise);
-    if (j->kind < TOOL_STREAM)
-        draw(j, write_steps, steps);
-    else
+    if (j->kind < TOOL_STREAM) {
+        FILE *script = begin_picture(j, &plot);
+        tool_drawn(script, ss_plot_steps(script, steps, &plot, &tool_error));
+    } else
         tool_check(ss_steps_write(steps, tool_output(j->output), tool_stream(j->kind), &tool_error));
     ss_steps_free(steps);
     ss_signal_free(signal);
@@ -560,7 +543,8 @@ parse(job *j, int argc, char *argv[])
         TOOL_OUTPUT(&j->output), TOOL_FORMAT_OF_WORDS(&j->kind) };
     int first = TOOL_PARSE(argc, argv, options, &j->reading);
     j->opts.spread = percent / 100;
-    tool_reading_end(&j->reading, j->column_name);
+    tool_reading_end(&j->reading, &j->column_name, j->column_name != NULL);
+    j->reading.opts.n_needed = 0;               /* others may tell more of the motion */
     if (j->motion != NULL)
         check_motion(j, argc - first);
     else if (j->extra != NULL || j->residual != NULL || tool_given("delay") || tool_given("folds"))

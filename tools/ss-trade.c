@@ -46,12 +46,6 @@ write_options(FILE *out, const ss_trade *trade, double target)
     fputc('\n', out);
 }
 
-static ss_status
-write_script(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
-{
-    return ss_plot_trade(out, user, opts, err);
-}
-
 /* The request of the command line. */
 typedef struct request {
     const char *column, *output, *path;
@@ -160,12 +154,6 @@ set_needs(const tool_option *o, char *list)
         tool_usage("--need: %s", tool_error.text);
 }
 
-static ss_status
-draw_models(FILE *out, const ss_plot_opts *opts, void *user, ss_error *err)
-{
-    return ss_plot_models(out, user, opts, err);
-}
-
 static void
 write_sentence(FILE *out, const ss_models *models, const request *req)
 {
@@ -188,9 +176,10 @@ compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
     tool_check(ss_models_measure(&models, &scene, &opts, &tool_error));
     tool_note("%zu scene%s, samples of each that are compared: %zu", models->n, tool_s(models->n),
               models->samples);
-    if (kind < TOOL_STREAM)
-        tool_draw(req->output, plot, draw_models, models);
-    else if (req->n_needs > 0 && req->output == NULL)
+    if (kind < TOOL_STREAM) {
+        FILE *script = tool_draw(req->output, plot);
+        tool_drawn(script, ss_plot_models(script, models, plot, &tool_error));
+    } else if (req->n_needs > 0 && req->output == NULL)
         write_sentence(tool_output(NULL), models, req);
     else
         tool_check(ss_models_write(models, req->name, req->need, req->n_needs, tool_output(req->output),
@@ -203,9 +192,10 @@ trade_accuracy(request *req, tool_kind kind, ss_plot_opts *plot)
 {
     ss_trade *trade = is_scene(req->path) ? measure_scene(req) : measure_signal(req);
     plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
-    if (kind < TOOL_STREAM)
-        tool_draw(req->output, plot, write_script, trade);
-    else if (req->opts.target > 0)
+    if (kind < TOOL_STREAM) {
+        FILE *script = tool_draw(req->output, plot);
+        tool_drawn(script, ss_plot_trade(script, trade, plot, &tool_error));
+    } else if (req->opts.target > 0)
         write_options(tool_output(req->output), trade, req->opts.target);
     else
         tool_check(ss_trade_write(trade, req->name, tool_output(req->output), tool_stream(kind), &tool_error));
@@ -229,8 +219,7 @@ main(int argc, char *argv[])
 
     tool_begin(argv, "ss-trade", usage);
     int first = TOOL_PARSE(argc, argv, options, &req.reading);
-    tool_reading_end(&req.reading, req.column);
-    tool_reading_needs(&req.reading, &req.column, req.column != NULL);
+    tool_reading_end(&req.reading, &req.column, req.column != NULL);
     if (first == argc)
         tool_usage("SCENE or SIGNAL is missing: give a file, or the name of a shipped scene");
     if (first + 1 != argc)
