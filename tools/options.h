@@ -92,8 +92,8 @@ typedef struct tool_reading {
     int given;                  /* was any of the options? */
 } tool_reading;
 
-/* Call after tool_parse.  Of delimited text only these n columns, whose names are not copied, are needed; all, if n is
- * 0.  --scale and --unit without a name are of the column, if it is one, else of the only one of the file. */
+/* Call after tool_parse.  Of delimited text only these n columns, whose names are not copied, are needed; all, if n
+ * is 0.  --scale and --unit without a name are of the column, if it is one, else of the only one of the file. */
 void tool_reading_end(tool_reading *r, const char *const *column, size_t n);
 
 /* For tool_parse: begin, and write the rows. */

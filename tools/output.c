@@ -297,7 +297,7 @@ tool_script_to(const char *path)
                  "with | gnuplot -p");
 }
 
-static FILE *picture;                   /* the output of a script that is in a temporary file; NULL: it is the output */
+static FILE *picture;                   /* where what a script in a temporary file draws goes, or NULL */
 
 FILE *
 tool_draw(const char *path, ss_plot_opts *opts)
