@@ -215,12 +215,12 @@ draw_own(rng *r, ss_scene *s, int has_terms)
     for (size_t i = 0; i < s->model->n_keys; i++) {
         const scene_key *k = &s->model->keys[i];
         size_t words = 0;
-        while (k->word != NULL && k->word(words) != NULL)
+        while (ss_key_word(k, words) != NULL)
             words++;
         if (k->required == TERM && !has_terms)
             continue;
         if (words > 0 && s->model->normalise == NULL)   /* else its ranges are those of the first word */
-            ss_scene_set_text(s, k->name, k->word((size_t)((double)words * uniform(r))), NULL);
+            ss_scene_set_text(s, k->name, ss_key_word(k, (size_t)((double)words * uniform(r))), NULL);
     }
     if (ss_scene_get(s, "static_friction") == 0 && !s->model->linear)
         s->static_friction = draw(r, "f_s/f_k") * s->friction;

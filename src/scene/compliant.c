@@ -16,17 +16,10 @@
 enum { STIFFNESS, DAMPING, RELEASE, GAP, NEGATIVE };    /* K_y, c, the force that ends a microstick, b, K_y of y < 0 */
 enum { SPRING, TOTAL };                         /* K_y |y|, as the paper writes; or |K_y y + c v| */
 
-static const char *
-release_word(size_t i)
-{
-    static const char *const word[] = { [SPRING] = "spring", [TOTAL] = "total", NULL };
-    return word[i];
-}
-
 static const scene_key keys[] = {
     OWN_NUMBER("contact_stiffness", STIFFNESS, REQUIRED, POSITIVE, "N/m"),
     OWN_NUMBER("contact_damping", DAMPING, REQUIRED, NOT_NEGATIVE, "N s/m"),
-    OWN_WORD("release", RELEASE, release_word),
+    OWN_WORD("release", RELEASE, OPTIONAL, "spring", "total"),
     KEY_STATIC_FRICTION, KEYS_FRICTION_NEGATIVE,
     OWN_NUMBER("contact_stiffness_negative", NEGATIVE, TERM, POSITIVE, "N/m"),
     OWN_NUMBER("gap", GAP, TERM, NOT_NEGATIVE, "m"),

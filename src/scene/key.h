@@ -20,8 +20,7 @@ typedef struct scene_key {
     size_t offset;                  /* in ss_scene, of a double, a text or the model */
     const char *unit;               /* of a number */
     size_t room;                    /* of a text, with its NUL; 0 for others */
-    /* The i-th word that may stand there, from 0 to the first NULL; the value is i.  NULL: it is no word. */
-    const char *(*word)(size_t i);
+    const char *const *words;       /* that may stand there, up to NULL; the value is the place of one */
 } scene_key;
 
 /* The number of a scene at an offset. */
@@ -53,7 +52,8 @@ ss_key_is_own(size_t offset)
 /* Those of a model, at a place in ss_scene.own. */
 #define OWN_AT(place) offsetof(ss_scene, own[place])
 #define OWN_NUMBER(name, place, required, range, unit) { name, required, range, OWN_AT(place), unit, 0, NULL }
-#define OWN_WORD(name, place, word) { name, OPTIONAL, ANY_NUMBER, OWN_AT(place), "", 0, word }
+#define OWN_WORD(name, place, required, ...) \
+    { name, required, ANY_NUMBER, OWN_AT(place), "", 0, (const char *const[]){ __VA_ARGS__, NULL } }
 #define KEY_TEXT(field, range) { #field, TERM, range, offsetof(ss_scene, field), "", \
                                  sizeof ((ss_scene *)0)->field, NULL }
 
@@ -71,6 +71,8 @@ const scene_key *ss_key_at(const ss_model *model, size_t i);
 /* The key of this name, or of this field, that the model has; NULL if none. */
 const scene_key *ss_key_named(const ss_model *model, const char *name);
 const scene_key *ss_key_of_field(const ss_model *model, size_t offset);
+/* The i-th word that may be the value of a key; NULL after the last, and of other keys. */
+const char *ss_key_word(const scene_key *k, size_t i);
 /* The key of this name that some model has; NULL if none. */
 const scene_key *ss_key_of_any(const char *name);
 /* What is wrong with a name that no model has, with the key that is probably meant; returns text. */

@@ -5,15 +5,8 @@
 #include "scene/model.h"
 #include "scene/scene.h"
 
-static const char *
-model_word(size_t i)
-{
-    const ss_model *model = ss_model_at(i);
-    return model != NULL ? model->name : NULL;
-}
-
 static const scene_key of_motion[] = {
-    { "model", REQUIRED, ANY_NUMBER, offsetof(ss_scene, model), "", 0, model_word },
+    { "model", REQUIRED, ANY_NUMBER, offsetof(ss_scene, model), "", 0, NULL },
     KEY_NUMBER(mass, REQUIRED, POSITIVE, "kg"),
     KEY_NUMBER(stiffness, REQUIRED, POSITIVE, "N/m"),
     KEY_NUMBER(friction, REQUIRED, NOT_NEGATIVE, "N"),
@@ -48,6 +41,15 @@ ss_key_at(const ss_model *model, size_t i)
         return &model->keys[i];
     i -= model->n_keys;
     return i < OF_RECORD ? &of_record[i] : NULL;
+}
+
+const char *
+ss_key_word(const scene_key *k, size_t i)
+{
+    const ss_model *model = ss_model_at(i);
+    if (k->offset == offsetof(ss_scene, model))
+        return model != NULL ? model->name : NULL;
+    return k->words != NULL ? k->words[i] : NULL;
 }
 
 const scene_key *

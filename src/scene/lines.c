@@ -99,7 +99,7 @@ read_setting(ss_scene *scene, char *text, struct key_origin at, given *g, ss_err
     else if (at.line > 0)               /* a setting may replace a line of the file */
         return fail_at(at, err, "repeated key '%s', first given on line %ld", name, found->line);
     found->line = at.line;
-    if (ss_key_is_own(k->offset) && k->word != NULL) {
+    if (ss_key_is_own(k->offset) && k->words != NULL) {
         snprintf(found->word, WORD_ROOM, "%s", value);
         return SS_OK;
     }
@@ -126,7 +126,7 @@ set_own(ss_scene *scene, given *g, struct key_origin last, ss_error *err)
         if (k == NULL)
             return fail_at(at, err, "model %s has no key '%s'", model->name, one->key->name);
         int own = ss_key_is_own(k->offset), good = 1;
-        if (own && k->word == NULL)
+        if (own && k->words == NULL)
             *number_at(scene, k->offset) = one->value;
         else if (own)
             good = ss_value_read(scene, k, one->word, wrong);

@@ -16,13 +16,6 @@
 enum { NORMAL, REFERENCE, DIRECT, EVOLUTION, DISTANCE, SPEED, LAW };   /* N, mu0, a, b, Dc, V0 */
 enum { AGING, SLIP };
 
-static const char *
-law_word(size_t i)
-{
-    static const char *const word[] = { [AGING] = "aging", [SLIP] = "slip", NULL };
-    return word[i];
-}
-
 static const scene_key keys[] = {
     KEY_NUMBER(x0, OPTIONAL, ANY_NUMBER, "m"),
     KEY_NUMBER(v0, OPTIONAL, NOT_NEGATIVE, "m/s"),
@@ -34,7 +27,7 @@ static const scene_key keys[] = {
     OWN_NUMBER("evolution_effect", EVOLUTION, REQUIRED, NOT_NEGATIVE, "1"),
     OWN_NUMBER("critical_slip_distance", DISTANCE, REQUIRED, POSITIVE, "m"),
     OWN_NUMBER("reference_velocity", SPEED, REQUIRED, POSITIVE, "m/s"),
-    OWN_WORD("law", LAW, law_word),
+    OWN_WORD("law", LAW, OPTIONAL, "aging", "slip"),
 };
 
 /* --- the law ------------------------------------------------------------------------------------ */

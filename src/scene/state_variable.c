@@ -8,17 +8,10 @@ enum { ALPHA, GAMMA, LAW };
 /* theta' = -gamma (theta - f_k tanh(alpha v)), or -gamma f_k (theta - tanh(alpha v)), (9) as printed */
 enum { SCALED, LITERAL };
 
-static const char *
-law_word(size_t i)
-{
-    static const char *const word[] = { [SCALED] = "scaled", [LITERAL] = "literal", NULL };
-    return word[i];
-}
-
 static const scene_key keys[] = {
     OWN_NUMBER("alpha", ALPHA, REQUIRED, POSITIVE, "s/m"),
     OWN_NUMBER("gamma", GAMMA, REQUIRED, POSITIVE, "1/s"),
-    OWN_WORD("law", LAW, law_word),
+    OWN_WORD("law", LAW, OPTIONAL, "scaled", "literal"),
 };
 
 /* theta' = -rate (theta - goal tanh(alpha v)). */

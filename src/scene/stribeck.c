@@ -6,17 +6,10 @@
 enum { SPEED, EXPONENT, SHAPE };        /* v_s; delta, 0: it is 1; p */
 enum { HYPERBOLIC, EXPONENTIAL };
 
-static const char *
-shape_word(size_t i)
-{
-    static const char *const word[] = { [HYPERBOLIC] = "hyperbolic", [EXPONENTIAL] = "exponential", NULL };
-    return word[i];
-}
-
 static const scene_key keys[] = {
     KEY_STATIC_FRICTION, KEYS_FRICTION_NEGATIVE,
     OWN_NUMBER("stribeck_velocity", SPEED, REQUIRED, POSITIVE, "m/s"),
-    { "stribeck_shape", TERM, ANY_NUMBER, OWN_AT(SHAPE), "", 0, shape_word },
+    OWN_WORD("stribeck_shape", SHAPE, TERM, "hyperbolic", "exponential"),
     OWN_NUMBER("stribeck_exponent", EXPONENT, TERM, FROM_ONE, "1"),
 };
 

@@ -13,7 +13,7 @@
 static int
 is_number(const scene_key *k)
 {
-    return k->word == NULL && k->room == 0;
+    return ss_key_word(k, 0) == NULL && k->room == 0;
 }
 
 static int
@@ -95,7 +95,7 @@ read_word(ss_scene *scene, const scene_key *k, const char *value, char wrong[WRO
 {
     const char *word;
     int length = snprintf(wrong, WRONG_ROOM, "%s is '%.64s', but must be one of", k->name, value);
-    for (size_t i = 0; (word = k->word(i)) != NULL; i++) {
+    for (size_t i = 0; (word = ss_key_word(k, i)) != NULL; i++) {
         length += snprintf(wrong + length, WRONG_ROOM - (size_t)length, "%s %s", i ? "," : "", word);
         if (strcmp(value, word) != 0)
             continue;
@@ -115,9 +115,9 @@ word_of(const ss_scene *scene, const scene_key *k)
     if (k->offset == offsetof(ss_scene, model))
         return ss_model_name(scene->model);
     double value = number_of(scene, k->offset);
-    for (size_t i = 0; k->word(i) != NULL; i++)
+    for (size_t i = 0; ss_key_word(k, i) != NULL; i++)
         if (value == (double)i)
-            return k->word(i);
+            return ss_key_word(k, i);
     return NULL;
 }
 
@@ -127,7 +127,7 @@ int
 ss_value_read(ss_scene *scene, const scene_key *k, const char *text, char wrong[WRONG_ROOM])
 {
     char *end;
-    if (k->word != NULL)
+    if (ss_key_word(k, 0) != NULL)
         return read_word(scene, k, text, wrong);
     if (k->room > 0)
         return read_text((char *)scene + k->offset, k, text, wrong);
@@ -145,7 +145,7 @@ ss_value_read(ss_scene *scene, const scene_key *k, const char *text, char wrong[
 const char *
 ss_value_text(const ss_scene *scene, const scene_key *k, char room[SS_NUMBER_MAX])
 {
-    if (k->word != NULL)
+    if (ss_key_word(k, 0) != NULL)
         return word_of(scene, k);
     if (k->room > 0)
         return (const char *)scene + k->offset;
@@ -200,7 +200,7 @@ const char *
 ss_scene_word(const ss_scene *scene, const char *key)
 {
     const scene_key *k = key_of(scene, key, NULL);
-    return k != NULL && k->word != NULL ? word_of(scene, k) : NULL;
+    return k != NULL && ss_key_word(k, 0) != NULL ? word_of(scene, k) : NULL;
 }
 
 ss_status
