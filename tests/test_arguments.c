@@ -336,6 +336,11 @@ transforms_refuse_null(void **state)
     assert_refused(ss_writer_new(&writer, NULL, NULL, SS_TSV, &of_grid, NULL), NULL);
     assert_refused(ss_writer_new(&writer, stdout, NULL, SS_TSV, &(ss_contents){ .grid = &none }, NULL), NULL);
     assert_refused(ss_writer_coefficients(NULL, &scale, 0, 0, w, 1, NULL), NULL);
+    FILE *out = tmpfile();
+    assert_int_equal(ss_writer_new(&writer, out, NULL, SS_TSV, &of_grid, NULL), SS_OK);
+    assert_refused(ss_writer_coefficients(writer, &scale, 0, 1, NULL, 1, NULL), NULL);
+    ss_writer_free(writer);
+    fclose(out);
     assert_refused(ss_writer_end(NULL, 1, NULL), NULL);
     ss_header_free(head);
 }
