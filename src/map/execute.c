@@ -135,7 +135,7 @@ ss_morlet_begin(const ss_morlet *plan, const double *x, transformed *of, ss_erro
 {
     *of = (transformed){ .rec.x = NULL };
     ss_status st = ss_morlet_record(&of->rec, x, plan->n, plan->opts.detrend, err);
-    return st == SS_OK ? ss_morlet_forward(plan, &of->rec, &of->spectra) : st;
+    return st == SS_OK && plan->blocks != NULL ? ss_blocks_forward(plan->blocks, &of->rec, &of->spectra) : st;
 }
 
 void

@@ -73,23 +73,10 @@ ss_morlet_free(ss_morlet *plan)
 /* --- what execution needs ----------------------------------------------------------------------- */
 
 ss_status
-ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out)
-{
-    return plan->blocks != NULL ? ss_blocks_forward(plan->blocks, rec, out) : SS_OK;
-}
-
-size_t
-ss_morlet_room(const ss_morlet *plan)
-{
-    return plan->blocks != NULL ? ss_blocks_room(plan->blocks) : 0;
-}
-
-ss_status
 ss_morlet_scratch(const ss_morlet *plan, double **scratch)
 {
-    size_t room = ss_morlet_room(plan);
-    *scratch = room > 0 ? ss_fft_doubles(room) : NULL;
-    return room > 0 && *scratch == NULL ? SS_ENOMEM : SS_OK;
+    *scratch = plan->blocks != NULL ? ss_fft_doubles(ss_blocks_room(plan->blocks)) : NULL;
+    return plan->blocks != NULL && *scratch == NULL ? SS_ENOMEM : SS_OK;
 }
 
 ss_status

@@ -134,14 +134,10 @@ ss_status ss_morlet_parts(const ss_morlet *plan, const transformed *of, const ss
 double *ss_fft_doubles(size_t n);                      /* aligned; NULL: no memory */
 void ss_fft_scratch_free(double *scratch);              /* NULL is allowed */
 
-/* The spectra of a record for a plan; to be freed, forward failed or not.
- * Then what one thread needs beside them, in doubles: NULL if nothing, else ss_fft_scratch_free's. */
-ss_status ss_morlet_forward(const ss_morlet *plan, const record *rec, spectra *out);
 void ss_morlet_spectra_free(spectra *s);
-size_t ss_morlet_room(const ss_morlet *plan);
+/* What one thread needs for parts; NULL: nothing, else ss_fft_scratch_free's. */
 ss_status ss_morlet_scratch(const ss_morlet *plan, double **scratch);
-
-/* The coefficients of a part, in the norm and the samples' own size.  scratch has ss_morlet_room. */
+/* The coefficients of a part, in the norm and the samples' own size. */
 ss_status ss_morlet_part(const ss_morlet *plan, const transformed *of, double *scratch, const ss_map_part *part,
                          ss_error *err);
 /* The length of a part from translation k on of which no work is done again for the next, at most as many
