@@ -88,10 +88,8 @@ driven_fold(const driven *d, size_t i)
     return (int)(d->t[i] * d->pieces) % FOLDS;
 }
 
-/* driven_fit.c: fit a law to a record, given the results of the n simpler ones.
- * coarse: the same record with fewer rows.  left is to be freed.  SS_ENOMEM. */
-ss_status ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const driven *coarse,
-                        const driven_result others[], size_t n);
+/* driven_fit.c: fit a law to a record.  coarse: the same record with fewer rows.  left is to be freed.  SS_ENOMEM. */
+ss_status ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const driven *coarse);
 /* Solve normal equations of m unknowns, whose lower half is given, scaled, for n right sides, which become the
  * solutions. */
 void ss_driven_solve(double h[], size_t m, double right[][UNKNOWNS + COLUMNS], size_t n);

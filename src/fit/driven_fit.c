@@ -3,7 +3,7 @@
  * * The force is linear in the amplitudes of the law's parts and in what stands beside the law: a tilt, inertia, a
  * viscous part, an offset and its drift.  Linear least squares finds these for each value of the other unknowns
  * (variable projection), so that a search moves at most six.  It begins at points all over their ranges, of rows
- * that were thinned, and at the fits of the laws that the law contains.
+ * that were thinned.
  *
  * * What a fit leaves is no white noise.  So errors come from the scatter of the slopes of the squares between
  * blocks of time (the sandwich), the difference of the fits of the two folds, and the converter's steps. */
@@ -318,7 +318,7 @@ keep(problem *p, driven_fit best[FOLDS + 1][KEPT], const double u[UNKNOWNS])
 
 /* Find starts for the fits without either fold and of all rows. */
 static ss_status
-search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[], size_t n)
+search(problem *p, driven_fit best[FOLDS + 1][KEPT])
 {
     static const size_t points[] = { 1, 24, 40, 60 };
     const size_t dim = p->n_free - (p->d->most_delay > 0);
@@ -337,17 +337,6 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT], const driven_result others[
         for (p->without = 0; p->without <= ALL; p->without++)
             keep(p, best, u);
     }
-    for (size_t i = 0; i < n; i++)
-        for (p->without = 0; p->without <= ALL; p->without++) {
-            if (others[i].law->parts == 0 || !(p->law->contains >> (others[i].law - ss_driven_law(0)) & 1))
-                continue;
-            double u[UNKNOWNS];
-            memcpy(u, p->law->held, sizeof u);
-            for (size_t k = 0; k < p->n_free; k++)
-                u[p->free[k]] = others[i].fit[p->without].u[p->free[k]];
-            fill_columns(p, u);
-            keep(p, best, u);
-        }
     gsl_qrng_free(all_over);
     return SS_OK;
 }
@@ -437,8 +426,7 @@ fit_fold(driven_result *r, problem *p, problem *rough, driven_fit start[KEPT], d
 }
 
 ss_status
-ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const driven *coarse,
-              const driven_result others[], size_t n)
+ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const driven *coarse)
 {
     problem p = { 0 }, rough = { 0 };
     driven_fit start[FOLDS + 1][KEPT];
@@ -454,7 +442,7 @@ ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const 
             rows += d->used[i];
         for (size_t k = 0; k < (FOLDS + 1) * KEPT; k++)
             start[k / KEPT][k % KEPT].loss = INFINITY;
-        st = search(&rough, start, others, n);
+        st = search(&rough, start);
     }
     for (int k = 0; k <= ALL && st == SS_OK; k++) {
         p.without = rough.without = k;

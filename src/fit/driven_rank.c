@@ -442,7 +442,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         driven_noise noise;
         if (is_without(opts->without, law->name))
             continue;
-        st = ss_driven_fit(&r[n], law, rows, coarse, r, n);
+        st = ss_driven_fit(&r[n], law, rows, coarse);
         if (st == SS_OK)
             st = ss_progress_at(&opts->progress, (double)(i + 1) / LAWS_MOST);
         if (st == SS_OK)
