@@ -760,18 +760,23 @@ read_overlays(int variant)
     return st;
 }
 
-/* The spectrum of a signal that is read; its columns over time, or one over another. */
+/* The spectrum of a signal that is read; one column over another; and all over time, with another signal and what
+ * the first differs by from it. */
 static ss_status
 reductions(int variant)
 {
     const size_t column[] = { 0, 1 };
     ss_plot_opts opts;
-    ss_reader *reader = NULL;
+    ss_reader *reader = NULL, *over = NULL;
     ss_spectrum *spectrum[1] = { NULL };
     ss_plot_opts_init(&opts, sizeof opts);
     opts.decibels = 1;
     FILE *in = fmemopen(text[1], length[1], "r");
     ss_status st = ss_reader_new(&reader, in, "in", &(ss_read_opts){ READ_OPTS, .rewinds = 1 }, &err);
+    if (st == SS_OK && variant == 2)
+        st = ss_reader_of_signal(&over, signal, &err);
+    opts.over = &over;
+    opts.n_over = opts.difference = variant == 2;
     if (st == SS_OK)
         st = variant == 0 ? ss_plot_spectra(spectrum, reader, column, 1, &opts, &err)
             : variant == 1 ? ss_plot_xy(scrap, reader, 0, 1, &opts, &err)
@@ -779,6 +784,7 @@ reductions(int variant)
     if (st == SS_OK && variant == 0)
         st = ss_plot_spectrum(scrap, ss_reader_header(reader), column, 1, spectrum, &opts, &err);
     ss_spectrum_free(spectrum[0]);
+    ss_reader_free(over);
     ss_reader_free(reader);
     fclose(in);
     return st;
