@@ -570,10 +570,10 @@ after(const view *v, double period, double about, double *lag)
     return unlikeness(v, *lag, period);
 }
 
-/* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as
- * many, too, and not after others.  If half of what differs is one line, it is below what repeats, or not far above: else
- * it is a hum's.  0: they may differ in turn, or beside a hum or by chance, as the record shows them once, or as more differs
- * the longer one waits. */
+/* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as many,
+ * and many, too, and not after others.  If half of what differs is one line far above what repeats, it is a hum's.
+ * 0: cycles may differ in turn, or beside a hum or by chance: the line is not so far above, the record shows so many
+ * once, or more differs the longer one waits. */
 static ss_status
 cycles_in_turn(const view *v, double period, size_t *in_turn)
 {
@@ -600,7 +600,7 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
         for (size_t q = 2; agree && q <= 2 * p + 1 && q < known; q++)
             agree = q % p == 0 ? unlike[q] < unlike[q - 1] / CLEARER : unlike[q] >= bound;
         if (agree)
-            *in_turn = 2 * p < known && last < (f * period < 1 ? bound : 2 * unlike[p])
+            *in_turn = f * period < 1 && 2 * p < known && last < bound
                        && unlike[2 * p] < fmax(pow(CLEARER, 2) * unlike[p], least) ? p : 0;
     }
     return st;
