@@ -135,6 +135,20 @@ noise_alone_has_its_level_in_both_norms(void **state)
     ss_signal_free(signal);
 }
 
+/* Scales of 100 lengths count, and it takes an octave of them. */
+static void
+a_short_record_has_no_level_of_noise(void **state)
+{
+    const double length = 0.8;
+    ss_signal *signal = wave(SS_NOISE, length);
+    ss_coefficients *c = transform(signal, &ss_morlet_defaults);
+    (void)state;
+    assert_true(length < 2 * 100 * 2 * sqrt(M_PI) * c->scale[c->n_scales - 1].a);
+    assert_true(isnan(noise_of(c)));
+    ss_coefficients_free(c);
+    ss_signal_free(signal);
+}
+
 static void
 a_steady_oscillation_is_no_noise(void **state)
 {
@@ -411,6 +425,7 @@ main(void)
         cmocka_unit_test(scenes_without_noise_measure_none),
         cmocka_unit_test(the_noise_of_scenes_is_found),
         cmocka_unit_test(noise_alone_has_its_level_in_both_norms),
+        cmocka_unit_test(a_short_record_has_no_level_of_noise),
         cmocka_unit_test(a_steady_oscillation_is_no_noise),
         cmocka_unit_test(a_span_that_is_given_stays),
         cmocka_unit_test(every_level_has_its_colour),
