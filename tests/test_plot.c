@@ -123,7 +123,7 @@ labels_lie_on_their_lines_and_off_the_border(void **state)
     (void)state;
     for (size_t i = 0; i < N; i++)
         at[i] = (double)i / (N - 1);
-    for (size_t i = 0; i < N * N; i++)              /* a column is not known: the longer part of a line has the label */
+    for (size_t i = 0; i < N * N; i++)          /* a column is not known: the longer part of a line has the label */
         height[i] = i % N == 15 ? NAN : at[i / N] + pow(at[i % N] - 0.5, 2);
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);

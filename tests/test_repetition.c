@@ -453,8 +453,8 @@ errors_cover_cycles_in_turn(void **state)
     errors_cover(fill_in_turn, "in turn", 0.8, 0.003, 1);
 }
 
-/* A saw of six to eight teeth whose drops are all a whole number of samples apart, 100, though its period is not: the
- * first and the last drop lie anywhere between two samples. */
+/* A saw whose seven teeth are all 100 samples apart, though its period is not quite: the first drop and the last lie
+ * anywhere between two samples. */
 static void
 errors_cover_drops_between_samples(void **state)
 {
