@@ -15,6 +15,7 @@
 #include "scene/key.h"
 #include "study/trade/trade.h"
 
+/* Times are made up, so that no busy machine decides what is cheapest. */
 static ss_models *
 models_of(const ss_scene *scene)
 {
@@ -22,6 +23,8 @@ models_of(const ss_scene *scene)
     ss_error err = { 0 };
     if (ss_models_measure(&models, scene, NULL, &err) != SS_OK)
         fail_msg("%s", err.text);
+    for (size_t i = 0; i < models->n; i++)
+        models->row[i].seconds = strcmp(models->row[i].name, "coulomb") == 0 ? 1 : 2;
     return models;
 }
 
