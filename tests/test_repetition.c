@@ -478,7 +478,7 @@ static void
 errors_cover_drift_in_turn(void **state)
 {
     (void)state;
-    errors_cover(fill_in_turn_drifting, "drift in turn", 0.6, 0.003, 1);
+    errors_cover(fill_in_turn_drifting, "drift in turn", 0.5, 0.003, 1);
 }
 
 static void

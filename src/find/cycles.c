@@ -73,6 +73,8 @@
 #define LOW 3.0                 /* times the frequency: the lines of a motion itself may be strong up to there */
 #define SEEN 0.6                /* of the cycles: what repeats after more is seen by too few */
 #define MOST 64.0               /* periods that are looked at for that */
+#define ENOUGH 6.0              /* periods: a gap spoils three of those that are compared with two others, see CALM */
+#define CALM 0.6                /* of the cycles: the rest may be spoilt */
 #define SLOW 16.0               /* of a period: part of it that is averaged over */
 enum { FEWEST_SAMPLES = 64 };   /* of a record: fewer are no longer than what is read about a lag */
 enum { SHORTEST = 5 };          /* samples: a part that is shorter is not looked at */
@@ -451,7 +453,7 @@ smoothed(const double *x, size_t n, size_t q, size_t m)
     return out;
 }
 
-/* The signal some lag later, and as much earlier where at least two periods have both. */
+/* The signal some lag later, and as much earlier where ENOUGH periods have both. */
 enum { TAPS = 8, BEFORE = TAPS / 2 - 1 };
 typedef struct later {
     size_t lag;                 /* in whole samples */
@@ -463,7 +465,7 @@ typedef struct later {
 static later
 later_by(const view *v, double lag, double period)
 {
-    later by = { .lag = (size_t)lag, .has_both = 2 * (lag + TAPS + period) < (double)v->n };
+    later by = { .lag = (size_t)lag, .has_both = 2 * (lag + TAPS) + ENOUGH * period < (double)v->n };
     by.first = by.has_both ? by.lag + TAPS : BEFORE;
     by.end = v->n - by.lag - TAPS;
     for (int k = 0; k < TAPS; k++) {
@@ -528,8 +530,8 @@ least_unlike(const view *v)
     return fmax(ROUGH * sum / (double)v->n, ALIKE * moments_of(v, 0, 0, v->n).a);
 }
 
-/* The mean square by which samples and those some lag later differ, in a cycle that but a quarter are more unlike, so
- * that glitches do not count.  Of at most MOST cycles. */
+/* The mean square by which samples and those some lag away differ, in a cycle that but two in five are more unlike, so
+ * that glitches and a gap do not count.  Of at most MOST cycles. */
 static double
 unlikeness(const view *v, double lag, double period)
 {
@@ -543,7 +545,7 @@ unlikeness(const view *v, double lag, double period)
             sum[n] += pow(off(v->x + i, &by), 2) / (double)(end - from);
     }
     gsl_sort(sum, 1, n);
-    return gsl_stats_quantile_from_sorted_data(sum, 1, n, 0.75);
+    return gsl_stats_quantile_from_sorted_data(sum, 1, n, CALM);
 }
 
 /* The lag after which it is most like itself, near one that a hum may have pulled by a part of the period. */

@@ -1,3 +1,3 @@
-# Bases of two or three harmonics: all goals are met.
+# Bases of two or three harmonics.
 population=uneven
 . "$SRC/tests/long/identity.inc"
