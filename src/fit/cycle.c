@@ -12,24 +12,44 @@
 #include "base/number.h"
 #include "find/period.h"
 
+enum { GRID = 64 };             /* steps to either side in the search of the period */
+
+static size_t
+bins_of(double samples)
+{
+    size_t n = CYCLE_LEAST;
+    while (2 * n <= CYCLE_MOST && 2 * (double)n <= samples)
+        n *= 2;
+    return n;
+}
+
+/* Find sum and count of each bin; returns the sum of the squares. */
+static double
+gather(double *sum, double *count, size_t bins, const double *x, const char *missing, size_t n,
+       double cycles)
+{
+    double squares = 0;
+    memset(sum, 0, bins * sizeof *sum);
+    memset(count, 0, bins * sizeof *count);
+    for (size_t i = 0; i < n; i++) {
+        if (missing != NULL && missing[i])
+            continue;
+        double turn = (double)i * cycles;
+        size_t b = (size_t)((turn - floor(turn)) * (double)bins);
+        sum[b] += x[i];
+        count[b]++;
+        squares += x[i] * x[i];
+    }
+    return squares;
+}
+
 /* Fold n samples at a period of so many.  `why` becomes the reason if they show no cycle. */
 static void
 fold(cycle *c, char *why, size_t size, const double *x, const char *missing, size_t n, double samples)
 {
-    double count[CYCLE_MOST] = { 0 }, mean = 0, all = 0, within = 0;
-    c->n = CYCLE_LEAST;
-    while (2 * c->n <= CYCLE_MOST && 2 * (double)c->n <= samples)
-        c->n *= 2;
-    memset(c->y, 0, sizeof c->y);
-    for (size_t i = 0; i < n; i++) {
-        if (missing != NULL && missing[i])
-            continue;
-        double turn = (double)i / samples;
-        size_t b = (size_t)((turn - floor(turn)) * (double)c->n);
-        c->y[b] += x[i];
-        count[b]++;
-        within += x[i] * x[i];
-    }
+    double count[CYCLE_MOST], mean = 0, all = 0;
+    c->n = bins_of(samples);
+    double within = gather(c->y, count, c->n, x, missing, n, 1 / samples);
     for (size_t i = 0; i < c->n; i++) {
         all += count[i];
         if (missing != NULL && count[i] == 0)
@@ -49,6 +69,36 @@ fold(cycle *c, char *why, size_t size, const double *x, const char *missing, siz
         snprintf(why, size, "what repeats is no more than the noise");
 }
 
+/* The power of the mean cycle; that of its mean is in it, which is the same for every period. */
+static double
+repeating(const double *x, const char *missing, size_t n, double samples)
+{
+    double sum[CYCLE_MOST], count[CYCLE_MOST], power = 0;
+    size_t bins = bins_of(samples);
+    gather(sum, count, bins, x, missing, n, 1 / samples);
+    for (size_t i = 0; i < bins; i++)
+        power += count[i] > 0 ? sum[i] * sum[i] / count[i] : 0;
+    return power;
+}
+
+/* The period within 1 % of the given one at which most power repeats. */
+static double
+refine(const double *x, const char *missing, size_t n, double period)
+{
+    double best = period;
+    /* jumps repeat within a bin or two: the first steps are no wider than that over 8 cycles */
+    for (double width = 0.01; width > 1e-6; width /= GRID) {
+        double middle = best, most = -1;
+        for (int i = -GRID; i <= GRID; i++) {
+            double p = middle * (1 + width * i / GRID);
+            double power = repeating(x, missing, n, p);
+            if (power > most)
+                most = power, best = p;
+        }
+    }
+    return best;
+}
+
 ss_status
 ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing, size_t n,
               double rate, double frequency)
@@ -57,6 +107,8 @@ ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *mis
     ss_status st = frequency > 0 ? SS_OK : ss_period_find(x, n, &samples);
     if (st != SS_OK)
         return st;
+    if (!(frequency > 0) && !isnan(samples.value))
+        samples.value = refine(x, missing, n, samples.value);
     c->period = samples.value / rate;
     if (isnan(samples.value))
         snprintf(why, size, "nothing repeats in the record");

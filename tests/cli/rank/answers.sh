@@ -35,7 +35,7 @@ awk -F '\t' '/^# answer/ { left = $0; sub(/.*at least /, "", left); part = $0; s
 # columns of one recording that two models made: whichever is asked, the other contradicts it
 ss-sim state-variable > s.tsv; ss-sim coulomb --columns x > c.tsv
 { printf 'x\ta\n'; grep -v '^#' c.tsv | cut -f 2 > x; grep -v '^#' s.tsv | cut -f 4 | paste x -; } > mixed.tsv
-ss-cat --rate 2000 mixed.tsv | ss-noise --snr 40 --seed 2 > mixed
+ss-cat --rate 2000 mixed.tsv | ss-noise --snr 40 > mixed
 ss-rank mixed | sed -n '/^# answer/s/: it leaves.*//p'
 ss-rank -c x mixed | sed -n '/^# answer/s/: it leaves.*//p'
 # -v tells of the work, also where there is no answer
