@@ -74,7 +74,7 @@
 #define SEEN 0.6                /* of the cycles: what repeats after more is seen by too few */
 #define MOST 64.0               /* periods that are looked at for that */
 #define ENOUGH 6.0              /* periods: a gap spoils three of those that are compared with two others, see CALM */
-#define CALM 0.6                /* of the cycles: the rest may be spoilt */
+#define CALM 0.7                /* of the cycles: the rest may be spoilt */
 #define SLOW 16.0               /* of a period: part of it that is averaged over */
 enum { FEWEST_SAMPLES = 64 };   /* of a record: fewer are no longer than what is read about a lag */
 enum { SHORTEST = 5 };          /* samples: a part that is shorter is not looked at */
@@ -530,7 +530,7 @@ least_unlike(const view *v)
     return fmax(ROUGH * sum / (double)v->n, ALIKE * moments_of(v, 0, 0, v->n).a);
 }
 
-/* The mean square by which samples and those some lag away differ, in a cycle that but two in five are more unlike, so
+/* The mean square by which samples and those some lag away differ, in a cycle that but three in ten are more unlike, so
  * that glitches and a gap do not count.  Of at most MOST cycles. */
 static double
 unlikeness(const view *v, double lag, double period)
