@@ -322,8 +322,6 @@ repeats_not(const char *why)
     return (ss_cycles){ .period = { NAN, NAN }, .frequency = { NAN, NAN }, .why = why };
 }
 
-static const char by_chance[] = "what repeats may repeat sooner: in so few cycles, several may be alike by chance";
-
 /* Find median and standard error of the frequencies of n cycles. */
 static void
 summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
@@ -682,7 +680,7 @@ compare_cycles(const double *x, size_t n, double period, ss_cycles *out)
     if (parts > 1)
         st = find_at(x, n, period / (double)parts, out);
     if (st == SS_OK && some && parts == 1 && out->n <= FEW && isfinite(out->period.value))
-        *out = repeats_not(by_chance);
+        *out = repeats_not("what repeats may repeat sooner: in so few cycles, several may be alike by chance");
     if (st == SS_OK && isfinite(out->period.value))
         st = cycles_in_turn(&v, out->period.value / (double)held, &in_turn);
     if (st == SS_OK && in_turn > 1)
