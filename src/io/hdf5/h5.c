@@ -14,21 +14,26 @@
 #include "signal/gaps.h"
 #include "signal/header.h"
 
-ss_status
+void
 ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text)
 {
     char where[256] = "";
-    if (file->disk.packed)
-        return ss_fail(file->err, SS_EDATA, "%s: names or attributes in it are packed by filters; only values may be",
-                       file->path);
+    if (file->status != SS_OK)
+        return;
+    if (file->disk.packed) {
+        group = 0;
+        name = "";
+        status = SS_EDATA;
+        text = "names or attributes in it are packed by filters; only values may be";
+    }
     if (group > 0 && name[0] != '/')
         H5Iget_name(group, where, sizeof where);
     const char *colon = name[0] != '\0' || where[0] != '\0' ? ":" : "";
     const char *slash = name[0] != '\0' && where[0] != '\0' && strcmp(where, "/") != 0 ? "/" : "";
-    return ss_fail(file->err, status, "%s%s%s%s%s: %s", file->path, colon, where, slash, name, text);
+    file->status = ss_fail(file->err, status, "%s%s%s%s%s: %s", file->path, colon, where, slash, name, text);
 }
 
-ss_status
+void
 ss_h5_open(h5_file *file)
 {
     file->disk = (h5_disk){ .fd = open(file->path, O_RDONLY), .reading = 1 };
@@ -38,8 +43,7 @@ ss_h5_open(h5_file *file)
     file->id = H5Fopen(file->path, H5F_ACC_RDONLY, access);
     H5Pclose(access);
     if (file->id < 0)
-        return ss_h5_fail(file, SS_EDATA, 0, "", "not an HDF5 file, or a damaged one");
-    return SS_OK;
+        ss_h5_fail(file, SS_EDATA, 0, "", "not an HDF5 file, or a damaged one");
 }
 
 void
@@ -188,32 +192,29 @@ ss_h5_get_number(hid_t object, const char *name, double *value)
 }
 
 /* Read a string of fixed or variable length as a new C string. */
-static ss_status
-read_text(hid_t id, hid_t type, char **text)
+static char *
+read_text(h5_file *file, hid_t id, hid_t type)
 {
-    char *variable = NULL;
+    char *variable = NULL, *text = NULL;
     hid_t memory = H5Tcopy(H5T_C_S1);
-    ss_status status = SS_OK;
     H5Tset_cset(memory, H5Tget_cset(type));
     if (H5Tis_variable_str(type) > 0) {
         H5Tset_size(memory, H5T_VARIABLE);
-        if (H5Aread(id, memory, &variable) >= 0 && variable != NULL
-            && (*text = strdup(variable)) == NULL)
-            status = SS_ENOMEM;
+        if (H5Aread(id, memory, &variable) >= 0 && variable != NULL && (text = strdup(variable)) == NULL)
+            file->status = SS_ENOMEM;
         H5free_memory(variable);
     } else if (H5Tget_size(type) < H5_MAX_TEXT) {
         size_t size = H5Tget_size(type) + 1;
         H5Tset_size(memory, size);
-        *text = calloc(size, 1);
-        if (*text == NULL)
-            status = SS_ENOMEM;
-        else if (H5Aread(id, memory, *text) < 0) {
-            free(*text);
-            *text = NULL;
+        if ((text = calloc(size, 1)) == NULL) {
+            file->status = SS_ENOMEM;
+        } else if (H5Aread(id, memory, text) < 0) {
+            free(text);
+            text = NULL;
         }
     }
     H5Tclose(memory);
-    return status;
+    return text;
 }
 
 /* Attributes are not compressed, so their texts are no longer than the file, unless many attributes of
@@ -224,33 +225,28 @@ has_claimed_too_much(const h5_file *file)
     return file->text > fmax(file_size(file->id), H5_MAX_TEXT);
 }
 
-ss_status
-ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text)
+char *
+ss_h5_get_text(h5_file *file, hid_t object, const char *name)
 {
-    ss_status status = SS_OK;
-    hid_t id = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
-    *text = NULL;
+    char *text = NULL;
+    hid_t id = file->status == SS_OK && H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
     if (id < 0)
-        return SS_OK;
+        return NULL;
     hid_t type = H5Aget_type(id), space = H5Aget_space(id);
-    if (H5Tget_class(type) == H5T_STRING && values_in(space) == 1
-        && !has_claimed_too_much(file))
-        status = read_text(id, type, text);
+    if (H5Tget_class(type) == H5T_STRING && values_in(space) == 1 && !has_claimed_too_much(file))
+        text = read_text(file, id, type);
     H5Sclose(space);
     H5Tclose(type);
     H5Aclose(id);
-    file->text += *text != NULL ? (double)strlen(*text) : 0;
-    if (!has_claimed_too_much(file))
-        return status;
-    free(*text);
-    *text = NULL;
-    return ss_h5_fail(file, SS_EDATA, object, "", "attributes claim more text than the file holds");
+    file->text += text != NULL ? (double)strlen(text) : 0;
+    if (has_claimed_too_much(file))
+        ss_h5_fail(file, SS_EDATA, object, "", "attributes claim more text than the file holds");
+    return text;
 }
 
 struct notes {
     h5_file *file;
     ss_header *head;
-    ss_status status;
 };
 
 static herr_t
@@ -258,48 +254,45 @@ read_note(hid_t root, const char *name, const H5A_info_t *info, void *user)
 {
     struct notes *notes = user;
     (void)info;
-    char *value = NULL;
     if (notes->head->n_notes == MAX_NOTES || strcmp(name, H5_VERSION_NOTE) == 0)
         return 0;
-    notes->status = ss_h5_get_text(notes->file, root, name, &value);
-    if (value != NULL)
-        notes->status = ss_header_note(notes->head, name, value, NULL);
+    char *value = ss_h5_get_text(notes->file, root, name);
+    if (value != NULL && notes->file->status == SS_OK
+        && ss_header_note(notes->head, name, value, NULL) == SS_ENOMEM)     /* SS_EINVAL: it need be no note */
+        notes->file->status = SS_ENOMEM;
     free(value);
-    if (notes->status == SS_EINVAL)             /* other programs' attributes need not be notes */
-        notes->status = SS_OK;
-    return notes->status != SS_OK;
+    return notes->file->status != SS_OK;
 }
 
-ss_status
-ss_h5_need_number(h5_file *file, hid_t group, const char *name, double lo, double hi,
-                  double *value)
+double
+ss_h5_need_number(h5_file *file, hid_t group, const char *name, double lo, double hi)
 {
-    if (ss_h5_get_number(group, name, value) && *value >= lo && *value <= hi)
-        return SS_OK;
+    double value = lo;
     char text[128];
     snprintf(text, sizeof text, "attribute '%s' is missing or out of range", name);
-    return ss_h5_fail(file, SS_EDATA, group, "", text);
+    if (file->status == SS_OK && !(ss_h5_get_number(group, name, &value) && value >= lo && value <= hi))
+        ss_h5_fail(file, SS_EDATA, group, "", text);
+    return value;
 }
 
-ss_status
+void
 ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
 {
-    double rate, start, has_time;
-    ss_status status;
-    if ((status = ss_h5_need_number(file, group, "rate", RATE_MIN, RATE_MAX, &rate)) != SS_OK
-        || (status = ss_h5_need_number(file, group, "start", -START_MAX, START_MAX, &start)) != SS_OK
-        || (status = ss_h5_need_number(file, group, "has_time", 0, 1, &has_time)) != SS_OK)
-        return status;
-    if ((status = ss_refuse_range(file->path, rate, start, file->err)) != SS_OK)
-        return status;
-    if (*head == NULL && ss_header_new(head, 0, 0, NULL) != SS_OK)
-        return SS_ENOMEM;
+    double rate = ss_h5_need_number(file, group, "rate", RATE_MIN, RATE_MAX);
+    double start = ss_h5_need_number(file, group, "start", -START_MAX, START_MAX);
+    double has_time = ss_h5_need_number(file, group, "has_time", 0, 1);
+    if (file->status == SS_OK)
+        file->status = ss_refuse_range(file->path, rate, start, file->err);
+    if (file->status == SS_OK && *head == NULL)
+        file->status = ss_header_new(head, 0, 0, NULL);
+    if (file->status != SS_OK)
+        return;
     (*head)->rate = rate;
     (*head)->start = start;
     (*head)->has_time = has_time != 0;
     /* the notes among the root's attributes, in the order in which they were written */
     hid_t root = ss_h5_open_group(file->id, "/"), how = H5Gget_create_plist(root);
-    struct notes notes = { file, *head, SS_OK };
+    struct notes notes = { file, *head };
     unsigned tracked = 0;
     H5Pget_attr_creation_order(how, &tracked);
     int lost = H5Aexists(root, H5_VERSION_NOTE) < 0;    /* as for find_columns of read.c */
@@ -308,39 +301,43 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
     H5Pclose(how);
     H5Gclose(root);
     if (stopped < 0)
-        return ss_h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
-    if (notes.status == SS_OK && (notes.status = ss_header_check_gaps(*head)) == SS_EDATA)
-        return ss_h5_fail(file, SS_EDATA, 0, "/", WRONG_GAPS);
-    return notes.status;
+        ss_h5_fail(file, SS_EIO, 0, "/", "attributes cannot be read");
+    ss_status st = file->status == SS_OK ? ss_header_check_gaps(*head) : SS_OK;
+    if (st == SS_EDATA)
+        ss_h5_fail(file, st, 0, "/", WRONG_GAPS);
+    else if (st != SS_OK)
+        file->status = st;
 }
 
-ss_status
-ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, int *rank, hsize_t dims[])
+hid_t
+ss_h5_open_values(h5_file *file, hid_t group, const char *name, int *rank, hsize_t dims[])
 {
-    *id = ss_h5_open_dataset(group, name, 1);
-    if (*id < 0)
-        return ss_h5_fail(file, SS_EDATA, group, name, "no such dataset");
+    hid_t id = file->status == SS_OK ? ss_h5_open_dataset(group, name, 1) : -1;
     double bytes = 0;
-    const char *wrong = ss_h5_refuse_values(*id, &bytes);
+    const char *wrong = id < 0 ? "no such dataset" : ss_h5_refuse_values(id, &bytes);
     file->claimed += bytes;
-    if (wrong == NULL && file->claimed > file_size(*id))
+    if (wrong == NULL && file->claimed > file_size(id))
         wrong = "with those before, claims more values than a file of this size can hold";
-    if (wrong != NULL)
-        return ss_h5_fail(file, SS_EDATA, group, name, wrong);
-    hid_t space = H5Dget_space(*id);
+    if (wrong != NULL) {
+        ss_h5_fail(file, SS_EDATA, group, name, wrong);
+        return id;
+    }
+    hid_t space = H5Dget_space(id);
     *rank = H5Sget_simple_extent_dims(space, dims, NULL);
     H5Sclose(space);
-    return SS_OK;
+    return id;
 }
 
-ss_status
-ss_h5_open_list(h5_file *file, hid_t group, const char *name, hid_t *id, size_t *n)
+hid_t
+ss_h5_open_list(h5_file *file, hid_t group, const char *name, size_t *n)
 {
     hsize_t dims[H5S_MAX_RANK] = { 0 };
     int rank = 1;
-    ss_status status = ss_h5_open_values(file, group, name, id, &rank, dims);
+    hid_t id = ss_h5_open_values(file, group, name, &rank, dims);
     *n = (size_t)dims[0];
-    return rank == 1 ? status : ss_h5_fail(file, SS_EDATA, group, name, "not a list of values");
+    if (rank != 1)
+        ss_h5_fail(file, SS_EDATA, group, name, "not a list of values");
+    return id;
 }
 
 int

@@ -29,19 +29,20 @@ hid_t ss_h5_disk_access(h5_disk *disk, hid_t *driver);
 typedef struct h5_file {
     hid_t id;
     const char *path;           /* for messages */
-    ss_error *err;
+    ss_status status;           /* the first failure, behind which nothing is read or written */
+    ss_error *err;              /* its text, but of SS_ENOMEM */
     h5_disk disk;
     hid_t driver;               /* to be unregistered behind the file */
     double claimed;             /* bytes of the file that the values read so far need at least */
     double text;                /* and of text in attributes */
 } h5_file;
 
-/* SS_EIO or the given status, with the text "PATH:GROUP/NAME: TEXT"; group 0 for the file itself. */
-ss_status ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name,
-                     const char *text);
+/* Unless it has failed before, let the file fail with this status and the text "PATH:GROUP/NAME: TEXT"; group 0 for
+ * the file itself. */
+void ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text);
 
 /* Open for reading.  Closing it closes every dataset, group and attribute still open in it. */
-ss_status ss_h5_open(h5_file *file);
+void ss_h5_open(h5_file *file);
 /* Close it, if it is open. */
 void ss_h5_close(h5_file *file);
 
@@ -66,12 +67,11 @@ const char *ss_h5_refuse_values(hid_t dataset, double *bytes);
     } while (0)
 
 /* A required attribute of a group, lo <= value <= hi. */
-ss_status ss_h5_need_number(h5_file *file, hid_t group, const char *name, double lo, double hi,
-                            double *value);
+double ss_h5_need_number(h5_file *file, hid_t group, const char *name, double lo, double hi);
 /* Attributes of an object.  Returns 0 for a missing one, or one of another kind. */
 int ss_h5_get_number(hid_t object, const char *name, double *value);
-/* The same of text: *text is NULL, or to be freed.  SS_EDATA: the file claims too much of it. */
-ss_status ss_h5_get_text(h5_file *file, hid_t object, const char *name, char **text);
+/* The same of text, to be freed even after a failure: the file claims too much of it.  NULL: there is none. */
+char *ss_h5_get_text(h5_file *file, hid_t object, const char *name);
 
 /* Read count[i] values along dimension i of a dataset, from at[i] on, as doubles.  Returns 0 if HDF5 fails. */
 int ss_h5_read_piece(hid_t id, int rank, const hsize_t at[], const hsize_t count[], double *values);
@@ -80,13 +80,13 @@ int ss_h5_read_piece(hid_t id, int rank, const hsize_t at[], const hsize_t count
 int ss_h5_read_rows(hid_t id, int by_columns, size_t row, size_t n, double *values);
 
 /* Open a dataset of real numbers, which are counted as claimed; it is to be closed even after a failure. */
-ss_status ss_h5_open_values(h5_file *file, hid_t group, const char *name, hid_t *id, int *rank, hsize_t dims[]);
+hid_t ss_h5_open_values(h5_file *file, hid_t group, const char *name, int *rank, hsize_t dims[]);
 /* The same of a list of n numbers. */
-ss_status ss_h5_open_list(h5_file *file, hid_t group, const char *name, hid_t *id, size_t *n);
+hid_t ss_h5_open_list(h5_file *file, hid_t group, const char *name, size_t *n);
 
-/* Rate, start and whether the text form has a column of time, from a group into a new header, with the
- * notes of the file. */
-ss_status ss_h5_read_header(h5_file *file, hid_t group, ss_header **head);
+/* Rate, start and whether the text form has a column of time, from a group into a header, which is made if it is
+ * NULL, with the notes of the file. */
+void ss_h5_read_header(h5_file *file, hid_t group, ss_header **head);
 
 #define H5_VERSION_NOTE "stickslip_version"     /* the one attribute of the root that is no note */
 

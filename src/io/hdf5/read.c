@@ -28,7 +28,6 @@ typedef struct rows {
     char *path;                 /* of the file */
     hid_t *dataset;             /* one for all columns, or one for each */
     size_t n_datasets, room;
-    ss_status status;           /* of the last one that was opened */
     int by_columns;             /* what is read at a time from a dataset is column after column */
     hid_t times;                /* of the rows, or 0 */
     int times_by_columns;
@@ -76,16 +75,16 @@ refuse_array(hid_t id, int is_char, array *shape)
     return shape->columns > MAX_COLUMNS ? "has more than 32768 columns" : NULL;
 }
 
-static ss_status
-check_array(h5_file *file, hid_t id, const char *name, array *shape)
+static array
+shape_of(h5_file *file, hid_t id, const char *name)
 {
-    char *matlab;
-    ss_status status = ss_h5_get_text(file, id, "MATLAB_class", &matlab);
-    if (status != SS_OK)
-        return status;
-    const char *wrong = refuse_array(id, matlab != NULL && strcmp(matlab, "char") == 0, shape);
+    array shape = { 0 };
+    char *matlab = ss_h5_get_text(file, id, "MATLAB_class");
+    const char *wrong = refuse_array(id, matlab != NULL && strcmp(matlab, "char") == 0, &shape);
     free(matlab);
-    return wrong == NULL ? SS_OK : ss_h5_fail(file, SS_EDATA, 0, name, wrong);
+    if (wrong != NULL)
+        ss_h5_fail(file, SS_EDATA, 0, name, wrong);
+    return shape;
 }
 
 /* The list of arrays has at most so many letters; at most so many objects are visited, as all may be groups. */
@@ -102,7 +101,6 @@ struct list {
 static herr_t
 list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
 {
-    array shape;
     struct list *list = user;
     size_t length = strlen(list->text), room = LISTED - length;
     int fits = strlen(name) < LISTED;
@@ -110,14 +108,17 @@ list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
         return 1;
     if (fits && info->type == H5O_TYPE_GROUP) {
         hid_t group = ss_h5_open_group(root, name);     /* asked for one name first, as in find_columns */
-        int lost = H5Lexists(group, "t", H5P_DEFAULT) < 0;
+        int lost = H5Lexists(group, "t", H5P_DEFAULT) < 0;      /* and its names cannot be listed */
         H5Gclose(group);
         return lost;
     }
     if (fits && info->type != H5O_TYPE_DATASET)
         return 0;
     hid_t id = fits ? ss_h5_open_dataset(root, name, 0) : -1;
-    int is_array = id >= 0 && check_array(list->file, id, name, &shape) == SS_OK;
+    if (id >= 0)
+        shape_of(list->file, id, name);
+    int is_array = id >= 0 && list->file->status == SS_OK;
+    list->file->status = SS_OK;
     H5Dclose(id);
     if (fits && (!is_array || snprintf(list->text + length, room, " /%s", name) < (int)room))
         return 0;
@@ -125,84 +126,69 @@ list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
     return 1;
 }
 
-static ss_status
-fail_listing(h5_file *file)
-{
-    struct list list = { .file = file };
-    H5Ovisit(file->id, H5_INDEX_NAME, H5_ITER_INC, list_dataset, &list);
-    if (list.text[0] == '\0')
-        return ss_h5_fail(file, SS_EKIND, 0, "", "no /signal in it, nor any array of real numbers");
-    return ss_fail(file->err, SS_EKIND, "%s: no /signal in it; choose one as %s:/PATH from%s",
-                   file->path, file->path, list.text);
-}
-
 /* Find rate and start, the caller's or those in attributes of the dataset or its group, and the columns, which
  * have the name of the dataset, numbered from 1 if there are several. */
-static ss_status
-make_header(rows *s, hid_t group, const char *dataset, const array *shape, double rate)
+static void
+make_header(rows *s, hid_t group, const char *dataset, size_t columns, double rate)
 {
     double start = 0;
     hid_t id = *s->dataset, clock = H5Aexists(id, "rate") > 0 ? id : group;
+    ss_status *status = &s->file.status;
     if (!(rate > 0)) {
         if (!ss_h5_get_number(clock, "rate", &rate))
             rate = 0;
         ss_h5_get_number(clock, "start", &start);
     }
     if (!(rate > 0) || !isfinite(rate) || !isfinite(start))
-        return ss_h5_fail(&s->file, SS_ECLOCK, 0, dataset, "has no clock");
-    ss_status status = ss_refuse_range(s->path, rate, start, s->file.err);
-    if (status != SS_OK)
-        return status;
+        ss_h5_fail(&s->file, SS_ECLOCK, 0, dataset, "has no clock");
+    if (*status != SS_OK || (*status = ss_refuse_range(s->path, rate, start, s->file.err)) != SS_OK)
+        return;
     s->base.head->rate = rate;
     s->base.head->start = start;
     const char *slash = strrchr(dataset, '/'), *name = slash != NULL ? slash + 1 : dataset;
-    char *unit, *numbered = malloc(strlen(name) + 3 * sizeof(size_t) + 1);
+    char *unit = ss_h5_get_text(&s->file, id, "units"), *numbered = malloc(strlen(name) + 3 * sizeof(size_t) + 1);
     if (numbered == NULL)
-        return SS_ENOMEM;
-    status = ss_h5_get_text(&s->file, id, "units", &unit);
-    for (size_t c = 0; status == SS_OK && c < shape->columns; c++) {
+        *status = SS_ENOMEM;
+    for (size_t c = 0; *status == SS_OK && c < columns; c++) {
         char *end = stpcpy(numbered, name);
-        if (shape->columns > 1)
+        if (columns > 1)
             sprintf(end, "%zu", c + 1);
-        status = ss_header_add_column(s->base.head, numbered, unit, NULL);
+        *status = ss_header_add_column(s->base.head, numbered, unit, NULL);
     }
     free(unit);
     free(numbered);
-    return status;
 }
 
 /* Open the times of an array: at a path, or with a name in its group, unless a column has this name.  They become
  * the last column. */
-static ss_status
+static void
 find_times(rows *s, hid_t group, const char *time)
 {
-    array shape;
+    h5_file *file = &s->file;
     const char *slash = strrchr(time, '/');
-    char *unit = NULL;
     hid_t id = ss_h5_open_dataset(group, time, 1);
-    if (id < 0)
-        return ss_header_column(s->base.head, time) >= 0 ? SS_OK
-            : ss_h5_fail(&s->file, SS_EDATA, group, time, "no such dataset");
+    if (id < 0) {
+        if (ss_header_column(s->base.head, time) < 0)
+            ss_h5_fail(file, SS_EDATA, group, time, "no such dataset");
+        return;
+    }
     s->times = id;
-    ss_status status = check_array(&s->file, id, time, &shape);
-    if (status == SS_OK && (shape.columns > 1 || shape.rows != s->n))
-        status = ss_h5_fail(&s->file, SS_EDATA, group, time, "not one time for each row of the signal");
+    const array shape = shape_of(file, id, time);
+    if (shape.columns > 1 || shape.rows != s->n)
+        ss_h5_fail(file, SS_EDATA, group, time, "not one time for each row of the signal");
     s->times_by_columns = shape.transposed;
-    if (status == SS_OK)
-        status = ss_h5_get_text(&s->file, id, "units", &unit);
+    char *unit = ss_h5_get_text(file, id, "units");
     char *since = unit != NULL ? strstr(unit, " since ") : NULL;        /* "s since 1970-01-01 00:00" */
     if (since != NULL)
         *since = '\0';
-    if (status == SS_OK)
-        status = ss_header_add_column(s->base.head, slash != NULL ? slash + 1 : time, unit, NULL);
+    if (file->status == SS_OK)
+        file->status = ss_header_add_column(s->base.head, slash != NULL ? slash + 1 : time, unit, NULL);
     free(unit);
-    return status;
 }
 
-static ss_status
+static void
 find_array(rows *s, const char *dataset, const ss_read_opts *opts)
 {
-    array shape;
     h5_file *file = &s->file;
     const char *slash = strrchr(dataset, '/');
     int has_name = slash == NULL || slash[1] != '\0';           /* for its columns */
@@ -210,102 +196,97 @@ find_array(rows *s, const char *dataset, const ss_read_opts *opts)
     s->dataset = malloc(sizeof *s->dataset);
     if (parent == NULL || s->dataset == NULL) {
         free(parent);
-        return SS_ENOMEM;
+        file->status = SS_ENOMEM;
+        return;
     }
     hid_t id = has_name ? ss_h5_open_dataset(file->id, dataset, 1) : -1;
     hid_t group = ss_h5_open_group(file->id, id < 0 ? dataset : parent);
     free(parent);
-    if (id < 0)
-        return ss_h5_fail(file, SS_EDATA, 0, dataset, group >= 0 ? "a group, not a dataset" : "no such dataset");
+    if (id < 0) {
+        ss_h5_fail(file, SS_EDATA, 0, dataset, group >= 0 ? "a group, not a dataset" : "no such dataset");
+        return;
+    }
     s->dataset[s->n_datasets++] = id;
-    ss_status status = check_array(file, id, dataset, &shape);
-    if (status != SS_OK)
-        return status;
+    const array shape = shape_of(file, id, dataset);
     if (opts->table > 0)
-        return ss_h5_fail(file, SS_EDATA, 0, dataset, "not delimited text: no table can be chosen");
+        ss_h5_fail(file, SS_EDATA, 0, dataset, "not delimited text: no table can be chosen");
     if (opts->time_unit != NULL && opts->time == NULL)
-        return ss_h5_fail(file, SS_EDATA, 0, dataset, "a unit of time is that of a dataset of times, which must "
-                          "be chosen");
+        ss_h5_fail(file, SS_EDATA, 0, dataset, "a unit of time is that of a dataset of times, which must be chosen");
     s->n = shape.rows;
     s->by_columns = shape.transposed;
     s->gaps = opts->gaps != SS_GAPS_REFUSE || opts->time != NULL;   /* a table refuses them itself */
-    status = make_header(s, group, dataset, &shape, opts->time != NULL ? 1 : opts->rate);
-    return status == SS_OK && opts->time != NULL ? find_times(s, group, opts->time) : status;
+    make_header(s, group, dataset, shape.columns, opts->time != NULL ? 1 : opts->rate);
+    if (file->status == SS_OK && opts->time != NULL)
+        find_times(s, group, opts->time);
 }
 
 /* --- /signal ------------------------------------------------------------------------------- */
 
-/* Add the dataset at a link as a column of the header. */
-static ss_status
-add_column(rows *s, hid_t group, const char *link)
-{
-    size_t own;
-    char *name = NULL, *unit = NULL;
-    hid_t *more = ss_list_room(s->dataset, &s->room, s->n_datasets, sizeof *more);
-    if (more == NULL)
-        return SS_ENOMEM;
-    s->dataset = more;
-    if (s->n_datasets == MAX_COLUMNS)
-        return ss_h5_fail(&s->file, SS_EDATA, group, "", "has more than 32768 columns");
-    hid_t *id = &more[s->n_datasets++];
-    ss_status status = ss_h5_open_list(&s->file, group, link, id, &own);
-    if (status == SS_OK && own != s->n)
-        status = ss_h5_fail(&s->file, SS_EDATA, group, link, "not as long as t");
-    if (status == SS_OK)
-        status = ss_h5_get_text(&s->file, *id, "column", &name);
-    if (status == SS_OK)
-        status = ss_h5_get_text(&s->file, *id, "units", &unit);
-    if (status == SS_OK)
-        status = ss_header_add_column(s->base.head, name != NULL && *name != '\0' ? name : link, unit, NULL);
-    free(name);
-    free(unit);
-    return status;
-}
-
+/* Add the dataset at a link as a column of the header, unless it is that of the times. */
 static herr_t
-add_link(hid_t group, const char *name, const H5L_info_t *info, void *user)
+add_column(hid_t group, const char *link, const H5L_info_t *info, void *user)
 {
     rows *s = user;
+    h5_file *file = &s->file;
+    size_t own;
     (void)info;
-    if (strcmp(name, "t") != 0)
-        s->status = add_column(s, group, name);
-    return s->status != SS_OK;
+    if (strcmp(link, "t") == 0)
+        return 0;
+    if (s->n_datasets == MAX_COLUMNS)
+        ss_h5_fail(file, SS_EDATA, group, "", "has more than 32768 columns");
+    hid_t *more = ss_list_room(s->dataset, &s->room, s->n_datasets, sizeof *more);
+    if (more == NULL)
+        file->status = SS_ENOMEM;
+    if (file->status != SS_OK)
+        return 1;
+    s->dataset = more;
+    hid_t id = more[s->n_datasets++] = ss_h5_open_list(file, group, link, &own);
+    if (own != s->n)
+        ss_h5_fail(file, SS_EDATA, group, link, "not as long as t");
+    char *name = ss_h5_get_text(file, id, "column"), *unit = ss_h5_get_text(file, id, "units");
+    if (file->status == SS_OK)
+        file->status = ss_header_add_column(s->base.head, name != NULL && *name != '\0' ? name : link, unit, NULL);
+    free(name);
+    free(unit);
+    return file->status != SS_OK;
 }
 
-/* Open all columns of a group, in the order of writing if the file has it, else in that of their names.  Asked
+/* Open all columns of /signal, in the order of writing if the file has it, else in that of their names.  Asked
  * for one name after the other, HDF5 would sort them all again for each, if the group has no index of that order.
  * Open one of them before: HDF5 1.10 frees pointers that it has not set if it cannot read the heap of the names
  * while it lists them. */
-static ss_status
-find_columns(rows *s, hid_t group)
+static void
+find_signal(rows *s, const ss_read_opts *opts)
 {
+    h5_file *file = &s->file;
+    struct list list = { .file = file };
     unsigned tracked = 0;
+    if (H5Lexists(file->id, "signal", H5P_DEFAULT) <= 0) {
+        H5Ovisit(file->id, H5_INDEX_NAME, H5_ITER_INC, list_dataset, &list);
+        if (list.text[0] == '\0')
+            ss_h5_fail(file, SS_EKIND, 0, "", "no /signal in it, nor any array of real numbers");
+        else
+            file->status = ss_fail(file->err, SS_EKIND, "%s: no /signal in it; choose one as %s:/PATH from%s",
+                                   file->path, file->path, list.text);
+        return;
+    }
+    hid_t group = ss_h5_open_group(file->id, "/signal");
+    if (group < 0)
+        ss_h5_fail(file, SS_EDATA, 0, "/signal", "not a group of this file");
+    s->is_own = 1;
+    ss_h5_read_header(file, group, &s->base.head);
+    s->times = ss_h5_open_list(file, group, "t", &s->n);
+    if (file->status != SS_OK)
+        return;
     hid_t how = H5Gget_create_plist(group);
     H5Pget_link_creation_order(how, &tracked);
     H5Pclose(how);
     H5_index_t order = tracked & H5P_CRT_ORDER_TRACKED ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
-    if (H5Literate(group, order, H5_ITER_INC, NULL, add_link, s) < 0)
-        return ss_h5_fail(&s->file, SS_EIO, group, "", "cannot be read");
+    if (H5Literate(group, order, H5_ITER_INC, NULL, add_column, s) < 0)
+        ss_h5_fail(file, SS_EIO, group, "", "cannot be read");
     s->by_columns = s->n_datasets > 1;
-    return s->status;
-}
-
-static ss_status
-find_signal(rows *s, const ss_read_opts *opts)
-{
-    h5_file *file = &s->file;
-    if (H5Lexists(file->id, "signal", H5P_DEFAULT) <= 0)
-        return fail_listing(file);
-    hid_t group = ss_h5_open_group(file->id, "/signal");
-    if (group < 0)
-        return ss_h5_fail(file, SS_EDATA, 0, "/signal", "not a group of this file");
-    s->is_own = 1;
-    ss_status status = ss_h5_read_header(file, group, &s->base.head);
-    if (status == SS_OK)
-        status = ss_h5_open_list(file, group, "t", &s->times, &s->n);
-    if (status == SS_OK)
-        status = find_columns(s, group);
-    return status == SS_OK ? ss_refuse_clock(file->path, s->base.head->rate, opts, file->err) : status;
+    if (file->status == SS_OK)
+        file->status = ss_refuse_clock(file->path, s->base.head->rate, opts, file->err);
 }
 
 /* --- rows ---------------------------------------------------------------------------------- */
@@ -322,20 +303,6 @@ longer_chunk(hsize_t least, hid_t id, int by_columns)
     return own > least ? own : least;
 }
 
-/* The number of rows to read at a time: whole chunks of the dataset with the longest chunks, about PIECE
- * values in all, or all rows. */
-static size_t
-piece_rows(const rows *s)
-{
-    hsize_t chunk = 1, target = PIECE / (s->base.head->n_columns + 1) + 1;
-    for (size_t d = 0; d < s->n_datasets; d++)
-        chunk = longer_chunk(chunk, s->dataset[d], s->by_columns);
-    if (s->times > 0 && !s->is_own)
-        chunk = longer_chunk(chunk, s->times, s->times_by_columns);
-    hsize_t n = chunk < target ? target / chunk * chunk : chunk;
-    return n < s->n ? (size_t)n : s->n;
-}
-
 /* The columns of each dataset. */
 static size_t
 columns_of(const rows *s)
@@ -345,15 +312,15 @@ columns_of(const rows *s)
 
 /* Read n rows of dataset d, which has so many columns, into columns of the piece.  Values that are not finite
  * become NaN if there may be gaps, else SS_EDATA. */
-static ss_status
+static void
 read_dataset(rows *s, size_t d, size_t n, size_t columns)
 {
     char text[64];
     double *x = columns == 1 ? s->value[d] : s->raw;
     size_t row = (size_t)s->base.row;
     if (!ss_h5_read_rows(s->dataset[d], s->by_columns, row, n, x))
-        return ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
-    for (size_t i = 0; i < n * columns; i++) {
+        ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
+    for (size_t i = 0; s->file.status == SS_OK && i < n * columns; i++) {
         if (isfinite(x[i]))
             continue;
         x[i] = NAN;
@@ -361,38 +328,35 @@ read_dataset(rows *s, size_t d, size_t n, size_t columns)
             continue;
         size_t place = s->by_columns ? i / n * s->n + row + i % n : row * columns + i;
         snprintf(text, sizeof text, "value %zu is not finite", place + 1);
-        return ss_h5_fail(&s->file, SS_EDATA, s->dataset[d], "", text);
+        ss_h5_fail(&s->file, SS_EDATA, s->dataset[d], "", text);
     }
     for (size_t c = 0; columns > 1 && c < columns; c++)
         for (size_t i = 0; i < n; i++)
             s->value[c][i] = x[s->by_columns ? c * n + i : i * columns + c];
-    return SS_OK;
 }
 
 /* Read the next n rows.  Times of our own files are not given, but must be those of the clock. */
-static ss_status
+static void
 read_piece(rows *s, size_t n)
 {
     const ss_header *head = s->base.head;
     double *times = s->is_own ? s->raw : s->value[head->n_columns - 1];
-    ss_status status = SS_OK;
     char text[64];
     size_t row = (size_t)s->base.row;
     if (n > 0 && s->times > 0 && !ss_h5_read_rows(s->times, s->times_by_columns, row, n, times))
-        return ss_h5_fail(&s->file, SS_EIO, s->times, "", "cannot be read");
-    for (size_t i = 0; s->is_own && status == SS_OK && i < n; i++)
+        ss_h5_fail(&s->file, SS_EIO, s->times, "", "cannot be read");
+    for (size_t i = 0; s->is_own && s->file.status == SS_OK && i < n; i++)
         if (!ss_is_on_clock(times[i], head->rate, head->start, row + i)) {
             snprintf(text, sizeof text, "value %zu is not start + %zu / rate", row + i + 1, row + i);
-            status = ss_h5_fail(&s->file, SS_EDATA, s->times, "", text);
+            ss_h5_fail(&s->file, SS_EDATA, s->times, "", text);
         }
-    for (size_t d = 0; status == SS_OK && n > 0 && d < s->n_datasets; d++)
-        status = read_dataset(s, d, n, columns_of(s));
-    if (status != SS_OK)
-        return status;
+    for (size_t d = 0; s->file.status == SS_OK && n > 0 && d < s->n_datasets; d++)
+        read_dataset(s, d, n, columns_of(s));
+    if (s->file.status != SS_OK)
+        return;
     s->base.row += n;
     s->base.held = n;
     s->base.given = 0;
-    return SS_OK;
 }
 
 static ss_status
@@ -400,13 +364,13 @@ make_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_err
 {
     rows *s = (rows *)base;
     size_t left = s->n - (size_t)base->row;
-    ss_status status = SS_OK;
     (void)column, (void)max, (void)n;
     s->file.err = err;
+    s->file.status = SS_OK;
     QUIETLY(
-        status = read_piece(s, left < s->piece ? left : s->piece);
+        read_piece(s, left < s->piece ? left : s->piece);
     );
-    return status;
+    return s->file.status;
 }
 
 static void
@@ -424,16 +388,25 @@ free_rows(ss_source *base)
 
 /* --- opening ------------------------------------------------------------------------------- */
 
+/* At a time are read: whole chunks of the dataset with the longest chunks, about PIECE values in all, or all rows. */
 static ss_status
 find(rows *s, const char *dataset, const ss_read_opts *opts)
 {
-    ss_status status = ss_h5_open(&s->file);
-    if (status == SS_OK)
-        status = *dataset != '\0' ? find_array(s, dataset, opts) : find_signal(s, opts);
-    if (status != SS_OK)
-        return status;
+    hsize_t chunk = 1;
+    ss_h5_open(&s->file);
+    if (s->file.status == SS_OK && *dataset != '\0')
+        find_array(s, dataset, opts);
+    else if (s->file.status == SS_OK)
+        find_signal(s, opts);
+    if (s->file.status != SS_OK)
+        return s->file.status;
+    for (size_t d = 0; d < s->n_datasets; d++)
+        chunk = longer_chunk(chunk, s->dataset[d], s->by_columns);
+    if (s->times > 0 && !s->is_own)
+        chunk = longer_chunk(chunk, s->times, s->times_by_columns);
+    hsize_t target = PIECE / (s->base.head->n_columns + 1) + 1, n = chunk < target ? target / chunk * chunk : chunk;
     s->base.length = s->n;
-    s->piece = piece_rows(s);
+    s->piece = n < s->n ? (size_t)n : s->n;
     s->value = ss_columns_new(s->base.head->n_columns, s->piece);
     s->raw = malloc((s->piece * columns_of(s) + 1) * sizeof *s->raw);       /* times: one column */
     if (s->value == NULL || s->raw == NULL)

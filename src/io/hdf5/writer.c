@@ -56,7 +56,6 @@ typedef struct h5_writer {
     ss_writer base;
     h5_file file;               /* its path is to be freed */
     ss_error error;
-    ss_status status;           /* the first failure */
     double rate, start;
     size_t length;              /* of the record; 0: not known */
     int growing, ended;         /* growing: it is known only at the end */
@@ -88,8 +87,7 @@ typedef struct h5_writer {
 static void
 fail(h5_writer *w, hid_t group, const char *name)
 {
-    if (w->status == SS_OK)
-        w->status = ss_h5_fail(&w->file, SS_EIO, group, name, "HDF5 cannot store it, or is out of memory");
+    ss_h5_fail(&w->file, SS_EIO, group, name, "HDF5 cannot store it, or is out of memory");
 }
 
 /* --- attributes, groups and datasets -------------------------------------------------------- */
@@ -98,7 +96,7 @@ static void
 write_attribute(h5_writer *w, hid_t object, const char *name, hid_t in_file, hid_t in_memory, const void *value)
 {
     hid_t space = H5Screate(H5S_SCALAR);
-    hid_t id = w->status == SS_OK ? H5Acreate2(object, name, in_file, space, H5P_DEFAULT, H5P_DEFAULT) : -1;
+    hid_t id = w->file.status == SS_OK ? H5Acreate2(object, name, in_file, space, H5P_DEFAULT, H5P_DEFAULT) : -1;
     if (id < 0 || H5Awrite(id, in_memory, value) < 0)
         fail(w, object, name);
     H5Aclose(id);
@@ -127,7 +125,7 @@ new_group(h5_writer *w, hid_t parent, const char *name)
     hid_t how = H5Pcreate(H5P_GROUP_CREATE);
     H5Pset_obj_track_times(how, 0);
     H5Pset_link_creation_order(how, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    hid_t group = w->status == SS_OK ? H5Gcreate2(parent, name, H5P_DEFAULT, how, H5P_DEFAULT) : -1;
+    hid_t group = w->file.status == SS_OK ? H5Gcreate2(parent, name, H5P_DEFAULT, how, H5P_DEFAULT) : -1;
     H5Pclose(how);
     if (group < 0)
         fail(w, parent, name);
@@ -166,7 +164,7 @@ new_dataset(h5_writer *w, hid_t group, const dataset *v, int rank, const hsize_t
             const char *const scales[])
 {
     hsize_t most[2] = { dims[0], dims[rank - 1] };
-    if (w->status != SS_OK)
+    if (w->file.status != SS_OK)
         return -1;
     most[rank - 1] = v->chunk > 0 ? H5S_UNLIMITED : dims[rank - 1];
     hid_t how = H5Pcreate(H5P_DATASET_CREATE), access = H5Pcreate(H5P_DATASET_ACCESS);
@@ -180,7 +178,7 @@ new_dataset(h5_writer *w, hid_t group, const dataset *v, int rank, const hsize_t
         fail(w, group, v->name);
     write_text(w, id, "units", v->unit);
     write_text(w, id, "long_name", v->long_name);
-    int good = w->status == SS_OK;
+    int good = w->file.status == SS_OK;
     if (good && v->values != NULL && dims[0] > 0)
         good = H5Dwrite(id, H5Tget_class(v->type) == H5T_STRING ? v->type : H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL,
                         H5P_DEFAULT, v->values) >= 0;
@@ -206,8 +204,8 @@ write_lists(h5_writer *w, hid_t group, const dataset v[], size_t n, size_t lengt
     const char *const scales[] = { v[0].name };
     hsize_t dims = length;
     double *x = malloc((length + 1) * sizeof *x);
-    w->status = w->status == SS_OK && x == NULL ? SS_ENOMEM : w->status;
-    for (size_t i = 0; w->status == SS_OK && i < n; i++) {
+    w->file.status = w->file.status == SS_OK && x == NULL ? SS_ENOMEM : w->file.status;
+    for (size_t i = 0; w->file.status == SS_OK && i < n; i++) {
         dataset list = v[i];
         H5T_class_t class = H5Tget_class(list.type);
         for (size_t k = 0; class != H5T_STRING && k < length; k++) {
@@ -227,7 +225,7 @@ static void
 write_values(h5_writer *w, hid_t id, int rank, const hsize_t at[], hsize_t n, hid_t type, const void *values)
 {
     hsize_t count[2] = { 1, 1 }, dims[2], end = at[rank - 1] + n;
-    if (w->status != SS_OK)
+    if (w->file.status != SS_OK)
         return;
     hid_t space = H5Dget_space(id), memory = H5Screate_simple(1, &n, NULL);
     count[rank - 1] = n;
@@ -267,7 +265,7 @@ static void
 write_times(h5_writer *w, hid_t id, const ss_scale *scale, size_t first, size_t n)
 {
     double *t = w->value[0];
-    for (size_t m; w->status == SS_OK && n > 0; first += m, n -= m) {
+    for (size_t m; w->file.status == SS_OK && n > 0; first += m, n -= m) {
         hsize_t at = first;
         m = n < PIECE ? n : PIECE;
         for (size_t i = 0; i < m; i++)
@@ -318,11 +316,11 @@ begin_signal(h5_writer *w, const ss_header *head)
                   .chunk = chunk_of(w, 8 * (head->n_columns + 1)) };
     hid_t group = new_group(w, w->file.id, "signal");
     w->piece = v.chunk > 0 ? (size_t)v.chunk : PIECE;
-    if ((w->column = calloc(head->n_columns + 1, sizeof *w->column)) == NULL && w->status == SS_OK)
-        w->status = SS_ENOMEM;
+    if ((w->column = calloc(head->n_columns + 1, sizeof *w->column)) == NULL && w->file.status == SS_OK)
+        w->file.status = SS_ENOMEM;
     write_clock(w, group, head);
     w->times = new_dataset(w, group, &v, 1, &dims, NULL);
-    for (; w->status == SS_OK && w->n_columns < head->n_columns; w->n_columns++) {
+    for (; w->file.status == SS_OK && w->n_columns < head->n_columns; w->n_columns++) {
         const ss_column *column = &head->column[w->n_columns];
         char link[256];
         link_name(link, group, column->name);
@@ -337,21 +335,6 @@ begin_signal(h5_writer *w, const ss_header *head)
             write_text(w, w->column[w->n_columns], "column", column->name);
     }
     H5Gclose(group);
-}
-
-static void
-append_rows(h5_writer *w, double *const column[], size_t n)
-{
-    if (w->column == NULL || (!w->growing && n > w->length - w->samples))
-        w->status = ss_fail(&w->error, SS_EINVAL, "more samples than the file was begun with");
-    for (size_t i = 0, m; w->status == SS_OK && i < n; i += m, w->samples += m) {
-        size_t left = w->piece - w->samples % w->piece;
-        hsize_t at = w->samples;
-        m = n - i < left ? n - i : left;
-        write_times(w, w->times, NULL, w->samples, m);
-        for (size_t c = 0; c < w->n_columns; c++)
-            write_values(w, w->column[c], 1, &at, m, H5T_NATIVE_DOUBLE, column[c] + i);
-    }
 }
 
 /* --- /events ------------------------------------------------------------------------------- */
@@ -376,8 +359,8 @@ write_all_events(h5_writer *w)
         { .name = "direction", .unit = "1", .long_name = "sign of the slip that begins, or ended at a stick",
           .type = H5T_STD_I8LE, .values = &event->direction },
     };
-    if (kind == NULL && w->status == SS_OK)
-        w->status = SS_ENOMEM;
+    if (kind == NULL && w->file.status == SS_OK)
+        w->file.status = SS_ENOMEM;
     write_lists(w, group, v, sizeof v / sizeof *v, w->n_events, sizeof *event);
     H5Tclose(text);
     H5Gclose(group);
@@ -426,9 +409,9 @@ begin_wavelet(h5_writer *w, const ss_coefficients *grid)
 {
     const ss_header *head = grid->head;
     const ss_column none = { "", "" }, *column = head->n_columns > 0 ? head->column : &none;
-    if (w->status == SS_OK)
-        w->status = copy_grid(w, grid);
-    if (w->status != SS_OK)
+    if (w->file.status == SS_OK)
+        w->file.status = copy_grid(w, grid);
+    if (w->file.status != SS_OK)
         return;
     w->group = new_group(w, w->file.id, "wavelet");
     write_text(w, w->group, "column", column->name);
@@ -569,16 +552,16 @@ append_coefficients(h5_writer *w, const ss_scale *scale, size_t first, size_t n,
         i++;
     struct scale_datasets *d = &w->datasets[i], *shared = &w->datasets[w->dense ? 0 : i];
     if (i == w->n_scales || d->done != first || (!w->growing && n > w->scale[i].n - first)) {
-        w->status = ss_fail(&w->error, SS_EINVAL, "coefficients that are not the next of a scale");
+        w->file.status = ss_fail(&w->error, SS_EINVAL, "coefficients that are not the next of a scale");
         return;
     }
     d->most = w->tolerance > 0 ? largest_of(x, n, d->most) : 0;
     if (shared->part[RE] < 0 && n > 0)
         open_datasets(w, i, d->most);
-    if (w->status == SS_OK && shared->single && d->most > FLT_MAX)
-        w->status = ss_h5_fail(&w->file, SS_ERANGE, w->group, "re", "coefficients of at most 1e20 precede "
-                               "some above 3.4e38, which 32-bit floats do not hold; keep all bits");
-    for (size_t m; w->status == SS_OK && n > 0; n -= m, x += 2 * m) {
+    if (w->file.status == SS_OK && shared->single && d->most > FLT_MAX)
+        ss_h5_fail(&w->file, SS_ERANGE, w->group, "re", "coefficients of at most 1e20 precede some above 3.4e38, "
+                   "which 32-bit floats do not hold; keep all bits");
+    for (size_t m; w->file.status == SS_OK && n > 0; n -= m, x += 2 * m) {
         m = n < PIECE ? n : PIECE;
         write_piece(w, i, m, x, samples);
     }
@@ -595,12 +578,12 @@ static void
 end_wavelet(h5_writer *w, size_t samples)
 {
     double last = (double)(samples - 1) / w->rate;
-    for (size_t i = 0; w->status == SS_OK && i < w->n_scales; i++) {
+    for (size_t i = 0; w->file.status == SS_OK && i < w->n_scales; i++) {
         const ss_scale *scale = &w->scale[i];
         size_t done = w->datasets[i].done;
         if (!w->growing ? done != scale->n
             : !(done > 0 && ss_scale_b(scale, done - 1) <= last && ss_scale_b(scale, done) > last))
-            w->status = ss_fail(&w->error, SS_EINVAL, "coefficients of scale %g are missing", scale->m);
+            w->file.status = ss_fail(&w->error, SS_EINVAL, "coefficients of scale %g are missing", scale->m);
     }
     char text[SS_NUMBER_MAX];
     ss_number_format(text, (double)samples);
@@ -619,7 +602,7 @@ begin_file(h5_writer *w, const ss_header *head)
 {
     w->file.disk.fd = open(w->file.path, O_RDWR | O_CREAT | O_TRUNC, 0666);
     if (w->file.disk.fd < 0) {
-        w->status = ss_fail_errno(&w->error, w->file.path, errno);
+        w->file.status = ss_fail_errno(&w->error, w->file.path, errno);
         return;
     }
     hid_t access = ss_h5_disk_access(&w->file.disk, &w->file.driver), how = H5Pcreate(H5P_FILE_CREATE);
@@ -631,14 +614,14 @@ begin_file(h5_writer *w, const ss_header *head)
     w->file.id = access >= 0 ? H5Fcreate(w->file.path, H5F_ACC_TRUNC, how, access) : -1;
     H5Pclose(how);
     H5Pclose(access);
-    w->status = w->file.id >= 0 ? SS_OK : SS_ENOMEM;
+    w->file.status = w->file.id >= 0 ? SS_OK : SS_ENOMEM;
     write_text(w, w->file.id, H5_VERSION_NOTE, SS_VERSION);
-    for (size_t i = 0; w->status == SS_OK && head != NULL && i < head->n_notes; i++) {
+    for (size_t i = 0; w->file.status == SS_OK && head != NULL && i < head->n_notes; i++) {
         const char *colon = strstr(head->note[i], ": ");
         size_t length = colon != NULL ? (size_t)(colon - head->note[i]) : strlen(head->note[i]);
         char *key = strndup(head->note[i], length);
         if (key == NULL)
-            w->status = SS_ENOMEM;
+            w->file.status = SS_ENOMEM;
         else if (H5Aexists(w->file.id, key) <= 0)
             write_text(w, w->file.id, key, colon != NULL ? colon + 2 : "");
         free(key);
@@ -649,9 +632,9 @@ begin_file(h5_writer *w, const ss_header *head)
 static void
 check_disk(h5_writer *w)
 {
-    if (w->file.disk.error != 0 && w->status == SS_OK)
-        w->status = ss_fail_errno(&w->error, w->file.path, w->file.disk.error);
-    if (w->status == SS_ENOMEM)
+    if (w->file.disk.error != 0 && w->file.status == SS_OK)
+        w->file.status = ss_fail_errno(&w->error, w->file.path, w->file.disk.error);
+    if (w->file.status == SS_ENOMEM)
         ss_fail_memory(&w->error, w->file.path);
 }
 
@@ -672,7 +655,7 @@ close_file(h5_writer *w)
         w->file.disk.error = errno;
     w->file.disk.fd = -1;
     check_disk(w);
-    if (w->status != SS_OK && stat(w->file.path, &is) == 0 && S_ISREG(is.st_mode))
+    if (w->file.status != SS_OK && stat(w->file.path, &is) == 0 && S_ISREG(is.st_mode))
         unlink(w->file.path);
 }
 
@@ -680,19 +663,30 @@ close_file(h5_writer *w)
 #define STEP(base, err, ...) do { \
         h5_writer *w = (h5_writer *)(base); \
         H5E_BEGIN_TRY { \
-            if (w->status == SS_OK) \
+            if (w->file.status == SS_OK) \
                 __VA_ARGS__; \
             check_disk(w); \
         } H5E_END_TRY \
-        if (w->status != SS_OK && (err) != NULL) \
+        if (w->file.status != SS_OK && (err) != NULL) \
             *(err) = w->error; \
-        return w->status; \
+        return w->file.status; \
     } while (0)
 
 static ss_status
 write_rows(ss_writer *base, double *const column[], size_t n, ss_error *err)
 {
-    STEP(base, err, append_rows(w, column, n));
+    STEP(base, err, {
+        if (w->column == NULL || (!w->growing && n > w->length - w->samples))
+            w->file.status = ss_fail(&w->error, SS_EINVAL, "more samples than the file was begun with");
+        for (size_t i = 0, m; w->file.status == SS_OK && i < n; i += m, w->samples += m) {
+            size_t left = w->piece - w->samples % w->piece;
+            hsize_t at = w->samples;
+            m = n - i < left ? n - i : left;
+            write_times(w, w->times, NULL, w->samples, m);
+            for (size_t c = 0; c < w->n_columns; c++)
+                write_values(w, w->column[c], 1, &at, m, H5T_NATIVE_DOUBLE, column[c] + i);
+        }
+    });
 }
 
 static ss_status
@@ -703,65 +697,53 @@ write_coefficients(ss_writer *base, const ss_scale *scale, size_t first, size_t 
 }
 
 /* Events are written at the end, as their number is known then. */
-static void
-keep_events(h5_writer *w, const ss_event *event, size_t n)
-{
-    ss_event *more = ss_list_grow(w->event, &w->room, w->n_events + n, sizeof *more);
-    w->event = more != NULL ? more : w->event;
-    w->status = more != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t i = 0; more != NULL && i < n; i++)
-        more[w->n_events++] = event[i];
-}
-
 static ss_status
-write_events(ss_writer *base, const ss_event *event, size_t n, ss_error *err)
+keep_events(ss_writer *base, const ss_event *event, size_t n, ss_error *err)
 {
-    STEP(base, err, keep_events(w, event, n));
-}
-
-static void
-append_note(h5_writer *w, const char *key, const char *value)
-{
-    if (H5Aexists(w->file.id, key) > 0 && H5Adelete(w->file.id, key) < 0)
-        fail(w, 0, key);
-    write_text(w, w->file.id, key, value);
+    STEP(base, err, {
+        ss_event *more = ss_list_grow(w->event, &w->room, w->n_events + n, sizeof *more);
+        w->event = more != NULL ? more : w->event;
+        w->file.status = more != NULL ? SS_OK : SS_ENOMEM;
+        for (size_t i = 0; more != NULL && i < n; i++)
+            more[w->n_events++] = event[i];
+    });
 }
 
 static ss_status
 write_note(ss_writer *base, const char *key, const char *value, ss_error *err)
 {
-    STEP(base, err, append_note(w, key, value));
+    STEP(base, err, {
+        if (H5Aexists(w->file.id, key) > 0 && H5Adelete(w->file.id, key) < 0)
+            fail(w, 0, key);
+        write_text(w, w->file.id, key, value);
+    });
 }
 
 /* Write what is left, check that all samples of the file have been given, and close it. */
-static void
-end(h5_writer *w, size_t samples)
-{
-    int fits = w->growing || samples == w->length;
-    if (w->ended)
-        w->status = ss_fail(&w->error, SS_EINVAL, "the file is complete");
-    else if ((w->n_scales > 0 && (samples < 1 || !fits))
-             || (w->column != NULL && (w->samples != samples || !fits)))
-        w->status = ss_fail(&w->error, SS_EINVAL, "%zu samples are not what the file has", samples);
-    w->ended = 1;
-    if (w->status == SS_OK && w->has_events)
-        write_all_events(w);
-    if (w->status == SS_OK && w->n_scales > 0)
-        end_wavelet(w, samples);
-    close_file(w);
-}
-
 static ss_status
 end_file(ss_writer *base, size_t samples, ss_error *err)
 {
-    STEP(base, err, end(w, samples));
+    STEP(base, err, {
+        int fits = w->growing || samples == w->length;
+        if (w->ended)
+            w->file.status = ss_fail(&w->error, SS_EINVAL, "the file is complete");
+        else if ((w->n_scales > 0 && (samples < 1 || !fits))
+                 || (w->column != NULL && (w->samples != samples || !fits)))
+            w->file.status = ss_fail(&w->error, SS_EINVAL, "%zu samples are not what the file has", samples);
+        w->ended = 1;
+        if (w->file.status == SS_OK && w->has_events)
+            write_all_events(w);
+        if (w->file.status == SS_OK && w->n_scales > 0)
+            end_wavelet(w, samples);
+        close_file(w);
+    });
 }
 
 static void
 free_writer(ss_writer *base)
 {
     h5_writer *w = (h5_writer *)base;
-    w->status = w->status == SS_OK ? SS_STOP : w->status;       /* a file that has not ended is incomplete */
+    w->file.status = w->file.status == SS_OK ? SS_STOP : w->file.status;       /* a file that has not ended is incomplete */
     H5E_BEGIN_TRY {
         close_file(w);
     } H5E_END_TRY
@@ -776,27 +758,10 @@ free_writer(ss_writer *base)
 }
 
 static ss_status
-begin(ss_writer *base, const ss_contents *what, const ss_header *head, ss_error *err)
-{
-    STEP(base, err, {
-        w->rate = head != NULL ? head->rate : 1;
-        w->start = head != NULL ? head->start : 0;
-        w->length = what->n;
-        w->growing = what->n == 0;
-        w->has_events = what->events;
-        begin_file(w, head);
-        if (w->status == SS_OK && what->signal != NULL)
-            begin_signal(w, what->signal);
-        if (w->status == SS_OK && what->grid != NULL)
-            begin_wavelet(w, what->grid);
-    });
-}
-
-static ss_status
 writer_new(ss_writer **out, const char *path, const ss_contents *what, ss_error *err)
 {
     static const struct writer_calls calls = {
-        write_rows, write_coefficients, write_events, write_note, end_file, free_writer };
+        write_rows, write_coefficients, keep_events, write_note, end_file, free_writer };
     const ss_header *head = what->grid != NULL ? what->grid->head : what->signal;
     ss_status st = head != NULL ? ss_header_check_notes(head, err) : SS_OK;
     if (st != SS_OK)
@@ -810,7 +775,22 @@ writer_new(ss_writer **out, const char *path, const ss_contents *what, ss_error 
     }
     w->base.calls = &calls;
     w->file = (h5_file){ .id = -1, .path = copy, .err = &w->error, .disk.fd = -1 };
-    st = begin(&w->base, what, head, err);
+    w->rate = head != NULL ? head->rate : 1;
+    w->start = head != NULL ? head->start : 0;
+    w->length = what->n;
+    w->growing = what->n == 0;
+    w->has_events = what->events;
+    H5E_BEGIN_TRY {
+        begin_file(w, head);
+        if (w->file.status == SS_OK && what->signal != NULL)
+            begin_signal(w, what->signal);
+        if (w->file.status == SS_OK && what->grid != NULL)
+            begin_wavelet(w, what->grid);
+        check_disk(w);
+    } H5E_END_TRY
+    st = w->file.status;
+    if (st != SS_OK && err != NULL)
+        *err = w->error;
     if (st == SS_OK)
         *out = &w->base;
     else
