@@ -165,38 +165,37 @@ split_name(char *cell, char **name, char **unit)
     *unit = ss_cell_trim(opening + 1);
 }
 
-static ss_status
+static void
 set_unit(struct text *x, size_t column, const char *unit)
 {
     char *clean = ss_clean_unit(unit), **of = &x->t.names->column[column].unit;
-    if (clean == NULL)
-        return SS_ENOMEM;
+    if (clean == NULL) {
+        x->status = SS_ENOMEM;
+        return;
+    }
     free(*of);
     *of = clean;
-    return SS_OK;
 }
 
 /* Name the columns by one line and give them the units of another; either may be NULL. */
-static ss_status
+static void
 name_columns(struct text *x, const char *names, const char *units)
 {
     char number[32];
-    ss_status st = SS_OK;
     if (names != NULL)
         ss_text_split(x, names, x->separator);
-    for (size_t i = 0; st == SS_OK && i < x->t.n_columns; i++) {
+    for (size_t i = 0; x->status == SS_OK && i < x->t.n_columns; i++) {
         char *name = "", *unit = "";
         snprintf(number, sizeof number, "ch%zu", i + 1);
         if (names != NULL)
             split_name(x->cell[i], &name, &unit);
-        st = ss_header_add_column(x->t.names, *name != '\0' ? name : number,
-                                  *unit != '\0' ? unit : ss_unit_of_name(name, NULL), NULL);
+        x->status = ss_header_add_column(x->t.names, *name != '\0' ? name : number,
+                                         *unit != '\0' ? unit : ss_unit_of_name(name, NULL), NULL);
     }
     if (units != NULL)
         ss_text_split(x, units, x->separator);
-    for (size_t i = 0; st == SS_OK && units != NULL && i < x->t.n_columns; i++)
-        st = set_unit(x, i, bare_unit(x->cell[i]));
-    return st;
+    for (size_t i = 0; x->status == SS_OK && units != NULL && i < x->t.n_columns; i++)
+        set_unit(x, i, bare_unit(x->cell[i]));
 }
 
 /* Cut a line after its first n cells. */
@@ -245,8 +244,8 @@ find_increment(struct text *x)
 }
 
 /* Refuse the last line, which has numbers, if it is a row with a bad cell. */
-static ss_status
-check_mixed(struct text *x, enum row_kind before, ss_error *err)
+static void
+check_mixed(struct text *x, enum row_kind before)
 {
     double number;
     const struct text_line *line = &x->head[x->n_head - 1];
@@ -257,32 +256,12 @@ check_mixed(struct text *x, enum row_kind before, ss_error *err)
             has_words |= x->cell[i][0] != '\0';
             bad = i;
         }
-    if (bad == n || !(begins || !has_words || (before == ROW_NAMES && !is_one_of(x->cell[0], step_keys)
-                         && !is_one_of(x->cell[0], unit_keys) && !is_one_of(x->cell[0], name_keys))))
-        return SS_OK;
-    return ss_fail(err, x->cell[bad][0] != '\0' ? SS_EDATA : SS_EGAPS, "%s:%lu: column %zu: '%.40s' is not a number%s",
-                   x->t.name, line->number, bad + 1, x->cell[bad],
-                   ss_cell_is_grouped(x->cell[bad]) ? ": it has separators of thousands; remove them" : "");
-}
-
-static ss_status
-name_by_lines(struct text *x, ss_error *err)
-{
-    char *last_line = line_above(x, 0), *above = line_above(x, 1);
-    ss_status st = SS_OK;
-    find_increment(x);
-    if (x->t.counted.increment > 0) {
-        x->t.named = 1;
-        return name_columns(x, above, last_line);
-    }
-    enum row_kind last = kind_of_row(x, last_line), before = kind_of_row(x, above);
-    if (last == ROW_MIXED && (st = check_mixed(x, before, err)) != SS_OK)
-        return st;
-    int is_units = last == ROW_UNITS
-        || (last == ROW_NAMES && before == ROW_NAMES && has_unit_of_time(x, above, last_line));
-    x->t.named = last == ROW_NAMES || last == ROW_UNITS;
-    return is_units && before == ROW_NAMES ? name_columns(x, above, last_line)
-        : name_columns(x, x->t.named ? last_line : NULL, NULL);
+    int is_row = begins || !has_words || (before == ROW_NAMES && !is_one_of(x->cell[0], step_keys)
+                                          && !is_one_of(x->cell[0], unit_keys) && !is_one_of(x->cell[0], name_keys));
+    if (bad < n && is_row)
+        ss_text_fail(x, x->cell[bad][0] != '\0' ? SS_EDATA : SS_EGAPS, line->number,
+                     "column %zu: '%.40s' is not a number%s", bad + 1, x->cell[bad],
+                     ss_cell_is_grouped(x->cell[bad]) ? ": it has separators of thousands; remove them" : "");
 }
 
 /* --- lines that begin with a key ----------------------------------------------------------- */
@@ -303,92 +282,92 @@ find_line(struct text *x, const char *const *word)
     return found;
 }
 
-/* Read the number that all cells of a line have in common.  *n becomes the number of these cells, 0 if
- * there is no such line.  Cells without a number, such as dates, do not count. */
-static ss_status
-read_same(struct text *x, const char *const *word, double *same, size_t *n, ss_error *err)
+/* The number that all cells of a line have in common.  *n becomes the number of these cells, 0 if there is no such
+ * line.  Cells without a number, such as dates, do not count. */
+static double
+read_same(struct text *x, const char *const *word, size_t *n)
 {
     size_t cells = find_line(x, word);
+    double same = 0, value;
     *n = 0;
     for (size_t i = 1; i <= cells; i++) {
-        double value;
         if (ss_cell_read(x->cell[i], x->separator, &value) != CELL_NUMBER)
             continue;
-        if (*n > 0 && fabs(value - *same) > 1e-9 * fabs(value))
-            return ss_fail(err, SS_EDATA, "%s: channels of different clocks: %s is %s and %.9g", x->t.name,
-                           word[0], x->cell[i], *same);
-        *same = value;
+        if (*n > 0 && fabs(value - same) > 1e-9 * fabs(value))
+            ss_text_fail(x, SS_EDATA, 0, "channels of different clocks: %s is %s and %.9g", word[0], x->cell[i], same);
+        same = value;
         ++*n;
     }
-    return SS_OK;
-}
-
-/* The index of a line's second cell in the list of choices; or `otherwise`. */
-static int
-read_choice(struct text *x, const char *const *word, const char *const *choice, int otherwise)
-{
-    size_t n = find_line(x, word);
-    for (int i = 0; n > 0 && choice[i] != NULL; i++)
-        if (strcasecmp(x->cell[1], choice[i]) == 0)
-            return i;
-    return otherwise;
+    return same;
 }
 
 /* If there is a line of names or units, give them to every step-th column from `first` on. */
-static ss_status
-label_columns(struct text *x, const char *const *word, size_t first, size_t step, int is_unit_row)
+static void
+label_columns(struct text *x, const char *const *word, size_t first, size_t step)
 {
     size_t n = find_line(x, word);
     ss_header *head = NULL, *old = x->t.names;
-    ss_status st = is_unit_row ? SS_OK : ss_header_new(&head, 0, 0, NULL);
-    for (size_t c = 0; st == SS_OK && c < x->t.n_columns; c++) {
+    if (x->status == SS_OK && word == name_keys)
+        x->status = ss_header_new(&head, 0, 0, NULL);
+    for (size_t c = 0; x->status == SS_OK && c < x->t.n_columns; c++) {
         size_t i = (c - first) / step + 1;
         const char *cell = c >= first && (c - first) % step == 0 && i <= n ? x->cell[i] : "";
-        if (is_unit_row)
-            st = *cell != '\0' ? set_unit(x, c, cell) : SS_OK;
-        else
-            st = ss_header_add_column(head, *cell != '\0' ? cell : old->column[c].name, old->column[c].unit, NULL);
+        if (head != NULL)
+            x->status = ss_header_add_column(head, *cell != '\0' ? cell : old->column[c].name, old->column[c].unit, NULL);
+        else if (*cell != '\0')
+            set_unit(x, c, cell);
     }
-    x->t.names = st == SS_OK && head != NULL ? head : old;
+    x->t.names = x->status == SS_OK && head != NULL ? head : old;
     ss_header_free(x->t.names == head ? old : head);
-    return st;
 }
 
 /* Read names, units and clock from lines that begin with a key: Interval, Delta_X, Unit. */
-static ss_status
-name_by_keys(struct text *x, ss_error *err)
+static void
+name_by_keys(struct text *x)
 {
-    static const char *const layout[] = { "No", "One", "Multi", NULL };
-    static const char *const dimension[] = { "Time", NULL };
-    size_t n = 0, ignored;
-    double step = 0, start = 0;
+    static const char *const layout[] = { "No", "One", "Multi" };
+    size_t n, ignored;
     if (!x->labview && find_line(x, name_keys) == 0)
-        return SS_OK;
-    ss_status st = read_same(x, step_keys, &step, &n, err);
-    if (st == SS_OK)
-        st = read_same(x, start_keys, &start, &ignored, err);
-    if (x->labview)
-        x->layout = read_choice(x, layout_keys, layout, (int)x->layout);
-    if (st != SS_OK || n == 0 || !(step > 0) || x->t.n_columns < n)
-        return st;
-    if (x->labview && read_choice(x, dimension_keys, dimension, -1) < 0)
-        return ss_fail(err, SS_EDATA, "%s: the X_Dimension of its channels is not Time", x->t.name);
+        return;
+    double step = read_same(x, step_keys, &n), start = read_same(x, start_keys, &ignored);
+    if (x->labview && find_line(x, layout_keys) > 0)
+        for (int i = LAYOUT_NO; i <= LAYOUT_MULTI; i++)
+            x->layout = strcasecmp(x->cell[1], layout[i]) == 0 ? i : (int)x->layout;
+    if (x->status != SS_OK || n == 0 || !(step > 0) || x->t.n_columns < n)
+        return;
+    if (x->labview && (find_line(x, dimension_keys) == 0 || strcasecmp(x->cell[1], "Time") != 0))
+        ss_text_fail(x, SS_EDATA, 0, "the X_Dimension of its channels is not Time");
     size_t first = x->first_x = x->t.n_columns > n, every = x->labview && x->layout == LAYOUT_MULTI ? 2 : 1;
-    st = label_columns(x, unit_keys, first, every, 1);
-    if (st == SS_OK)
-        st = label_columns(x, name_keys, first, every, 0);
+    label_columns(x, unit_keys, first, every);
+    label_columns(x, name_keys, first, every);
     x->t.named = 1;
     x->t.counted.origin = start;
     x->t.counted.increment = step;
     x->t.counted.numbered = 0;
-    return st;
 }
 
-ss_status
-ss_text_read_names(struct text *x, ss_error *err)
+void
+ss_text_read_names(struct text *x)
 {
-    ss_status st = name_by_lines(x, err);
-    return st == SS_OK ? name_by_keys(x, err) : st;
+    char *last_line = line_above(x, 0), *above = line_above(x, 1);
+    find_increment(x);
+    if (x->t.counted.increment > 0) {
+        x->t.named = 1;
+        name_columns(x, above, last_line);
+    } else {
+        enum row_kind last = kind_of_row(x, last_line), before = kind_of_row(x, above);
+        if (last == ROW_MIXED)
+            check_mixed(x, before);
+        int is_units = last == ROW_UNITS
+            || (last == ROW_NAMES && before == ROW_NAMES && has_unit_of_time(x, above, last_line));
+        x->t.named = last == ROW_NAMES || last == ROW_UNITS;
+        if (is_units && before == ROW_NAMES)
+            name_columns(x, above, last_line);
+        else
+            name_columns(x, x->t.named ? last_line : NULL, NULL);
+    }
+    if (x->status == SS_OK)
+        name_by_keys(x);
 }
 
 /* --- the columns of x ---------------------------------------------------------------------- */
@@ -398,17 +377,17 @@ ss_text_read_names(struct text *x, ss_error *err)
 
 /* The first column may repeat the times that the header gives, or hold the rows' numbers.  Where each channel has
  * a column of times, they must be equal; all but the first are left out. */
-ss_status
-ss_text_check_times(struct text *x, ss_error *err)
+void
+ss_text_check_times(struct text *x)
 {
     struct sheet *t = &x->t;
     const double *row, step = t->counted.increment;
     double first = 0, from_times = 0, from_numbers = 0;
     size_t other = t->n_columns;
     int each = x->labview && x->layout == LAYOUT_MULTI;
-    if (!(step > 0) || t->counted.numbered || t->column[0].kind != COLUMN_NUMBERS || t->opts->time != NULL
-        || t->opts->rate > 0)
-        return SS_OK;
+    if (x->status != SS_OK || !(step > 0) || t->counted.numbered || t->column[0].kind != COLUMN_NUMBERS
+        || t->opts->time != NULL || t->opts->rate > 0)
+        return;
     for (uint64_t i = 0; (row = ss_kept_row(&t->rows, i)) != NULL; i++) {
         for (size_t c = 2; each && c < other; c += 2)
             if (row[0] < row[c] || row[0] > row[c])
@@ -417,25 +396,23 @@ ss_text_check_times(struct text *x, ss_error *err)
         from_times = fmax(from_times, fabs(row[0] - first - (double)i * step));
         from_numbers = fmax(from_numbers, fabs(row[0] - first - (double)i));
     }
-    ss_status st = ss_kept_check(&t->rows, err);
-    if (st == SS_OK && each && other < t->n_columns)
-        return ss_fail(err, SS_EDATA, "%s: column %zu: the times of its channel are not those of the first; make a file "
-                       "of each", t->name, other + 1);
+    x->status = ss_kept_check(&t->rows, x->err);
+    if (each && other < t->n_columns)
+        ss_text_fail(x, SS_EDATA, 0, "column %zu: the times of its channel are not those of the first; make a file of "
+                     "each", other + 1);
     for (size_t c = 2; each && c < t->n_columns; c += 2)
         t->column[c].kind = COLUMN_TEXT;
-    if (st != SS_OK || x->first_x == 0 || (x->labview && x->layout == LAYOUT_NO))
-        return st;
-    if (from_times <= fmax(MOST_APART * step, MOST_ROUNDING)) {
-        t->counted.origin = first;
-    } else if (from_numbers > 1e-6) {           /* nor does it number the rows: it has the times */
-        char *name = strdup("X_Value");
-        if (name == NULL)
-            return SS_ENOMEM;
-        free(t->names->column[0].name);
-        t->names->column[0].name = name;
+    if (x->status != SS_OK || x->first_x == 0 || (x->labview && x->layout == LAYOUT_NO))
+        return;
+    if (from_times > fmax(MOST_APART * step, MOST_ROUNDING) && from_numbers > 1e-6) {
+        free(t->names->column[0].name);         /* nor does it number the rows: it has the times */
+        t->names->column[0].name = strdup("X_Value");
+        x->status = t->names->column[0].name != NULL ? SS_OK : SS_ENOMEM;
         t->counted.increment = 0;
-        return set_unit(x, 0, "s");
+        set_unit(x, 0, "s");
+        return;
     }
+    if (from_times <= fmax(MOST_APART * step, MOST_ROUNDING))
+        t->counted.origin = first;
     t->column[0].kind = COLUMN_TEXT;
-    return SS_OK;
 }

@@ -5,6 +5,7 @@
  * like, cell by cell.  The lines above it are searched for names and units (names.c).  A line of words below the
  * rows begins another table if rows follow it again. */
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -17,6 +18,20 @@
 
 enum { HEADER_LINES = 1000 };
 
+void
+ss_text_fail(struct text *x, ss_status status, unsigned long line, const char *format, ...)
+{
+    ss_error why;
+    va_list args;
+    if (x->status != SS_OK)
+        return;
+    va_start(args, format);
+    ss_print_text(why.text, sizeof why.text, format, args);
+    va_end(args);
+    x->status = line > 0 ? ss_fail(x->err, status, "%s:%lu: %s", x->t.name, line, why.text)
+        : ss_fail(x->err, status, "%s: %s", x->t.name, why.text);
+}
+
 /* --- lines --------------------------------------------------------------------------------- */
 
 /* The first letter that is no blank. */
@@ -28,44 +43,47 @@ first_of(const char *line)
     return *line;
 }
 
-static ss_status
+static void
 make_room(struct text *x, size_t length)
 {
     char *copy = ss_list_grow(x->copy, &x->copy_room, length + 1, 1);
     x->copy = copy != NULL ? copy : x->copy;
-    return copy != NULL ? SS_OK : SS_ENOMEM;
+    x->status = copy != NULL ? x->status : SS_ENOMEM;
 }
 
-/* The next line that is not empty; comment is set if it is one.  NULL at the end. */
-static ss_status
-next_line(struct text *x, char **line, int *comment, ss_error *err)
+/* The next line that is not empty; comment is set if it is one.  NULL at the end, and after a failure. */
+static char *
+next_line(struct text *x, int *comment)
 {
-    size_t length;
+    size_t length = 0;
+    char *line = NULL;
     do {
-        ss_status st = ss_input_line(x->in, line, &length, err);
-        if (st != SS_OK || *line == NULL)
-            return st;
-        if (strlen(*line) != length)
-            return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte: this is not text of 8-bit characters (iconv -f UTF-16 "
-                           "-t UTF-8 makes it of UTF-16)", x->t.name, x->in->line);
-        if (strchr(*line, '\r') != NULL)
-            return ss_fail(err, SS_EDATA, "%s:%lu: a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' "
-                           "makes them)", x->t.name, x->in->line);
-    } while (first_of(*line) == '\0');
-    *comment = **line == '#';
-    return make_room(x, length);
+        x->status = x->status == SS_OK ? ss_input_line(x->in, &line, &length, x->err) : x->status;
+        if (x->status != SS_OK || line == NULL)
+            return NULL;
+        if (strlen(line) != length)
+            ss_text_fail(x, SS_EDATA, x->in->line, "a NUL byte: this is not text of 8-bit characters (iconv -f UTF-16 "
+                         "-t UTF-8 makes it of UTF-16)");
+        if (strchr(line, '\r') != NULL)
+            ss_text_fail(x, SS_EDATA, x->in->line, "a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' makes them)");
+    } while (first_of(line) == '\0');
+    *comment = *line == '#';
+    make_room(x, length);
+    return x->status == SS_OK ? line : NULL;
 }
 
-static ss_status
+static void
 keep_line(struct text *x, const char *line, int comment)
 {
     struct text_line *more = ss_list_room(x->head, &x->head_room, x->n_head, sizeof *more);
     char *copy = more != NULL ? ss_utf8_text(line) : NULL;
     x->head = more != NULL ? more : x->head;
-    if (copy == NULL)
-        return SS_ENOMEM;
+    if (copy == NULL) {
+        x->status = SS_ENOMEM;
+        return;
+    }
     more[x->n_head++] = (struct text_line){ copy, x->in->line, comment };
-    return make_room(x, strlen(copy));
+    make_room(x, strlen(copy));
 }
 
 static void
@@ -128,22 +146,18 @@ is_data(struct text *x, const char *line)
     return 0;
 }
 
-/* Keep the lines up to the first row of data; *found becomes 0 if there is none. */
-static ss_status
-keep_header(struct text *x, int *found, ss_error *err)
+/* Keep the lines up to the first row of data.  Returns 0 if there is none. */
+static int
+keep_header(struct text *x)
 {
-    int comment = 0;
+    int comment, found = 0;
     char *line;
-    ss_status st = SS_OK;
-    for (*found = 0; st == SS_OK && !*found && x->n_head < HEADER_LINES;) {
-        st = next_line(x, &line, &comment, err);
-        if (st != SS_OK || line == NULL)
-            return st;
+    while (!found && x->n_head < HEADER_LINES && (line = next_line(x, &comment)) != NULL) {
         x->labview |= x->in->line == 1 && strncmp(line, "LabVIEW Measurement", 19) == 0;
-        *found = !comment && is_data(x, line);
-        st = keep_line(x, line + (comment ? strspn(line, "# ") : 0), comment);
+        found = !comment && is_data(x, line);
+        keep_line(x, line + (comment ? strspn(line, "# ") : 0), comment);
     }
-    return st;
+    return found;
 }
 
 /* 1 if two rows have cells of the same kinds.  The second may lack its empty cells at the end. */
@@ -183,116 +197,102 @@ find_like(struct text *x, char separator)
     return x->n_head;
 }
 
-/* Find the first of the kept lines that is a row of data with words in it, as the lines below it are too, or
- * n_head; then next_separator and next_columns are set. */
-static size_t
-find_mixed(struct text *x)
-{
-    size_t found = x->n_head;
-    for (size_t i = 0; found == x->n_head && i < CANDIDATES; i++)
-        if ((found = find_like(x, candidate[i])) < x->n_head) {
-            x->next_separator = candidate[i];
-            x->next_columns = strlen(x->like);
-        }
-    return found;
-}
-
 /* --- rows ---------------------------------------------------------------------------------- */
 
 /* SS_EDATA if a number has another decimal mark than those before: beside 0.5, 1,234 may be either of two
  * numbers. */
-static ss_status
-check_mark(struct text *x, size_t column, ss_error *err)
+static void
+check_mark(struct text *x, size_t column)
 {
-    const char *cell = x->cell[column];
+    const char *cell = x->cell[column], *name = x->t.names->column[column].name;
     char mark = cell[strcspn(cell, x->separator == ',' ? "." : ".,")];
     if (x->mark == '\0' && x->t.rows.n > 0 && ss_cell_is_grouped(cell) && (mark == ',' || x->separator == ';'))
         ss_sheet_warn(&x->t, SS_OK, "%s:%lu: column %s: '%.40s' is read with a decimal %s; no number above it has "
-                      "one, so if it separates thousands, remove it", x->t.name, x->in->line,
-                      x->t.names->column[column].name, cell, mark == ',' ? "comma" : "point");
+                      "one, so if it separates thousands, remove it", x->t.name, x->in->line, name, cell,
+                      mark == ',' ? "comma" : "point");
     if (x->mark == '\0')
         x->mark = mark;
-    if (mark == '\0' || mark == x->mark)
-        return SS_OK;
-    return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.40s' has a decimal %s, numbers before it "
-                   "have a %s", x->t.name, x->in->line, x->t.names->column[column].name, cell,
-                   mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
+    if (mark != '\0' && mark != x->mark)
+        ss_text_fail(x, SS_EDATA, x->in->line, "column %s: '%.40s' has a decimal %s, numbers before it have a %s",
+                     name, cell, mark == ',' ? "comma" : "point", mark == ',' ? "point" : "comma");
 }
 
-/* Read the value of one cell of the line that was split.  A missing cell of an unneeded column is read as 0, with
- * one warning. */
-static ss_status
-read_cell(struct text *x, size_t i, double *value, ss_error *err)
+/* The value of one cell of the line that was split.  A missing cell of an unneeded column is read as 0, with one
+ * warning. */
+static double
+read_cell(struct text *x, size_t i)
 {
     struct sheet_column *c = &x->t.column[i];
     const char *name = x->t.names->column[i].name;
     char *cell = x->cell[i];
-    *value = 0;
+    double value = 0;
     if (c->kind == COLUMN_TEXT && !c->begins_empty)
-        return SS_OK;
-    enum cell_kind kind = ss_cell_read(cell, x->separator, value);
-    if (c->kind == COLUMN_TEXT)
-        return kind != CELL_NUMBER ? SS_OK : ss_fail(err, SS_EGAPS, "%s:%lu: column %s: '' is not a number",
-                                                     x->t.name, x->first, name);
+        return 0;
+    enum cell_kind kind = ss_cell_read(cell, x->separator, &value);
     int missing = kind == CELL_NOT_FINITE || cell[strspn(cell, "-")] == '\0';
+    if (c->kind == COLUMN_TEXT) {
+        if (kind == CELL_NUMBER)
+            ss_text_fail(x, SS_EGAPS, x->first, "column %s: '' is not a number", name);
+        return 0;
+    }
     if (c->spare && kind != CELL_NUMBER) {
         if (!c->incomplete)
             ss_sheet_warn(&x->t, SS_OK, "%s:%lu: column %s has no number here; it is not needed, and read as 0 "
                           "where it has none", x->t.name, x->in->line, name);
         c->incomplete = 1;
-        *value = 0;
-        return SS_OK;
+        return 0;
     }
-    if (missing && x->t.opts->gaps != SS_GAPS_REFUSE) {
-        *value = NAN;
-        return SS_OK;
+    if (missing && x->t.opts->gaps != SS_GAPS_REFUSE)
+        return NAN;
+    if (c->kind == COLUMN_NUMBERS && kind == CELL_NUMBER) {
+        check_mark(x, i);
+        return value;
     }
-    if (c->kind == COLUMN_STAMPS && !isnan(*value = ss_stamp_next(&c->stamps, cell)))
-        return SS_OK;
-    if (c->kind == COLUMN_NUMBERS && kind == CELL_NUMBER)
-        return check_mark(x, i, err);
+    if (c->kind == COLUMN_STAMPS && !isnan(value = ss_stamp_next(&c->stamps, cell)))
+        return value;
     const char *what = c->kind == COLUMN_STAMPS ? "time as those above it" : kind == CELL_NOT_FINITE
         ? "finite number" : "number";
-    return ss_fail(err, missing ? SS_EGAPS : SS_EDATA, "%s:%lu: column %s: '%.40s' is not a %s%s",
-                   x->t.name, x->in->line, name, cell, what,
-                   ss_cell_is_grouped(cell) ? ": it has separators of thousands; remove them" : "");
+    ss_text_fail(x, missing ? SS_EGAPS : SS_EDATA, x->in->line, "column %s: '%.40s' is not a %s%s", name, cell, what,
+                 ss_cell_is_grouped(cell) ? ": it has separators of thousands; remove them" : "");
+    return NAN;
 }
 
-static ss_status
-append_row(struct text *x, const char *line, ss_error *err)
+static void
+append_row(struct text *x, const char *line)
 {
     size_t columns = x->t.n_columns;
     x->first = x->t.rows.n == 0 ? x->in->line : x->first;
     x->row[columns] = (double)x->in->line;
     size_t n = ss_text_split(x, line, x->separator);
     if (n != columns && !(n == columns + 1 && (x->comments || x->labview)))
-        return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", x->t.name, x->in->line, columns,
-                       PLURAL(columns), n);
-    for (size_t i = 0; i < columns; i++) {
-        ss_status st = read_cell(x, i, &x->row[i], err);
-        if (st != SS_OK)
-            return st;
-    }
-    return ss_kept_add(&x->t.rows, x->row, err);
+        ss_text_fail(x, SS_EDATA, x->in->line, "expected %zu column%s, found %zu", columns, PLURAL(columns), n);
+    for (size_t i = 0; x->status == SS_OK && i < columns; i++)
+        x->row[i] = read_cell(x, i);
+    if (x->status == SS_OK)
+        x->status = ss_kept_add(&x->t.rows, x->row, x->err);
 }
 
 /* --- one table ----------------------------------------------------------------------------- */
 
 /* Find the columns of a table, whose first row is the line behind the kept ones. */
-static ss_status
-begin_columns(struct text *x, ss_error *err)
+static void
+begin_columns(struct text *x)
 {
     struct sheet *t = &x->t;
     const char *row = x->head[x->n_head].text;
     x->in->line = x->head[x->n_head].number;
-    if (t->n_columns > MAX_COLUMNS)
-        return ss_fail(err, SS_EDATA, "%s:%lu: more than 32768 columns", t->name, x->in->line);
+    if (t->n_columns > MAX_COLUMNS) {
+        ss_text_fail(x, SS_EDATA, x->in->line, "more than 32768 columns");
+        return;
+    }
     size_t numbers;
     const char *shape = ss_text_shape(x, row, x->separator, &numbers);
     struct sheet_column *column = t->column = calloc(t->n_columns, sizeof *column);
     x->row = malloc((t->n_columns + 1) * sizeof *x->row);
-    if (column == NULL || x->row == NULL)
-        return SS_ENOMEM;
+    if (column == NULL || x->row == NULL) {
+        x->status = SS_ENOMEM;
+        return;
+    }
     for (size_t i = 0; i < t->n_columns; i++) {
         unsigned parts = ss_stamp_read(x->cell[i]).parts;
         int empty = shape[i] == 'e' && !ss_text_may_lack(x);
@@ -301,28 +301,26 @@ begin_columns(struct text *x, ss_error *err)
         column[i].begins_empty = empty && !x->labview;
         column[i].stamps = ss_stamp_column(parts);
     }
-    ss_status st = ss_text_read_names(x, err);
-    if (st == SS_OK)
-        st = ss_sheet_mark_spare(t, err);
-    if (st != SS_OK)
-        return st;
+    ss_text_read_names(x);
+    if (x->status == SS_OK)
+        x->status = ss_sheet_mark_spare(t, x->err);
+    if (x->status != SS_OK)
+        return;
     ss_text_split(x, row, x->separator);        /* the cells were those of the names */
     for (size_t i = 0; i < t->n_columns; i++)
         if (column[i].kind == COLUMN_TEXT && t->opts->n_needed == 0 && ss_cell_is_grouped(x->cell[i]))
-            return ss_fail(err, SS_EDATA, "%s:%lu: column %zu (\"%s\"): '%.40s' is not a number: it has separators "
-                           "of thousands; remove them, or choose other columns", t->name, x->in->line, i + 1,
-                           t->names->column[i].name, x->cell[i]);
-    for (size_t i = 0; i < t->n_columns; i++)
-        if (t->column[i].kind == COLUMN_TEXT && !(x->labview && row[0] == '\t' && i == 0))
+            ss_text_fail(x, SS_EDATA, x->in->line, "column %zu (\"%s\"): '%.40s' is not a number: it has separators of "
+                         "thousands; remove them, or choose other columns", i + 1, t->names->column[i].name, x->cell[i]);
+    for (size_t i = 0; x->status == SS_OK && i < t->n_columns; i++)
+        if (column[i].kind == COLUMN_TEXT && !(x->labview && row[0] == '\t' && i == 0))
             ss_sheet_warn(t, SS_OK, "%s:%lu: column %zu (\"%s\") %s; it was skipped", t->name, x->in->line, i + 1,
-                          t->names->column[i].name, t->column[i].begins_empty ? "is empty" : "holds text");
+                          t->names->column[i].name, column[i].begins_empty ? "is empty" : "holds text");
     ss_kept_begin(&t->rows, t->name, t->opts->folder, t->n_columns + 1);
-    return SS_OK;
 }
 
 /* Begin a table with a kept line as its first row, and the kept lines below it as further rows. */
-static ss_status
-begin_table(struct text *x, size_t first, ss_error *err)
+static void
+begin_table(struct text *x, size_t first)
 {
     size_t n = x->n_head;
     unsigned long line = x->in->line;
@@ -330,15 +328,14 @@ begin_table(struct text *x, size_t first, ss_error *err)
     x->t.n_columns = x->next_columns;
     x->n_head = first;                          /* names are sought above this line */
     x->ended = x->another = 0;
-    ss_status st = begin_columns(x, err);
-    for (size_t i = first; st == SS_OK && i < n; i++) {
+    begin_columns(x);
+    for (size_t i = first; x->status == SS_OK && i < n; i++) {
         x->in->line = x->head[i].number;
-        st = x->head[i].comment ? SS_OK : append_row(x, x->head[i].text, err);
+        if (!x->head[i].comment)
+            append_row(x, x->head[i].text);
     }
     x->n_head = n;
-    if (st == SS_OK)
-        x->in->line = line;
-    return st;
+    x->in->line = line;
 }
 
 /* Has a line a setting and its value in two cells that the last of the kept lines has empty, as those of
@@ -353,8 +350,8 @@ has_settings(struct text *x, size_t line)
 
 /* Begin with the first row of numbers, which is the last of the kept lines.  If there is none, or a line of words
  * and numbers stands above it, begin with the first line of words and numbers that is like those below it. */
-static ss_status
-begin_first(struct text *x, int found, ss_error *err)
+static void
+begin_first(struct text *x, int found)
 {
     size_t row = x->n_head - (found != 0), first = row, numbers;
     int mixed = !found;
@@ -363,13 +360,18 @@ begin_first(struct text *x, int found, ss_error *err)
         const char *shape = ss_text_shape(x, x->head[row - 1].text, x->next_separator, &numbers);
         mixed = (shape[0] == 'n' && strpbrk(shape, "te") != NULL) || has_settings(x, row - 1);
     }
-    if (mixed)
-        first = find_mixed(x);
+    first = mixed ? x->n_head : first;
+    for (size_t i = 0; mixed && first == x->n_head && i < CANDIDATES; i++)
+        if ((first = find_like(x, candidate[i])) < x->n_head) {
+            x->next_separator = candidate[i];
+            x->next_columns = strlen(x->like);
+        }
     x->settings = first < x->n_head && has_settings(x, first);
     if (first == x->n_head && !found)
-        return ss_fail(err, SS_EDATA, "%s:%lu: no row of numbers up to here; a table has them "
-                       "between commas, semicolons, tabs or blanks", x->t.name, x->in->line);
-    return begin_table(x, first < row ? first : row, err);
+        ss_text_fail(x, SS_EDATA, x->in->line, "no row of numbers up to here; a table has them between commas, "
+                     "semicolons, tabs or blanks");
+    else
+        begin_table(x, first < row ? first : row);
 }
 
 /* --- several tables ------------------------------------------------------------------------ */
@@ -405,37 +407,31 @@ is_footer(struct text *x)
     return x->n_head < HEADER_LINES;
 }
 
-/* Keep the lines from a heading on, up to the first row of another table.  If none follows, the heading is a
- * footer or a malformed row. */
-static ss_status
-read_heading(struct text *x, const char *heading, ss_error *err)
+/* Read a line below the first row.  Keep the lines from a heading on, up to the first row of another table.  If none
+ * follows, the heading is a footer or a malformed row. */
+static void
+read_line(struct text *x)
 {
-    unsigned long number = x->in->line;
-    drop_lines(x);
-    ss_status st = keep_line(x, heading, 0);
-    if (st == SS_OK)
-        st = keep_header(x, &x->another, err);
-    if (st != SS_OK || x->another)
-        return st;
-    x->in->line = number;
-    if (!is_footer(x))
-        return append_row(x, x->head[0].text, err);
-    ss_sheet_warn(&x->t, SS_OK, "%s:%lu: the rows end here; the words below them were skipped", x->t.name, number);
-    return SS_OK;
-}
-
-/* Read a line below the first row. */
-static ss_status
-read_line(struct text *x, ss_error *err)
-{
-    char *line;
     int comment;
-    ss_status st = next_line(x, &line, &comment, err);
-    x->ended = st != SS_OK || line == NULL;
-    if (x->ended || comment)
-        return st;
-    x->ended = is_heading(x, line);
-    return x->ended ? read_heading(x, line, err) : append_row(x, line, err);
+    const char *line = next_line(x, &comment);
+    unsigned long number = x->in->line;
+    x->ended = line == NULL || (!comment && is_heading(x, line));
+    if (line == NULL || comment)
+        return;
+    if (!x->ended) {
+        append_row(x, line);
+        return;
+    }
+    drop_lines(x);
+    keep_line(x, line, 0);
+    x->another = keep_header(x);
+    if (x->status != SS_OK || x->another)
+        return;
+    x->in->line = number;
+    if (is_footer(x))
+        ss_sheet_warn(&x->t, SS_OK, "%s:%lu: the rows end here; the words below them were skipped", x->t.name, number);
+    else
+        append_row(x, x->head[0].text);
 }
 
 /* Append a description of a table: "2 from line 17, 1200 rows of t Fx Fz". */
@@ -453,20 +449,21 @@ list_table(const struct text *x, size_t number, char *list, size_t size)
 }
 
 /* Read the tables, up to the one that is wanted. */
-static ss_status
-read_tables(struct text *x, ss_error *err)
+static void
+read_tables(struct text *x)
 {
     struct sheet *t = &x->t;
     char list[300] = "";
     for (size_t number = 1, wanted = t->opts->table;; number++) {
-        ss_status st = SS_OK;
-        while (st == SS_OK && !x->ended)
-            st = read_line(x, err);
-        if (st != SS_OK || number == wanted || (!x->another && number == 1 && wanted == 0))
-            return st;
+        while (x->status == SS_OK && !x->ended)
+            read_line(x);
+        if (x->status != SS_OK || number == wanted || (!x->another && number == 1 && wanted == 0))
+            return;
         list_table(x, number, list, sizeof list);
-        if (!x->another)
-            return ss_fail(err, SS_ETABLES, "%s: %zu table%s: %s", t->name, number, PLURAL(number), list);
+        if (!x->another) {
+            ss_text_fail(x, SS_ETABLES, 0, "%zu table%s: %s", number, PLURAL(number), list);
+            return;
+        }
         free(t->column);
         free(x->row);
         ss_header_free(t->names);
@@ -475,11 +472,9 @@ read_tables(struct text *x, ss_error *err)
         t->counted.increment = 0;
         t->named = x->comments = 0;
         x->mark = '\0';
-        st = ss_header_new(&t->names, 0, 0, NULL);
-        if (st == SS_OK)
-            st = begin_table(x, x->n_head - 1, err);
-        if (st != SS_OK)
-            return st;
+        x->status = ss_header_new(&t->names, 0, 0, NULL);
+        if (x->status == SS_OK)
+            begin_table(x, x->n_head - 1);
     }
 }
 
@@ -490,30 +485,33 @@ static ss_status
 next_rows(struct sheet *t, ss_error *err)
 {
     struct text *x = (struct text *)t;
-    ss_status st = SS_OK;
+    x->err = err;
+    x->status = SS_OK;
     t->rows.first = t->rows.n;
     t->rows.held = 0;
-    while (st == SS_OK && !x->ended && (t->rows.held == 0 || ss_input_has_line(x->in)))
-        st = read_line(x, err);
-    return st == SS_OK && x->another ? ss_fail(err, SS_ETABLES, "%s:%lu: another table begins here", t->name,
-                                               x->in->line) : st;
+    while (x->status == SS_OK && !x->ended && (t->rows.held == 0 || ss_input_has_line(x->in)))
+        read_line(x);
+    if (x->another)
+        ss_text_fail(x, SS_ETABLES, x->in->line, "another table begins here");
+    return x->status;
 }
 
-/* *live becomes 1 if the rows of a text from a pipe can be handed on as they come: if a rate is given, or if the
- * first stamps show one that more of them would not change. */
-static ss_status
-read_first(struct text *x, int *live, ss_error *err)
+/* Returns 1 if the rows of a text from a pipe can be handed on as they come: if a rate is given, or if the first
+ * stamps show one that more of them would not change. */
+static int
+read_first(struct text *x)
 {
     enum { SHOWN = 16 };
     const ss_read_opts *opts = x->t.opts;
     struct kept *rows = &x->t.rows;
-    ss_status st = SS_OK;
-    *live = ss_input_is_pipe(x->in) && opts->gaps == SS_GAPS_REFUSE && !(opts->resample > 0) && !opts->stamps
+    int live = ss_input_is_pipe(x->in) && opts->gaps == SS_GAPS_REFUSE && !(opts->resample > 0) && !opts->stamps
         && opts->table == 0 && !x->labview;
-    while (st == SS_OK && *live && !x->ended && !(opts->rate > 0) && rows->n < SHOWN)
-        st = read_line(x, err);
-    *live = *live && !x->ended && !rows->is_away;
-    return st == SS_OK && *live && !(opts->rate > 0) ? ss_sheet_is_plain(&x->t, live) : st;
+    while (x->status == SS_OK && live && !x->ended && !(opts->rate > 0) && rows->n < SHOWN)
+        read_line(x);
+    live = x->status == SS_OK && live && !x->ended && !rows->is_away;
+    if (live && !(opts->rate > 0))
+        x->status = ss_sheet_is_plain(&x->t, &live);
+    return live;
 }
 
 /* --- the format ---------------------------------------------------------------------------- */
@@ -561,40 +559,37 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
 {
     static const struct sheet_calls as_they_come = { next_rows, free_text };
     struct input *in = o->in;
-    int live = 0, found;
     struct text *x = calloc(1, sizeof *x);
     if (x == NULL)
         return ss_fail_memory(err, in->name);
     x->in = in;
+    x->err = err;
     x->layout = LAYOUT_ONE;
     x->opts = *o->opts;
     x->t.name = in->name;
     x->t.opts = &x->opts;
-    ss_status st = ss_header_new(&x->t.names, 0, 0, NULL);
+    x->status = ss_header_new(&x->t.names, 0, 0, NULL);
     in->share = 0.5;                            /* of the work; the other half is to give the rows */
-    if (st == SS_OK)
-        st = ss_input_need(in, 3, err);
-    if (st == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
+    if (x->status == SS_OK)
+        x->status = ss_input_need(in, 3, err);
+    if (x->status == SS_OK && in->hi - in->lo >= 3 && memcmp(in->buffer + in->lo, "\xef\xbb\xbf", 3) == 0)
         in->lo += 3;                            /* skip the byte-order mark */
-    if (st == SS_OK)
-        st = keep_header(x, &found, err);
-    if (st == SS_OK)
-        st = begin_first(x, found, err);
-    if (st == SS_OK)
-        st = read_first(x, &live, err);
-    if (st == SS_OK && live)
+    int found = keep_header(x);
+    if (x->status == SS_OK)
+        begin_first(x, found);
+    if (read_first(x))
         x->t.later = &as_they_come;
-    else if (st == SS_OK)
-        st = read_tables(x, err);
-    if (st == SS_OK)
-        st = ss_kept_end(&x->t.rows, err);
-    if (st == SS_OK)
-        st = ss_text_check_times(x, err);
+    else
+        read_tables(x);
+    if (x->status == SS_OK)
+        x->status = ss_kept_end(&x->t.rows, err);
+    ss_text_check_times(x);
     const struct text_line *clue = find_rate_line(x);
     x->t.clue = clue != NULL ? clue->text : NULL;
     x->t.clue_line = clue != NULL ? clue->number : 0;
-    if (st == SS_OK)
-        st = ss_sheet_give(out, &x->t, in->size > 0 ? in->progress : (ss_progress){ NULL, NULL }, err);
+    if (x->status == SS_OK)
+        x->status = ss_sheet_give(out, &x->t, in->size > 0 ? in->progress : (ss_progress){ NULL, NULL }, err);
+    const ss_status st = x->status;
     if (*out == NULL || x->t.later == NULL)
         free_text(&x->t);
     return st == SS_ENOMEM ? ss_fail_memory(err, in->name) : st;

@@ -19,6 +19,8 @@ struct text {
     struct sheet t;             /* what becomes of it */
     ss_read_opts opts;          /* of it */
     struct input *in;
+    ss_status status;           /* the first failure, behind which nothing is read */
+    ss_error *err;              /* its text, but of SS_ENOMEM */
     char mark;                  /* decimal point or comma, '\0': none seen */
     char separator;             /* '\t' ';' ',' or ' ' (any blanks); '\0': one column */
     size_t next_columns;        /* of the table that begins with the last of the kept lines */
@@ -39,6 +41,10 @@ struct text {
     int first_x;                /* is the first column no channel? */
     int settings;               /* have the first rows a setting and its value before their numbers? */
 };
+
+/* Unless it has failed before, let the text fail in this line; 0: in none. */
+SS_PRINTF(4, 5)
+void ss_text_fail(struct text *x, ss_status status, unsigned long line, const char *format, ...);
 
 /* Cells (cells.c). */
 
@@ -63,12 +69,10 @@ const char *ss_text_shape(struct text *x, const char *line, char separator, size
 /* Names (names.c): find names, units and a clock in the lines above the data.
  *
  * A line with numbers in it is either a word about the record ("Rate;1000") or a row of data with
- * a bad cell: the latter if it begins with a number or stands below a row of names.
- *
- * SS_ENOMEM is returned without a text. */
-ss_status ss_text_read_names(struct text *x, ss_error *err);
+ * a bad cell: the latter if it begins with a number or stands below a row of names. */
+void ss_text_read_names(struct text *x);
 /* When all rows are there: check the columns of times that LabVIEW writes, of each channel and against the
  * header. */
-ss_status ss_text_check_times(struct text *x, ss_error *err);
+void ss_text_check_times(struct text *x);
 
 #endif
