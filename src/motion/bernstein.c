@@ -1,18 +1,14 @@
 /* bernstein.c -- prove when a guard first becomes negative inside one step, or that it does not.
  *
- * A mode lasts while its guard is not negative.  Inside a step the guard is a polynomial: its
- * Taylor series, or the polynomial of degree 9 that has the guard's value and four derivatives at
- * both ends (Hermite).  In Bernstein's form a polynomial has at most as many zeros as its
+ * A mode lasts while its guard is not negative.  Inside a step the guard is a polynomial, its
+ * Taylor series.  In Bernstein's form a polynomial has at most as many zeros as its
  * coefficients have changes of sign, and exactly one zero if they have one change (Descartes'
  * rule; G. Farin, Curves and Surfaces for CAGD, 4 and 5).  So no change proves that there is no
  * event, and one change proves that there is one.  If there are more, the step is divided by two,
  * and the earlier half is examined first.  So every event is found, however many lie in a step.
  *
- * Error: with the step caps of motion.h the error of Hermite's polynomial is 2e-18 of the guard's
- * amplitude (ode.c).  This is less than the rounding of the coefficients, 2^-50 of the largest
- * coefficient and of the terms of the guard's derivatives.  (Within the caps, differences of the
- * coefficients fall with their order.  Those of an arbitrary polynomial may grow as 2^order, and
- * the rounding to 81 ulp / 2.)  Taylor coefficients are summed, at most 27 of them.  A coefficient
+ * Error: the rounding of the coefficients, 2^-50 of the largest coefficient and of the terms of the
+ * guard's derivatives.  They are sums of Taylor coefficients, at most 27.  A coefficient
  * that is smaller than its rounding has no sign.  If only such coefficients are left, the guard
  * touches 0 and rounding decides; the result says so. */
 #include "motion/bernstein.h"
@@ -28,30 +24,6 @@ enum { HALVINGS = 30 };
 
 /* The shortest time to an event, in units of the step: time must go on. */
 #define EVENT_WIDTH 0x1p-50
-
-/* The half of the coefficients that one end determines: h^i (9 - i)! / 9! p^(i) is their i-th difference. */
-static void
-half_of_coefficients(const double p[], double h, double b[ORDERS + 1])
-{
-    double d1 = h / 9 * p[1], h2 = h * h / 72, d2 = h2 * p[2], h3 = h2 * h / 7, d3 = h3 * p[3];
-    b[0] = p[0];
-    b[1] = p[0] + d1;
-    b[2] = p[0] + 2 * d1 + d2;
-    b[3] = p[0] + 3 * (d1 + d2) + d3;
-    b[4] = p[0] + 4 * (d1 + d3) + 6 * d2 + h3 * h / 6 * p[4];
-}
-
-void
-ss_guard_by_ends(step_guard *g, const double at_0[], const double at_h[])
-{
-    double back[ORDERS + 1];
-    g->degree = 2 * ORDERS + 1;
-    half_of_coefficients(at_0, g->h, g->p);
-    half_of_coefficients(at_h, -g->h, back);
-    for (int j = 0; j <= ORDERS; j++)
-        g->p[g->degree - j] = back[j];
-    g->rounding /= g->degree;
-}
 
 /* The coefficients c over the binomial coefficients are the differences at the start; their sums are the
  * coefficients in Bernstein's form. */

@@ -16,9 +16,7 @@ typedef struct step_guard {
     double rounding;                /* error of h p' in units of 2^-50, without that of p's own size */
 } step_guard;
 
-/* Set degree and p from p and its ORDERS derivatives at the ends of a step h within the step caps. */
-void ss_guard_by_ends(step_guard *g, const double at_0[], const double at_h[]);
-/* Set them from the degree + 1 Taylor coefficients of p in s / h, and add their rounding. */
+/* Set degree and p from the degree + 1 Taylor coefficients of p in s / h, and add their rounding. */
 void ss_guard_by_series(step_guard *g, int degree, const double c[]);
 /* 1 if these coefficients alone show that the guard does not become negative; its degree and p
  * need not be set. */

@@ -30,13 +30,6 @@ fail_lost(const engine *e, ss_error *err)
 }
 
 void
-ss_engine_begin(engine *e)
-{
-    e->has_start = 0;
-    e->type->begin(e);
-}
-
-void
 ss_engine_begin_steps(engine *e)
 {
     const state *m = &e->m->now;
@@ -60,24 +53,21 @@ ss_engine_free(engine *e)
     free(e);
 }
 
-static void
-derive(const state *m, double u, const double q[], const double dqdt[],
-       double d[ORDERS + 1][MAX_DIM])
-{
-    memcpy(d[0], q, sizeof d[0]);
-    memcpy(d[1], dqdt, sizeof d[1]);
-    ss_linear_derivatives(m, u, q, dqdt, d + 2);
-}
+/* With the step caps of motion.h the next term is (2 pi / 40)^12 / 12! = 5e-19 of the amplitude. */
+enum { LINEAR_DEGREE = 11 };
 
 void
-ss_engine_derive(engine *e)
+ss_engine_expand(engine *e)
 {
     const state *m = &e->m->now;
-    if (!e->has_start)
-        derive(m, m->u, m->q, e->dq0, e->start);
-    if (!e->has_end)
-        derive(m, m->u + e->h, e->q1, e->dq1, e->end);
-    e->has_start = e->has_end = 1;
+    double step[LINEAR_DEGREE + 1];
+    if (e->series.degree > 0 || !m->model->linear)
+        return;
+    for (int n = 0; n <= LINEAR_DEGREE; n++)
+        step[n] = e->h / (n + 1);
+    m->model->series(m, step, LINEAR_DEGREE, e->series.c);
+    e->series.degree = LINEAR_DEGREE;
+    e->series.per_unit = 1 / e->h;
 }
 
 /* The guard of a step, but not its polynomial p. */
@@ -105,34 +95,17 @@ ends_by_steps(engine *e, const bound *b, double *s_event)
     return e->lost ? -1 : ends;
 }
 
-static double
-linear_part(const bound *b, const double q[])
-{
-    return b->of[0] * q[0] + b->of[1] * q[1] + (b->of[2] != 0 ? b->of[2] * q[2] : 0);
-}
-
+/* Find it from the series of the step. */
 static int
-ends_by_derivatives(engine *e, const bound *b, double *s_event, int *unresolved)
+ends_by_series(const engine *e, const bound *b, double *s_event, int *unresolved)
 {
-    double at_0[ORDERS + 1], at_h[ORDERS + 1];
-    ss_engine_derive(e);
+    const int degree = e->series.degree;
+    double p[MOST_DEGREE + 1], step = e->h * e->series.per_unit, scale = 1;
     step_guard g = guard_of_step(e, b);
-    for (int i = 0; i <= ORDERS; i++) {
-        at_0[i] = linear_part(b, e->start[i]);
-        at_h[i] = linear_part(b, e->end[i]);
+    for (int n = 0; n <= degree; n++, scale *= step) {
+        const double *c = e->series.c[n];
+        p[n] = b->of[0] * (scale * c[0]) + b->of[1] * (scale * c[1]) + b->of[2] * (scale * c[2]);
     }
-    ss_guard_by_ends(&g, at_0, at_h);
-    return ss_first_zero(&g, s_event, unresolved);
-}
-
-static int
-ends_by_curve(engine *e, const bound *b, double *s_event, int *unresolved)
-{
-    double c[MOST_DEGREE + 1][MAX_DIM], p[MOST_DEGREE + 1];
-    step_guard g = guard_of_step(e, b);
-    int degree = e->type->curve(e, c);
-    for (int i = 0; i <= degree; i++)
-        p[i] = linear_part(b, c[i]);
     if (ss_guard_is_clear(&g, degree, p))
         return 0;
     ss_guard_by_series(&g, degree, p);
@@ -146,12 +119,12 @@ ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
     const state *m = &e->m->now;
     int unresolved = 0, first = 0;
     *ends = 0;
+    if (!e->clear)
+        ss_engine_expand(e);
     for (e->ended = 0; e->ended < m->n_bounds && !e->clear; e->ended++) {
         const bound *b = &m->bound[e->ended];
         double s;
-        int found = e->type->curve != NULL ? ends_by_curve(e, b, &s, &unresolved)
-            : m->model->linear ? ends_by_derivatives(e, b, &s, &unresolved)
-            : ends_by_steps(e, b, &s);
+        int found = e->series.degree > 0 ? ends_by_series(e, b, &s, &unresolved) : ends_by_steps(e, b, &s);
         if (found < 0)
             return fail_lost(e, err);
         if (!found || (*ends && s >= *s_event))
@@ -204,7 +177,7 @@ ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
 ss_status
 ss_engine_step(engine *e, double h_max, ss_error *err)
 {
-    e->clear = e->has_end = 0;
+    e->clear = e->series.degree = 0;
     ss_status st = e->type->step(e, h_max, err);
     if (st != SS_OK || 0 * e->dq1[0] + 0 * e->dq1[1] + 0 * e->dq1[2] == 0)
         return st;
@@ -216,7 +189,6 @@ ss_engine_rest(engine *e, double h)
 {
     memcpy(e->q1, e->m->now.q, sizeof e->q1);
     memset(e->dq1, 0, sizeof e->dq1);
-    e->has_end = 0;
     e->h = h;
 }
 
@@ -227,8 +199,6 @@ ss_engine_accept(engine *e)
     state *m = &e->m->now;
     memcpy(m->q, e->q1, sizeof m->q);
     memcpy(e->dq0, e->dq1, sizeof e->dq0);
-    memcpy(e->start, e->end, sizeof e->start);
-    e->has_start = e->has_end;
     m->u += e->h;
     e->type->go_on(e);
 }

@@ -14,6 +14,13 @@ typedef enum reading {
     ANYWHERE, FIRST_SAMPLE, NEXT_SAMPLE
 } reading;
 
+/* The state from the start of a step on: Taylor coefficients in s / unit, those of v' last. */
+typedef struct series {
+    int degree;                                 /* an odd number; 0: this step has none */
+    double per_unit;                            /* [1/s] */
+    double c[MOST_SERIES + 1][SERIES_PARTS];
+} series;
+
 struct engine_type {
     size_t size;                                /* of the engine, which begins with a struct engine */
     /* Fill in what is its own.  May be NULL. */
@@ -33,9 +40,6 @@ struct engine_type {
     /* The derivative of x_ref, q[0] and v at s from now, within that step, by the same three numbers now.  NULL
      * if the engine cannot compute it. */
     void (*response)(engine *e, double s, double d[D_MOST][D_MOST]);
-    /* Write the Taylor coefficients of the state within that step, in s / h, to c, and return their
-     * degree, at most MOST_DEGREE.  NULL if the state is not a polynomial. */
-    int (*curve)(const engine *e, double c[][MAX_DIM]);
     /* Keep another tolerance from the next step on.  NULL if the engine cannot change its
      * tolerance, or has none. */
     void (*keep)(engine *e, double tol);
@@ -59,9 +63,7 @@ struct engine {
     double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
     int clear;                              /* 1: step() has proven that it contains no event */
     int ended;                              /* the number of the bound that ends the mode in this step */
-    /* The state and its first ORDERS derivatives at both ends, if they have been computed. */
-    int has_start, has_end;
-    double start[ORDERS + 1][MAX_DIM], end[ORDERS + 1][MAX_DIM];
+    series series;                          /* of the last step */
     int lands_on_samples;                   /* 1: at() gives the state at the nearer end */
     int lost;                               /* 1: a guard within a step was NaN */
     unsigned long steps, rhs, events;
@@ -70,14 +72,14 @@ struct engine {
 extern const struct engine_type ss_exact_engine, ss_taylor_engine, ss_radau_engine, ss_ode_engine;
 void ss_engine_free(engine *e);                     /* NULL is allowed */
 
-/* The motion has entered a mode. */
-void ss_engine_begin(engine *e);
 /* For engines that take steps: the rate of change at the start of a mode, and its shortest step; and SS_ETOL, as a
  * step would have to be shorter. */
 void ss_engine_begin_steps(engine *e);
 ss_status ss_engine_fail_short(const engine *e, ss_error *err);
-/* Fill start and end. */
-void ss_engine_derive(engine *e);
+/* Let the step have a series, if its mode is linear. */
+void ss_engine_expand(engine *e);
+/* taylor.c: the state at s by a series, and the rates of change of its first two parts. */
+void ss_series_at(const series *of, double s, double q[], double dqdt[]);
 /* Take a step, see struct engine_type; SS_ERANGE if the state becomes infinite or NaN. */
 ss_status ss_engine_step(engine *e, double h_max, ss_error *err);
 /* *ends becomes 1 if the mode ends within the step just taken, *s_event after its start. */

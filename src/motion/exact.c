@@ -201,21 +201,16 @@ exact_step(engine *e, double h_max, ss_error *err)
     const exact *x = (exact *)e;
     const state *m = &e->m->now;
     double g = least_guard(m, m->q, e->dq0);
-    double h = fmin(sqrt(4 * g / x->curvature), LONGEST * h_max);
     (void)err;
     e->steps++;
-    if (h > h_max) {                        /* then curvature h^2 / 8 is at most g / 2 */
-        e->h = h;
+    e->h = fmax(fmin(sqrt(4 * g / x->curvature), LONGEST * h_max), h_max);
+    for (;; e->h = h_max) {
         e->rhs++;
-        evaluate_at(x, m->u + h, e->q1, e->dq1);
-        e->clear = least_guard(m, e->q1, e->dq1) > x->curvature * h * h / 8;
-        if (e->clear)
+        evaluate_at(x, m->u + e->h, e->q1, e->dq1);
+        e->clear = fmin(g, least_guard(m, e->q1, e->dq1)) > x->curvature * e->h * e->h / 8;
+        if (e->clear || e->h == h_max)
             return SS_OK;
     }
-    e->h = h_max;
-    e->rhs++;
-    evaluate_at(x, m->u + h_max, e->q1, e->dq1);
-    return SS_OK;
 }
 
 /* A lower bound of the time to the next zero of a guard g with these rates of change.  A Taylor

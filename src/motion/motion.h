@@ -15,8 +15,8 @@ typedef struct motion {
 } motion;
 
 /* Steps per period of the mode's fastest motion.  With 40, the terms that rk8pd neglects are below
- * (2 pi / 40)^9 / 9! = 2e-13 of the change in a step, and the polynomial through the derivatives at
- * both ends (ode.c) is as accurate as the motion. */
+ * (2 pi / 40)^9 / 9! = 2e-13 of the change in a step, and a short Taylor series gives
+ * the state inside a step of a linear mode (engine.c). */
 enum { STEPS_PER_PERIOD = 40 };
 
 double ss_step_cap(const state *m);                 /* the longest step in the mode */

@@ -1,9 +1,7 @@
 /* ode.c -- a motion carried by a GSL odeiv2 stepper.
  *
- * GSL cannot give the state inside a step.  The higher derivatives of the state of a linear mode
- * are known, so the state inside a step is the polynomial of degree 9 that has the state and its
- * four derivatives at both ends (Hermite).  With the cap of motion.h, w h = 2 pi / 40, its error
- * is (w h)^10 / 10! / 4^5 = 2e-18 of the amplitude, less than rounding, whatever the method.
+ * GSL cannot give the state inside a step.  In a linear mode this is the Taylor series from the start of the
+ * step, whose error is less than rounding, whatever the method.
  *
  * For other models, such as stiff ones without this cap, one-step methods step again from the
  * start of the step.  A multistep method would lose its memory by this, so it steps to every
@@ -14,21 +12,15 @@
 #include <gsl/gsl_odeiv2.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/versions.h"
 
 /* Beyond this way of the pull, in units of the scale of x, x - U t would lose digits. */
 #define FAR 1e3
-
-/* A curve has room for as many parts of the state as fill a vector register. */
-enum { LANES = 4 };
 
 typedef struct ode {
     engine base;
     gsl_odeiv2_system system;
     gsl_odeiv2_driver *driver;              /* owns the main stepper and its error control */
     gsl_odeiv2_step *side;                  /* NULL if not needed */
-    int has_curve;                          /* of the last step; asked for by the first at() in it */
-    double curve[2 * ORDERS + 2][LANES];    /* its coefficients in s / h */
     double zero[MAX_DIM];                   /* GSL sees this in place of a y of 0 */
 } ode;
 
@@ -169,7 +161,6 @@ ode_step(engine *e, double h_max, ss_error *err)
     }
     e->h = h;
     e->steps++;
-    o->has_curve = 0;
     return SS_OK;
 }
 
@@ -193,58 +184,6 @@ step_to(ode *o, double s, double q[])
     }
 }
 
-/* The Taylor coefficients in s / h of a state and its derivatives. */
-static void
-taylor(double h, double d[ORDERS + 1][MAX_DIM], double c[ORDERS + 1][LANES])
-{
-    double scale = 1;
-    for (int k = 0; k <= ORDERS; scale *= h / ++k)
-        for (size_t i = 0; i < MAX_DIM; i++)
-            c[k][i] = scale * d[k][i];
-}
-
-/* With x = s / h, the curve is T(x) + x^5 g(x).  T is the Taylor polynomial at the start; g is the
- * difference between the Taylor polynomial at the end and T, divided by x^5, in powers of x - 1.  T is
- * rewritten in these powers by Horner's scheme, and multiplied by the series of x^-5. */
-static void
-draw_curve(ode *o)
-{
-    static const double over_x5[ORDERS + 1] = { 1, -5, 15, -35, 70 };
-    engine *e = &o->base;
-    double end[ORDERS + 1][LANES];
-    ss_engine_derive(e);
-    taylor(e->h, e->start, o->curve);
-    taylor(e->h, e->end, end);
-    for (size_t i = 0; i < o->system.dimension; i++) {
-        double T[ORDERS + 1];
-        for (int k = 0; k <= ORDERS; k++)
-            T[k] = o->curve[k][i];
-        for (int k = 0; k < ORDERS; k++)
-            for (int j = ORDERS - 1; j >= k; j--)
-                T[j] += T[j + 1];
-        for (int k = 0; k <= ORDERS; k++) {
-            double g = 0;
-            for (int j = 0; j <= k; j++)
-                g += (end[j][i] - T[j]) * over_x5[k - j];
-            o->curve[ORDERS + 1 + k][i] = g;
-        }
-    }
-    o->has_curve = 1;
-}
-
-VERSIONS static void
-read_curve(const ode *o, double x, double q[])
-{
-    double x5 = x * x * x * x * x, T[LANES] = { 0 }, g[LANES] = { 0 };
-    for (int k = ORDERS; k >= 0; k--)
-        for (int i = 0; i < LANES; i++) {
-            T[i] = T[i] * x + o->curve[k][i];
-            g[i] = g[i] * (x - 1) + o->curve[ORDERS + 1 + k][i];
-        }
-    for (int i = 0; i < MAX_DIM; i++)
-        q[i] = T[i] + x5 * g[i];
-}
-
 static void
 ode_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
 {
@@ -255,9 +194,8 @@ ode_at(engine *e, reading where, double s, turn base, double q[], double dqdt[])
     if (inside && o->side != NULL) {
         step_to(o, s, q);
     } else if (inside) {
-        if (!o->has_curve)
-            draw_curve(o);
-        read_curve(o, s / e->h, q);
+        ss_engine_expand(e);
+        ss_series_at(&e->series, s, q, dqdt);
     } else {
         memcpy(q, s > e->h / 2 ? e->q1 : m->q, sizeof e->q1);
     }
@@ -271,12 +209,11 @@ ode_go_on(engine *e)
 {
     const state *m = &e->m->now;
     if (e->how->kind != MULTISTEP) {
-        e->has_start &= !m->moves;          /* a new origin changes positions, and the measured base */
         ss_motion_rebase(e->m);
     } else if ((m->scene->base != NULL && m->u >= m->u_knot)
                || fabs(m->ramp * m->u) > FAR * m->scene->stiffness * m->x_scale) {
         ss_motion_rebase(e->m);
-        ss_engine_begin(e);
+        e->type->begin(e);
     }
 }
 

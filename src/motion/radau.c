@@ -302,7 +302,6 @@ radau_step(engine *e, double h_max, ss_error *err)
 static void
 radau_go_on(engine *e)
 {
-    e->has_start &= !e->m->now.moves;
     ss_motion_rebase(e->m);
 }
 

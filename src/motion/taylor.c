@@ -33,9 +33,8 @@ typedef struct taylor {
     int order;
     double relative;                        /* of the size of the state's parts, this part counts as scale */
     double longest;
-    double unit, per_unit;                  /* [s], [1/s] */
+    double unit;                            /* of the series [s] */
     double per_order[MOST_ORDER + 2];       /* 1 / (n + 1) */
-    double c[MOST_ORDER + 2][SERIES_PARTS]; /* of the state and of v' in s / unit */
     double sample[SERIES_PARTS][BATCH];     /* of the present step, one interval after the other */
     int taken;                              /* samples taken from the batch; BATCH: none are left */
 } taylor;
@@ -52,7 +51,7 @@ order_of(double tol)
 static double
 tolerated(const taylor *t)
 {
-    const double *q = t->base.m->now.q, *last = t->c[t->order], *before = t->c[t->order - 1];
+    const double *q = t->base.m->now.q, *last = t->base.series.c[t->order], *before = t->base.series.c[t->order - 1];
     double largest = 0, sum = 0;
     for (size_t i = 0; i < MAX_DIM; i++) {
         double term = fabs(last[i]) > fabs(before[i]) ? fabs(last[i]) : fabs(before[i]);
@@ -71,21 +70,22 @@ expand(taylor *t)
     double step[MOST_ORDER + 2];
     for (int n = 0; n <= t->order + 1; n++)
         step[n] = t->unit * t->per_order[n];
-    t->base.m->now.model->series(&t->base.m->now, step, t->order + 1, t->c);
-    t->per_unit = 1 / t->unit;
+    t->base.m->now.model->series(&t->base.m->now, step, t->order + 1, t->base.series.c);
+    t->base.series.per_unit = 1 / t->unit;
+    t->base.series.degree = t->order + 1;
     t->base.rhs += (unsigned long)t->order;
 }
 
 /* The state and the rates of change of its first two parts.  Horner's scheme runs over the even and the
  * odd powers of all parts side by side, for which compilers use vectors. */
 VERSIONS static void
-evaluate(const taylor *t, double s, double q[], double dqdt[])
+series_at(const series *of, double s, double q[], double dqdt[])
 {
     enum { LANES = 2 * SERIES_PARTS };
-    double x = s * t->per_unit, y = x * x, sum[LANES];
-    const double *c = t->c[t->order];
+    double x = s * of->per_unit, y = x * x, sum[LANES];
+    const double *c = of->c[of->degree - 1];
     memcpy(sum, c, sizeof sum);
-    while (c != t->c[0]) {
+    while (c != of->c[0]) {
         c -= LANES;
         for (int i = 0; i < LANES; i++)
             sum[i] = sum[i] * y + c[i];
@@ -97,24 +97,30 @@ evaluate(const taylor *t, double s, double q[], double dqdt[])
     dqdt[2] = 0;
 }
 
+void
+ss_series_at(const series *of, double s, double q[], double dqdt[])
+{
+    series_at(of, s, q, dqdt);
+}
+
 /* Compute BATCH samples from s on: the same scheme with samples side by side. */
 VERSIONS static void
 evaluate_batch(taylor *t, double s, double interval)
 {
     double x[BATCH], y[BATCH], even[BATCH], odd[BATCH];
     for (int i = 0; i < BATCH; i++) {
-        x[i] = (s + i * interval) * t->per_unit;
+        x[i] = (s + i * interval) * t->base.series.per_unit;
         y[i] = x[i] * x[i];
     }
     for (int part = 0; part < SERIES_PARTS; part++) {
         for (int i = 0; i < BATCH; i++) {
-            even[i] = t->c[t->order][part];
-            odd[i] = t->c[t->order + 1][part];
+            even[i] = t->base.series.c[t->order][part];
+            odd[i] = t->base.series.c[t->order + 1][part];
         }
         for (int n = t->order - 2; n >= 0; n -= 2)
             for (int i = 0; i < BATCH; i++) {
-                even[i] = even[i] * y[i] + t->c[n][part];
-                odd[i] = odd[i] * y[i] + t->c[n + 1][part];
+                even[i] = even[i] * y[i] + t->base.series.c[n][part];
+                odd[i] = odd[i] * y[i] + t->base.series.c[n + 1][part];
             }
         for (int i = 0; i < BATCH; i++)
             t->sample[part][i] = even[i] + x[i] * odd[i];
@@ -139,7 +145,7 @@ longest_step(taylor *t)
         expand(t);
         double step = tolerated(t);
         if (step > 0)
-            return fmin(step, fmin(GROWTH, t->longest * t->per_unit));
+            return fmin(step, fmin(GROWTH, t->longest * t->base.series.per_unit));
     }
     return 0;
 }
@@ -152,16 +158,16 @@ taylor_step(engine *e, double h_max, ss_error *err)
     double step = longest_step(t);
     (void)h_max;
     if (step > 0 && m->model->reach != NULL)
-        step = m->model->reach(m, t->c, step);
+        step = m->model->reach(m, t->base.series.c, step);
     e->next = step * t->unit;
     if (!(e->next >= e->shortest))
         return ss_engine_fail_short(e, err);
     for (size_t i = 0; i < MAX_DIM; i++)
-        e->dq0[i] = t->per_unit * t->c[1][i];
+        e->dq0[i] = t->base.series.per_unit * t->base.series.c[1][i];
     e->h = m->scene->base != NULL ? fmin(e->next, m->u_knot - m->u) : e->next;
     e->steps++;
     t->taken = BATCH;
-    evaluate(t, e->h, e->q1, e->dq1);
+    series_at(&e->series, e->h, e->q1, e->dq1);
     return SS_OK;
 }
 
@@ -172,7 +178,7 @@ taylor_at(engine *e, reading where, double s, turn base, double q[], double dqdt
     const state *m = &e->m->now;
     e->rhs++;
     if (where == ANYWHERE) {
-        evaluate(t, s, q, dqdt);
+        series_at(&e->series, s, q, dqdt);
         m->model->rates(m, base_force_by(m, base, m->u + s), q, dqdt);
         return;
     }
@@ -183,17 +189,6 @@ taylor_at(engine *e, reading where, double s, turn base, double q[], double dqdt
         q[part] = t->sample[part][i];
     dqdt[0] = q[1];
     dqdt[1] = t->sample[MAX_DIM][i];
-}
-
-static int
-taylor_curve(const engine *e, double c[][MAX_DIM])
-{
-    const taylor *t = (const taylor *)e;
-    double step = e->h * t->per_unit, scale = 1;
-    for (int n = 0; n <= t->order + 1; n++, scale *= step)
-        for (size_t i = 0; i < MAX_DIM; i++)
-            c[n][i] = scale * t->c[n][i];
-    return t->order + 1;
 }
 
 static void
@@ -224,5 +219,5 @@ taylor_make(engine *e, ss_error *err)
 
 const struct engine_type ss_taylor_engine = {
     .size = sizeof(taylor), .make = taylor_make, .begin = taylor_begin, .step = taylor_step, .at = taylor_at,
-    .curve = taylor_curve, .keep = taylor_keep, .go_on = taylor_go_on
+    .keep = taylor_keep, .go_on = taylor_go_on
 };

@@ -10,7 +10,7 @@ begin_mode(walk *w)
 {
     w->cap = ss_step_cap(&w->m.now);
     w->lasted = 0;
-    ss_engine_begin(w->e);
+    w->e->type->begin(w->e);
 }
 
 ss_status

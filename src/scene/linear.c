@@ -21,48 +21,17 @@ ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, dou
     dfdt[1] = base_force_rate(m, u) / mass;
 }
 
-/* The derivatives of the base's force, without those of its swing. */
-static void
-rest_rates(const state *m, double u, double rate[ORDERS - 1])
-{
-    double k = m->scene->stiffness, s = u - m->u_piece;
-    rate[0] = m->ramp + k * measured_speed(m, u);
-    rate[1] = 2 * k * (m->z[2] + 3 * m->z[3] * s);
-    rate[2] = 6 * k * m->z[3];
-}
-
-/* Each derivative follows from the equation of motion, differentiated once more. */
-void
-ss_linear_derivatives(const state *m, double u, const double q[], const double dqdt[],
-                      double higher[][MAX_DIM])
-{
-    turn base = base_turn(m, u);
-    const double wave[] = { -base.si, -base.co, base.si };
-    double rest[ORDERS - 1] = { 0 };
-    if (m->moves)
-        rest_rates(m, u, rest);
-    double mass = m->scene->mass, D = m->drive * m->omega;
-    double d[ORDERS + 2] = { q[0], q[1], dqdt[1] };
-    for (int i = 0; i < ORDERS - 1; i++, D *= m->omega) {
-        d[i + 3] = (D * wave[i] + rest[i] - m->k * d[i + 1] - m->c * d[i + 2]) / mass;
-        higher[i][0] = d[i + 2];
-        higher[i][1] = d[i + 3];
-    }
-}
-
 void
 ss_linear_series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
-    double force[MOST_SERIES + 1];
+    double force[MOST_SERIES + 1], per_mass = 1 / m->scene->mass, k = m->k * per_mass, damping = m->c * per_mass;
+    double x = c[0][0] = m->q[0], v = c[0][1] = m->q[1];
     base_force_series(m, step, order, force);
     force[0] -= m->f0;
-    c[0][0] = m->q[0];
-    c[0][1] = m->q[1];
     for (int n = 0; n < order; n++) {
-        c[n + 1][0] = step[n] * c[n][1];
-        double a = (force[n] - m->k * c[n][0] - m->c * c[n][1]) / m->scene->mass;
-        c[n + 1][1] = step[n] * a;
-        c[n][MAX_DIM] = a;
+        double a = c[n][MAX_DIM] = force[n] * per_mass - k * x - damping * v;
+        c[n + 1][0] = x = step[n] * v;
+        c[n + 1][1] = v = step[n] * a;
     }
 }
 

@@ -20,7 +20,7 @@
 #include <stickslip/scene.h>
 #include "scene/key.h"
 
-enum { MAX_DIM = 3, ORDERS = 4, MOST_SERIES = 26, SERIES_PARTS = MAX_DIM + 1 };
+enum { MAX_DIM = 3, MOST_SERIES = 26, SERIES_PARTS = MAX_DIM + 1 };
 
 /* A measured base (base.c): n samples at start + i / rate. */
 struct ss_base {
@@ -443,9 +443,6 @@ step_within(double c[][SERIES_PARTS], double step, double most)
 
 void ss_linear_rates(const state *m, double drive, const double q[], double dqdt[]);
 void ss_linear_jacobian(const state *m, double u, const double q[], double *dfdq, double dfdt[]);
-/* The next ORDERS - 1 derivatives of a state at u, after dqdt. */
-void ss_linear_derivatives(const state *m, double u, const double q[], const double dqdt[],
-                           double higher[][MAX_DIM]);
 void ss_linear_series(const state *m, const double step[], int order, double c[][SERIES_PARTS]);
 double ss_linear_fastest(const state *m, const char **what);
 void ss_linear_slip(state *m, double x, double v, int direction);

@@ -176,7 +176,7 @@ cut(walk *w)
     w->m.now.u += w->h;
     w->lasted += w->h;
     ss_motion_rebase(&w->m);
-    ss_engine_begin(w->e);
+    w->e->type->begin(w->e);
 }
 
 /* Walk one leg.  Returns 1 if at its end a stick begins, or the mass becomes slower than its pull. */

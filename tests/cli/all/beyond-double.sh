@@ -4,9 +4,9 @@ try() {
     sed 's/t = [^ ]* s/t = T s/; s/about .* s: /about ? s: /' err
     grep -v '^#' out | grep -i -e nan -e inf || :
 }
-try ss-sim -s base_amplitude=1e300 -s duration=0.5 -s rate=100 compliant-light
+try ss-sim -s base_amplitude=1e305 -s duration=0.5 -s rate=100 compliant-light
 try ss-sim -s x0=1e300 -s duration=0.5 -s rate=100 state-variable
-try ss-sim -e -s x0=1e300 -s duration=0.5 -s rate=100 compliant-light
+try ss-sim -e -s x0=1e305 -s duration=0.5 -s rate=100 compliant-light
 try ss-sim -m exact -s v0=1e307 -s duration=0.5 -s rate=100 coulomb
 try ss-sim -a 1e-6 -s friction=1e300 -s duration=0.5 -s rate=100 state-variable
 try ss-signal noise --amplitude 1e308
