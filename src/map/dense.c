@@ -5,9 +5,7 @@
  * zeros for the points that a position does not need.  The inner loop multiplies this table by
  * points, for several repetitions of the pattern at once.  The carrier of a sample is the product of
  * the carrier at its place in the pattern and that of its row, a repetition of the pattern; the
- * latter is a product of two tables.
- *
- * The adjoint adds samples to points, with the same weights. */
+ * latter is a product of two tables. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -16,8 +14,7 @@
 #include "map/dense.h"
 
 enum { LANES = 8, ROWS = 4, ROOT = LANES, GROUP_MAX = ROWS * LANES * DENSE_PHASES_MAX,
-    LINE = 64,                  /* bytes of a cache line; a vector within one is read at once */
-    COLUMN_LEAST = 64, COLUMN_MOST = DENSE_PHASES_MAX };    /* samples of a block of the adjoint */
+    LINE = 64 };                /* bytes of a cache line; a vector within one is read at once */
 
 struct weights {
     size_t phases;
@@ -191,84 +188,5 @@ ss_dense_write(const weights *d, const double *series, size_t turns, size_t circ
     if (rest > 0) {
         BEST_VERSION(write_128, write_256, write_512)(d, series + 2 * point, whole, whole + 1, &turning, last);
         memcpy(w + 2 * whole * group, last, 2 * rest * sizeof *w);
-    }
-}
-
-/* --- the adjoint ------------------------------------------------------------------------------- */
-
-/* A block is a whole number of points.  A table has the weights of all its samples for each point that
- * any of them needs, with zeros for samples that do not need it. */
-struct columns {
-    size_t phases, width;       /* samples of a block */
-    int taps, lead;             /* points of a block; point 0 lies lead points before the block */
-    double *weight;             /* [taps][width][2]: each twice, for re and im */
-};
-
-columns *
-ss_columns_new(const kaiser *ker, size_t phases)
-{
-    size_t width = phases > COLUMN_LEAST ? phases : COLUMN_LEAST;
-    size_t taps = (size_t)ker->taps + width / phases - 1;
-    columns *c = calloc(1, sizeof *c + LINE + taps * width * 2 * sizeof(double));
-    if (c == NULL)
-        return NULL;
-    *c = (columns){ phases, width, (int)taps, ker->taps / 2 - 1, aligned(c + 1) };
-    for (size_t k = 0; k < width; k++) {
-        double weight[KAISER_TAPS_MAX];
-        ss_kaiser_weights(ker, (double)(k % phases) / (double)phases, weight);
-        for (size_t i = 0; i < (size_t)ker->taps; i++) {
-            double *at = c->weight + 2 * ((k / phases + i) * width + k);
-            at[0] = at[1] = weight[i];
-        }
-    }
-    return c;
-}
-
-void
-ss_columns_free(columns *c)
-{
-    free(c);
-}
-
-/* Add a block: conj w times the carrier, which is near from sample to sample and e at the first. */
-VERSIONS static void
-add_block(const columns *c, const double *restrict w, const double *restrict near, const double e[2],
-          double *restrict v)
-{
-    double u[2 * COLUMN_MOST];
-    for (size_t k = 0; k < c->width; k++) {
-        u[2 * k] = w[2 * k] * near[2 * k] + w[2 * k + 1] * near[2 * k + 1];
-        u[2 * k + 1] = w[2 * k] * near[2 * k + 1] - w[2 * k + 1] * near[2 * k];
-    }
-    for (int t = 0; t < c->taps; t++) {
-        const double *weight = c->weight + (size_t)t * 2 * c->width;
-        double sum[2 * LANES] = { 0 };
-        for (size_t k = 0; k < 2 * c->width; k += 2 * LANES)
-            for (size_t l = 0; l < 2 * LANES; l++)
-                sum[l] += weight[k + l] * u[k + l];
-        for (size_t l = LANES; l > 1; l /= 2)
-            for (size_t i = 0; i < l; i++)
-                sum[i] += sum[i + l];
-        double re = sum[0], im = sum[1];
-        v[2 * t] += e[0] * re - e[1] * im;
-        v[2 * t + 1] += e[0] * im + e[1] * re;
-    }
-}
-
-void
-ss_columns_add(const columns *c, size_t turns, size_t circle, size_t n, double factor, const double *w,
-               double *v)
-{
-    double near[2 * COLUMN_MOST], e[2], last[2 * COLUMN_MOST] = { 0 };
-    for (size_t k = 0; k < c->width; k++)
-        turn(turns, k, circle, near + 2 * k);
-    for (size_t k = 0; k < n; k += c->width) {
-        const double *from = w + 2 * k;
-        if (n - k < c->width)
-            from = memcpy(last, from, 2 * (n - k) * sizeof *last);
-        turn(turns, k, circle, e);
-        e[0] *= factor;
-        e[1] *= factor;
-        add_block(c, from, near, e, v + 2 * ((ptrdiff_t)(k / c->phases) - c->lead));
     }
 }

@@ -26,13 +26,4 @@ size_t ss_dense_room(size_t n);
 void ss_dense_write(const weights *d, const double *v, size_t turns, size_t circle, size_t first,
                       size_t n, double factor, double *spare, double *w);
 
-/* The same weights, in the order of the adjoint.  NULL: no memory. */
-typedef struct columns columns;
-columns *ss_columns_new(const kaiser *ker, size_t phases);
-void ss_columns_free(columns *c);                     /* NULL is allowed */
-
-/* The adjoint of ss_dense_write for n coefficients from 0 on: its conjugate is added to the points v. */
-void ss_columns_add(const columns *c, size_t turns, size_t circle, size_t n, double factor, const double *w,
-                    double *v);
-
 #endif

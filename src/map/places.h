@@ -20,7 +20,8 @@ typedef struct point_series {
 /* *out is the kernel of KAISER_TAPS_MAX taps for the widest band, in cycles a point; to be prepared. */
 void ss_places_kernel(kaiser *out, double reach, double center, double second, double bound);
 
-/* A part of a scale, times factor; its translations are not fractions of samples (ss_scale_parts). */
+/* A part of a scale, times factor; its translations are those of a dense grid, or no fractions of samples
+ * (ss_scale_parts). */
 void ss_places_write(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate,
                      span part, double factor, double *w);
 /* The adjoint of this: its conjugate is added to the points v of the series. */

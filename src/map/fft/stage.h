@@ -57,7 +57,6 @@ ss_status ss_blocks_plans_make(struct blocks *b, size_t room);
 struct block_sums {
     const struct blocks *b;
     double *level[LEVELS];                  /* of levels in use, from window 0 on */
-    columns *places[2 * LEVELS];            /* as in blocks */
     fftw_plan half[LEVELS], back[LEVELS];   /* from L/2 samples, and to L samples */
     shared_plan *plans;
     double *v;                              /* a window's samples, its spectrum, half a spectrum */

@@ -220,15 +220,6 @@ ss_blocks_scale(const struct blocks *b, size_t i, const spectra *s, double *scra
 
 /* --- the adjoint ------------------------------------------------------------------------------- */
 
-static const columns *
-columns_of(const block_sums *s, const block_scale *r)
-{
-    size_t i = 0;
-    while (s->b->places[i] != r->places)
-        i++;
-    return s->places[i];
-}
-
 /* Of each term and its mirror image, the term takes the half of the sum. */
 void
 ss_block_sums_add(block_sums *s, size_t i, double *scratch, span part, double factor, const double *w)
@@ -240,12 +231,10 @@ ss_block_sums_add(block_sums *s, size_t i, double *scratch, span part, double fa
     double *v = scratch + room, *c = scratch + 2 * (b->longest + DENSE_MARGIN);
     point_series series = series_of(b, r, window, NULL);
     memset(scratch, 0, (all + 2 * room) * sizeof *scratch);
-    if (r->kind == BETWEEN)
-        ss_places_add(b->kernel, &series, &b->grid[i], b->rate, part, factor / 2, w, v);
-    else if (r->kind == EACH)
-        ss_columns_add(columns_of(s, r), (size_t)r->mid, st->circle, part.n, factor / 2, w, v);
-    else
+    if (r->kind == AT_POINTS)
         add_points(w, part.n, factor / 2, v);
+    else
+        ss_places_add(b->kernel, &series, &b->grid[i], b->rate, part, factor / 2, w, v);
     for (size_t k = 0; r->kind != AT_POINTS && k < room; k++) {
         v[k] += v[all + k];
         v[all - room + k] += scratch[k];

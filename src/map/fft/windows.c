@@ -404,8 +404,6 @@ ss_block_sums_new(const struct blocks *b)
         if (s->level[l] != NULL)
             memset(s->level[l], 0, room);
     }
-    for (size_t i = 0; !failed && i < b->n_places; i++)
-        failed = (s->places[i] = ss_columns_new(b->kernel, ss_dense_phases(b->places[i]))) == NULL;
     if (!failed && ss_sums_plans_make(s) == SS_OK)
         return s;
     ss_block_sums_free(s);
@@ -420,8 +418,6 @@ ss_block_sums_free(block_sums *s)
     ss_plans_free(s->plans);
     for (size_t l = 0; l < s->b->levels; l++)
         fftw_free(s->level[l]);
-    for (size_t i = 0; i < s->b->n_places; i++)
-        ss_columns_free(s->places[i]);
     fftw_free(s->v);
     free(s);
 }
