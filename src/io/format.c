@@ -13,9 +13,9 @@ enum { LONGEST_MAGIC = 12 };
 static int
 begins(const char *bytes, size_t n, const char *magic)
 {
-    size_t i;
-    for (i = 0; i < n && magic[i] != '\0' && (magic[i] == '?' || magic[i] == bytes[i]); i++)
-        ;
+    size_t i = 0;
+    while (i < n && magic[i] != '\0' && (magic[i] == '?' || magic[i] == bytes[i]))
+        i++;
     return magic[i] == '\0';
 }
 
@@ -33,10 +33,10 @@ ss_format_open(ss_source **out, const struct opening *o, ss_error *err)
     if (st != SS_OK)
         return st;
     for (size_t i = 0; i < FORMATS && (found == NULL || found->magic == NULL); i++)
-        if (list[i]->open != NULL && (list[i]->magic == NULL || begins(p, n, list[i]->magic)))
+        if (list[i]->magic == NULL ? list[i]->open != NULL : begins(p, n, list[i]->magic))
             found = list[i];
-        else if (list[i]->open == NULL && list[i]->magic != NULL && begins(p, n, list[i]->magic))
-            return ss_fail(err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path", in->name);
+    if (found->open == NULL)
+        return ss_fail(err, SS_EDATA, "%s: HDF5 cannot be read from a stream; give its path", in->name);
     int fits = found->has_header || o->kind == SS_KIND_SIGNAL;
     if ((found->magic == NULL || !fits) && ss_fail_kind(err, in->name, p, n, o->kind) != SS_OK)
         return SS_EKIND;

@@ -27,37 +27,6 @@ ss_sample_raw(const char *p, sample_type type)
 }
 
 static ss_status
-refuse_end(const struct frames *f, size_t frame, size_t rest, ss_error *err)
-{
-    unsigned long long row = f->base.row;
-    if (rest > 0)
-        return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu bytes of row %llu",
-                       f->in->name, rest, frame, row + 1);
-    return ss_fail(err, SS_EDATA, "%s: truncated: ends after row %llu, %llu bytes before the end "
-                   "that its header gives", f->in->name, row,
-                   (unsigned long long)f->bytes_left);
-}
-
-/* Integers become fractions of full scale, [-1, 1). */
-static ss_status
-decode_row(struct frames *f, const char *p, double *const column[], size_t at, ss_error *err)
-{
-    for (size_t c = 0; c < f->base.head->n_columns; c++) {
-        double x = ss_sample_raw(p + c * f->type.bytes, f->type);
-        if (!f->type.is_float)
-            x = ldexp(x, 1 - 8 * (int)f->type.bytes) - (f->type.is_unsigned ? 1 : 0);
-        if (column[c] != NULL)
-            column[c][at] = x;
-        if (!isfinite(x))
-            return ss_fail(err, SS_EDATA, "%s: row %llu, column %s: not a finite number",
-                           f->in->name, (unsigned long long)f->base.row + 1,
-                           f->base.head->column[c].name);
-    }
-    f->base.row++;
-    return SS_OK;
-}
-
-static ss_status
 refuse_rest(const struct frames *f, ss_error *err)
 {
     return ss_fail(err, SS_EDATA, "%s: goes on after the %llu row%s that its header gives; head -c %llu "
@@ -90,13 +59,15 @@ skip_chunks(struct frames *f, ss_error *err)
     }
 }
 
+/* Integers become fractions of full scale, [-1, 1). */
 static ss_status
 give_frames(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct frames *f = (struct frames *)s;
     struct input *in = f->in;
     size_t frame = s->head->n_columns * f->type.bytes;
-    for (; *n < max && f->bytes_left > 0; ++*n) {
+    for (; *n < max && f->bytes_left > 0; ++*n, s->row++) {
+        unsigned long long row = s->row;
         if (*n > 0 && in->hi - in->lo < frame)
             break;
         ss_status st = ss_input_need(in, frame, err);
@@ -105,11 +76,22 @@ give_frames(ss_source *s, double *const column[], size_t max, size_t *n, ss_erro
         size_t there = in->hi - in->lo;
         if (there == 0 && f->bytes_left == UINT64_MAX)
             break;
-        if (there < frame || f->bytes_left < frame)
-            return refuse_end(f, frame, f->bytes_left < there ? (size_t)f->bytes_left : there, err);
-        st = decode_row(f, in->buffer + in->lo, column, *n, err);
-        if (st != SS_OK)
-            return st;
+        there = f->bytes_left < there ? (size_t)f->bytes_left : there;
+        if (there < frame && there > 0)
+            return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu bytes of row %llu", in->name, there, frame, row + 1);
+        if (there < frame)
+            return ss_fail(err, SS_EDATA, "%s: truncated: ends after row %llu, %llu bytes before the end that its "
+                           "header gives", in->name, row, (unsigned long long)f->bytes_left);
+        for (size_t c = 0; c < s->head->n_columns; c++) {
+            double x = ss_sample_raw(in->buffer + in->lo + c * f->type.bytes, f->type);
+            if (!f->type.is_float)
+                x = ldexp(x, 1 - 8 * (int)f->type.bytes) - (f->type.is_unsigned ? 1 : 0);
+            if (column[c] != NULL)
+                column[c][*n] = x;
+            if (!isfinite(x))
+                return ss_fail(err, SS_EDATA, "%s: row %llu, column %s: not a finite number", in->name, row + 1,
+                               s->head->column[c].name);
+        }
         in->lo += frame;
         if (f->bytes_left != UINT64_MAX)
             f->bytes_left -= frame;

@@ -39,15 +39,6 @@ sum_file(char text[48], const char *file, ss_error *err)
     return why == 0 ? SS_OK : ss_fail_errno(err, file, why);
 }
 
-/* The column of the base in a file with this header, or -1. */
-static int
-base_column(const ss_header *head, const char *name)
-{
-    if (name != NULL && *name != '\0')
-        return ss_header_column(head, name);
-    return head->n_columns == 1 ? 0 : ss_header_column(head, "z");
-}
-
 ss_status
 ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err)
 {
@@ -64,10 +55,11 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
     int regular = stat(file, &is) != 0 || S_ISREG(is.st_mode) || S_ISDIR(is.st_mode); /* these fail when opened */
     ss_status st = regular ? ss_signal_read(&signal, NULL, path, NULL, err)     /* a pipe can be read only once */
         : ss_fail(err, SS_EDATA, "%s: not a regular file, which the motion of a base must be", path);
-    int c = st == SS_OK ? base_column(signal->head, column) : 0;
+    int is_named = column != NULL && *column != '\0';
+    const char *name = is_named ? column : "z";
+    int c = st != SS_OK || (!is_named && signal->head->n_columns == 1) ? 0 : ss_header_column(signal->head, name);
     if (c < 0)
-        st = ss_fail(err, SS_EDATA, "%s: no column '%s'", path,
-                     column != NULL && *column != '\0' ? column : "z");
+        st = ss_fail(err, SS_EDATA, "%s: no column '%s'", path, name);
     else if (st == SS_OK && (st = ss_base_new(&b, signal, (size_t)c, &why)) != SS_OK)
         ss_fail(err, st, "%s: %s", path, why.text);
     ss_signal_free(signal);

@@ -84,27 +84,19 @@ ss_is_value(double x)
 }
 
 /* Reads as ss_number_parse does, and also Fortran's 1.0D+00. */
-static double
-parse(char *cell, char **end)
-{
-    double x = ss_number_parse(cell, end);
-    char *mark = *end;
-    if (mark == cell || (*mark != 'D' && *mark != 'd'))
-        return x;
-    char letter = *mark;
-    *mark = 'e';
-    x = ss_number_parse(cell, end);
-    *mark = letter;
-    return x;
-}
-
 enum cell_kind
 ss_cell_read(char *cell, char separator, double *x)
 {
     char *end, *comma = separator != ',' ? strchr(cell, ',') : NULL;
     if (comma != NULL)
         *comma = '.';
-    *x = parse(cell, &end);
+    *x = ss_number_parse(cell, &end);
+    if (end > cell && (*end == 'D' || *end == 'd')) {
+        char *mark = end, letter = *mark;
+        *mark = 'e';
+        *x = ss_number_parse(cell, &end);
+        *mark = letter;
+    }
     int number = end > cell && *end == '\0';
     if (comma != NULL)
         *comma = ',';

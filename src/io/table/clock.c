@@ -73,12 +73,11 @@ ss_clock_sample(struct sample_count *c, double stamp)
     return sample;
 }
 
-/* --- the straight line through stamps, by least squares ------------------------------------- */
-
 struct line {
     double period, at_0;
 };
 
+/* The straight line through stamps, by least squares. */
 static struct line
 fit_line(struct stamps s, struct clock *c)
 {
@@ -102,22 +101,6 @@ struct off {
     double by, step;            /* step: from the one before */
     unsigned long line;
 };
-
-/* Find the stamp that is farthest from the line; of several that differ only by rounding, the first. */
-static struct off
-farthest_from(struct line l, struct stamps s, double usual)
-{
-    struct sample_count count = { .usual = usual };
-    struct off worst = { .by = 0 };
-    while (ss_stamps_next(&s)) {
-        double off = fabs(s.stamp - l.at_0 - l.period * (double)ss_clock_sample(&count, s.stamp));
-        if (!(off <= worst.by * (1 + 1e-9)))    /* NaN, too */
-            worst = (struct off){ off, s.stamp - s.before, s.line };
-    }
-    return worst;
-}
-
-/* --- stamps that are not uniform ----------------------------------------------------------- */
 
 ss_status
 ss_clock_refuse(const char *name, unsigned long line, double late, ss_error *err)
@@ -157,8 +140,6 @@ refuse(struct stamps s, const struct clock *c, double period, struct off worst, 
     return ss_clock_refuse(name, far.line, far.by / usual, err);
 }
 
-/* --- the clock ----------------------------------------------------------------------------- */
-
 /* The decimal number with the fewest digits in [lo, hi]; *digits becomes their number. */
 static double
 roundest(double lo, double hi, int *digits)
@@ -188,7 +169,13 @@ ss_status
 ss_find_clock(struct stamps s, struct clock *c, ss_error *err)
 {
     struct line l = fit_line(s, c);
-    struct off worst = farthest_from(l, s, c->usual);
+    struct sample_count count = { .usual = c->usual };
+    struct off worst = { .by = 0 };     /* the stamp farthest from the line; of those that rounding separates, the first */
+    for (struct stamps i = s; ss_stamps_next(&i);) {
+        double off = fabs(i.stamp - l.at_0 - l.period * (double)ss_clock_sample(&count, i.stamp));
+        if (!(off <= worst.by * (1 + 1e-9)))    /* NaN, too */
+            worst = (struct off){ off, i.stamp - i.before, i.line };
+    }
     if (!(l.period > 0 && worst.by <= l.period * CLOCK_TOLERANCE)
         && !(l.period > 0 && worst.by <= fmin(c->digit, BY_DIGITS * l.period)))
         return refuse(s, c, l.period, worst, err);

@@ -126,43 +126,35 @@ has_unit_of_time(struct text *x, const char *names, const char *units)
     return ss_time_unit_find(unit) != NULL && (is_named || unit[1] != '\0');
 }
 
-/* The unit at the end of "name, unit" or "name in unit", cut off; NULL: there is none. */
-static char *
-cut_unit(char *cell)
-{
-    static const char *const before[] = { ",", " in " };
-    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
-        for (char *at = strstr(cell, before[i]); at != NULL; at = strstr(at + 1, before[i])) {
-            char *unit = at + strlen(before[i]);
-            unit += strspn(unit, " ");
-            if (*unit != '\0' && strchr("0123456789.-", *unit) == NULL && is_unit(unit)) {
-                *at = '\0';
-                return unit;
-            }
-        }
-    return NULL;
-}
-
-/* Cut "name (unit)", "name [unit]", "name/unit" or what cut_unit knows in two. */
+/* Cut "name (unit)", "name [unit]", "name/unit", "name, unit" or "name in unit" in two. */
 static void
 split_name(char *cell, char **name, char **unit)
 {
+    static const char *const before[] = { ",", " in " };
     size_t n = strlen(cell);
-    char closing = n > 0 ? cell[n - 1] : '\0';
+    char closing = n > 0 ? cell[n - 1] : '\0', *end = NULL;
     char *opening = closing == ')' ? strchr(cell, '(') : closing == ']' ? strchr(cell, '[') : NULL;
-    if (opening == NULL || opening == cell) {
-        char *end = cut_unit(cell);
-        ss_split_label(cell, name, unit);
-        *name = ss_cell_trim(*name);
-        *unit = end != NULL ? end : ss_cell_trim(*unit);
+    if (opening != NULL && opening != cell) {
+        cell[n - 1] = '\0';
+        if (opening[-1] == '/')
+            opening[-1] = '\0';
+        *opening = '\0';
+        *name = ss_cell_trim(cell);
+        *unit = ss_cell_trim(opening + 1);
         return;
     }
-    cell[n - 1] = '\0';
-    if (opening > cell && opening[-1] == '/')
-        opening[-1] = '\0';
-    *opening = '\0';
-    *name = ss_cell_trim(cell);
-    *unit = ss_cell_trim(opening + 1);
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
+        for (char *at = strstr(cell, before[i]); at != NULL && end == NULL; at = strstr(at + 1, before[i])) {
+            char *rest = at + strlen(before[i]);
+            rest += strspn(rest, " ");
+            if (*rest != '\0' && strchr("0123456789.-", *rest) == NULL && is_unit(rest)) {
+                *at = '\0';
+                end = rest;
+            }
+        }
+    ss_split_label(cell, name, unit);
+    *name = ss_cell_trim(*name);
+    *unit = end != NULL ? end : ss_cell_trim(*unit);
 }
 
 static void
@@ -198,15 +190,6 @@ name_columns(struct text *x, const char *names, const char *units)
         set_unit(x, i, bare_unit(x->cell[i]));
 }
 
-/* Cut a line after its first n cells. */
-static void
-cut(char *line, size_t n, char separator)
-{
-    for (; *line != '\0' && n > 0; line++)
-        if (*line == separator && --n == 0)
-            *line = '\0';
-}
-
 /* The text of the kept line that is `up` lines above the last one, which is just above the data; NULL if
  * there is none. */
 static char *
@@ -234,8 +217,12 @@ find_increment(struct text *x)
     if (at_start >= n || at_step >= n || ss_cell_read(x->cell[at_start], x->separator, &start) != CELL_NUMBER
         || ss_cell_read(x->cell[at_step], x->separator, &step) != CELL_NUMBER)
         return;
-    cut(above, x->t.n_columns, x->separator);
-    cut(last, x->t.n_columns, x->separator);
+    for (int i = 0; i < 2; i++) {
+        size_t left = x->t.n_columns;
+        for (char *p = i == 0 ? above : last; *p != '\0' && left > 0; p++)
+            if (*p == x->separator && --left == 0)
+                *p = '\0';
+    }
     if (step > 0) {
         x->t.counted.origin = start;
         x->t.counted.increment = step;

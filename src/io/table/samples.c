@@ -122,37 +122,15 @@ free_samples(ss_source *base)
     free(s->of);
 }
 
-/* The columns of numbers without that of time, and, if stamped, that one behind them. */
-static ss_status
-choose_columns(struct samples *s, const struct sheet *t, int stamped, ss_error *err)
-{
-    size_t time = s->timing.time.column;
-    ss_header *head = NULL;
-    s->of = malloc((t->n_columns + 1) * sizeof *s->of);
-    if (s->of == NULL)
-        return ss_fail_memory(err, t->name);
-    for (size_t c = 0; c < t->n_columns; c++)
-        if (c != time && t->column[c].kind == COLUMN_NUMBERS)
-            s->of[s->n++] = c;
-    if (s->n == 0)
-        return ss_fail(err, SS_EDATA, "%s: no column but time", t->name);
-    if (ss_header_select(&head, t->names, s->of, s->n, 0, NULL) != SS_OK)
-        return ss_fail_memory(err, t->name);
-    ss_header_free(s->base.head);
-    s->base.head = head;
-    s->base.stamped = stamped;
-    s->of[s->n] = time;
-    s->n += (size_t)stamped;
-    return stamped ? ss_header_add_column(head, "t", "s", err) : SS_OK;
-}
-
 static const struct source_calls samples_calls = { give_samples, rewind_samples, rows_left, free_samples };
 
+/* The columns are those of numbers without that of time, and, if stamped, that one behind them. */
 ss_status
 ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *err)
 {
     static const struct source_calls rows = { give_rows, rewind_samples, rows_left, free_samples };
     struct timing timing = { .usual = 0 };
+    ss_header *head = NULL;
     ss_status st = ss_sheet_find_clock(t, &timing, err);
     if (st != SS_OK)
         return st;
@@ -173,7 +151,21 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
         t->rows = (struct kept){ 0 };
     }
     rewind_samples(&s->base);
-    st = choose_columns(s, t, stamped, err);
+    if ((s->of = malloc((t->n_columns + 1) * sizeof *s->of)) == NULL)
+        return ss_fail_memory(err, t->name);
+    for (size_t c = 0; c < t->n_columns; c++)
+        if (c != timing.time.column && t->column[c].kind == COLUMN_NUMBERS)
+            s->of[s->n++] = c;
+    if (s->n == 0)
+        return ss_fail(err, SS_EDATA, "%s: no column but time", t->name);
+    if (ss_header_select(&head, t->names, s->of, s->n, 0, NULL) != SS_OK)
+        return ss_fail_memory(err, t->name);
+    ss_header_free(s->base.head);
+    s->base.head = head;
+    s->base.stamped = stamped;
+    s->of[s->n] = timing.time.column;
+    s->n += (size_t)stamped;
+    st = stamped ? ss_header_add_column(head, "t", "s", err) : SS_OK;
     if (st == SS_OK && resampled)
         st = ss_source_resample(out, t->names->rate, 1, timing.longest, err);
     return st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE ? ss_source_fill_gaps(out, t->opts->gaps, err) : st;

@@ -54,32 +54,24 @@ read_up_to(const char *p, int most, long *x)
     return end;
 }
 
-/* Read the name of a month by three letters, likewise. */
-static const char *
-read_month(const char *p, long *month)
-{
-    static const char names[] = "janfebmaraprmayjunjulaugsepoctnovdec";
-    for (*month = 1; *month <= 12; ++*month)
-        if (strncasecmp(p, names + 3 * (*month - 1), 3) == 0)
-            return p + 3;
-    return NULL;
-}
-
-/* Read a date whose year comes last: with points or a month's name the day is first, else day and month may stand
- * in either order. */
+/* Read a date whose year comes last: with points or a month's name, of which three letters count, the day is first,
+ * else day and month may stand in either order. */
 static const char *
 read_date_of_year_last(const char *p, long day[ORDERS])
 {
-    long a, b, y;
+    static const char names[] = "janfebmaraprmayjunjulaugsepoctnovdec";
+    long a, b, y, month = 1;
     const char *mark = (p = read_up_to(p, 2, &a));
     if (p == NULL || *p == '\0' || strchr("./-", *p) == NULL)
         return NULL;
-    const char *name = read_month(p + 1, &b);
-    p = name != NULL ? name : read_up_to(p + 1, 2, &b);
+    while (month <= 12 && strncasecmp(p + 1, names + 3 * (month - 1), 3) != 0)
+        month++;
+    p = month <= 12 ? p + 4 : read_up_to(p + 1, 2, &b);
+    b = month <= 12 ? month : b;
     if (p == NULL || *p != *mark || (p = read_digits(p + 1, 4, &y)) == NULL)
         return NULL;
     day[DAY_FIRST] = find_day(y, b, a);
-    day[MONTH_FIRST] = *mark == '.' || name != NULL ? day[DAY_FIRST] : find_day(y, a, b);
+    day[MONTH_FIRST] = *mark == '.' || month <= 12 ? day[DAY_FIRST] : find_day(y, a, b);
     return day[DAY_FIRST] != NO_DAY || day[MONTH_FIRST] != NO_DAY ? p : NULL;
 }
 
@@ -100,22 +92,8 @@ read_date(const char *cell, long day[ORDERS])
     return day[DAY_FIRST] != NO_DAY ? p : NULL;
 }
 
-/* Read "AM" or "PM" behind a time of day, and set its hour.  Returns p if there is neither; NULL if the hour has
- * no half. */
-static const char *
-read_half(const char *p, long *hour)
-{
-    const char *half = p + strspn(p, " ");
-    if (strncasecmp(half, "AM", 2) != 0 && strncasecmp(half, "PM", 2) != 0)
-        return p;
-    if (*hour < 1 || *hour > 12)
-        return NULL;
-    *hour = *hour % 12 + (*half == 'p' || *half == 'P' ? 12 : 0);
-    return half + 2;
-}
-
-/* Read h:m:s, or m:s.f where a fraction shows that these are no hours and minutes.  In times without a date hours
- * may exceed a day, and minutes without hours an hour. */
+/* Read h:m:s, or m:s.f where a fraction shows that these are no hours and minutes, and "AM" or "PM" behind it.  In
+ * times without a date hours may exceed a day, and minutes without hours an hour. */
 static const char *
 read_time(const char *p, time_stamp *to)
 {
@@ -141,34 +119,24 @@ read_time(const char *p, time_stamp *to)
             fraction = 10 * fraction + (*p - '0');
             unit *= 10;
         }
-    p = read_half(p, &h);
+    const char *half = p + strspn(p, " ");
+    if (strncasecmp(half, "AM", 2) == 0 || strncasecmp(half, "PM", 2) == 0) {
+        if (h < 1 || h > 12)
+            return NULL;
+        h = h % 12 + (*half == 'p' || *half == 'P' ? 12 : 0);
+        p = half + 2;
+    }
     to->seconds = (double)(3600 * h + 60 * m + s) + fraction / unit;
     return p;
 }
 
-/* Read a zone at the end: "Z", "+01", "+01:00" or "+0100".  NULL if it is none of them, or no part
- * of a day. */
-static const char *
-read_zone(const char *p, double *ahead)
-{
-    long h = 0, m = 0;
-    int sign = *p == '-' ? -1 : 1;
-    *ahead = 0;
-    if (*p == 'Z' || *p == '\0')
-        return p + (*p == 'Z');
-    p = read_part(p, "+-", &h);
-    if (p != NULL && *p != '\0')
-        p = read_digits(p + (*p == ':'), 2, &m);
-    *ahead = sign * (double)(3600 * h + 60 * m);
-    return h <= 23 && m <= 59 ? p : NULL;
-}
-
+/* A zone may stand at the end: "Z", "+01", "+01:00" or "+0100". */
 time_stamp
 ss_stamp_read(const char *cell)
 {
     const time_stamp none = { 0 };
     time_stamp found = none;
-    double ahead;
+    long h = 0, m = 0;
     const char *p = read_date(cell, found.day);
     if (p != NULL) {
         found.parts = STAMP_DATE;
@@ -179,21 +147,20 @@ ss_stamp_read(const char *cell)
         p += *p == 'T' ? 1 : strspn(p, " ");
     }
     p = read_time(p != NULL ? p : cell, &found);
-    p = p != NULL ? read_zone(p, &ahead) : NULL;
-    if (p == NULL || *p != '\0')
-        return none;
+    if (p != NULL && *p == 'Z') {
+        p++;
+    } else if (p != NULL && *p != '\0') {
+        int sign = *p == '-' ? -1 : 1;
+        p = read_part(p, "+-", &h);
+        if (p != NULL && *p != '\0')
+            p = read_digits(p + (*p == ':'), 2, &m);
+        found.seconds -= sign * (double)(3600 * h + 60 * m);
+    }
     found.parts |= STAMP_TIME;
-    found.seconds -= ahead;
-    return found;
+    return p != NULL && *p == '\0' && h <= 23 && m <= 59 ? found : none;
 }
 
 /* --- a column ------------------------------------------------------------------------------ */
-
-struct stamp_column
-ss_stamp_column(unsigned parts)
-{
-    return (struct stamp_column){ .parts = parts, .fits = { 1, 1 }, .last = NAN };
-}
 
 static int
 order_of(const struct stamp_column *c)

@@ -32,7 +32,7 @@ struct stamp_column {
     double last;                /* the stamp of the row before, without leap seconds */
     int leap, leaps;            /* leap: may it lie in a leap second?  leaps: so many have ended */
 };
-struct stamp_column ss_stamp_column(unsigned parts);
+#define STAMP_COLUMN(of_parts) ((struct stamp_column){ .parts = (of_parts), .fits = { 1, 1 }, .last = NAN })
 /* The seconds of the next row's stamp since the midnight before the first row; NaN: it is none like those
  * before. */
 double ss_stamp_next(struct stamp_column *c, const char *cell);

@@ -299,7 +299,7 @@ begin_columns(struct text *x)
         int is_words = shape[i] == 't' || empty || (x->settings && i < 2);
         column[i].kind = is_words ? COLUMN_TEXT : parts != 0 ? COLUMN_STAMPS : COLUMN_NUMBERS;
         column[i].begins_empty = empty && !x->labview;
-        column[i].stamps = ss_stamp_column(parts);
+        column[i].stamps = STAMP_COLUMN(parts);
     }
     ss_text_read_names(x);
     if (x->status == SS_OK)

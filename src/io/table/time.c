@@ -38,8 +38,6 @@ ss_sheet_warn(const struct sheet *t, ss_status about, const char *format, ...)
     t->opts->warn(about, text.text, t->opts->user);
 }
 
-/* --- the stamps of the rows ---------------------------------------------------------------- */
-
 /* The clock is opts->resample; check that the stamps can be resampled to it. */
 static ss_status
 find_resampled(struct sheet *t, struct stamps s, double usual, double *longest, ss_error *err)
@@ -92,24 +90,6 @@ read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, s
 
 /* --- a column of numbers ------------------------------------------------------------------- */
 
-/* The unit of a column of numbers that are times, from `first` on: given by the caller, the file or the column's
- * name, or that of a date (*is_date is 1); NULL if it is not known. */
-static ss_status
-unit_of_times(const struct sheet *t, size_t column, double first, const struct time_unit **unit, int *is_date,
-              ss_error *err)
-{
-    size_t length;
-    const ss_column *c = &t->names->column[column];
-    const char *own = t->opts->time_unit != NULL ? t->opts->time_unit : c->unit;
-    *unit = *own != '\0' ? ss_time_unit_find(own) : strcasecmp(c->name, "x_value") == 0
-        ? ss_time_unit_find("s") : ss_time_unit_in(c->name, &length);
-    if (*unit == NULL && *own != '\0')
-        return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->name,
-                       c->name, own);
-    *is_date = *unit == NULL && (*unit = ss_time_unit_of_date(first)) != NULL;
-    return SS_OK;
-}
-
 /* Are times from `first` on, which give this rate if they are seconds, rather days?  Seconds that begin late may
  * have such numbers, but then not a rate that is round in days only. */
 static int
@@ -160,27 +140,29 @@ find_digit(struct sheet *t, size_t column, double zero)
     return SECONDS_A_DAY * days;
 }
 
+/* The unit is that which the caller, the file or the column's name gives, or that of a date, else seconds. */
 static ss_status
 read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
 {
-    const struct time_unit *known;
     const char *name = t->names->column[column].name;
-    int is_date = 0;
+    const char *own = t->opts->time_unit != NULL ? t->opts->time_unit : t->names->column[column].unit;
     double rate = 0, first = NAN;
     char text[32];
+    size_t length;
     const double *row;
     for (uint64_t i = 0; isnan(first) && (row = ss_kept_row(&t->rows, i)) != NULL; i++)
         first = row[column];
-    ss_status st = unit_of_times(t, column, first, &known, &is_date, err);
-    if (st != SS_OK)
-        return st;
-    if (is_date)
+    const struct time_unit *known = *own != '\0' ? ss_time_unit_find(own) : strcasecmp(name, "x_value") == 0
+        ? ss_time_unit_find("s") : ss_time_unit_in(name, &length);
+    if (known == NULL && *own != '\0')
+        return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->name, name, own);
+    if (known == NULL && (known = ss_time_unit_of_date(first)) != NULL)
         ss_sheet_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in %s since 1970", t->name, name,
                       known->name);
     const struct time_unit *unit = known != NULL ? known : ss_time_unit_find("s");
-    double zero = ss_time_unit_zero(unit, first);
+    double zero = unit->factor < SECONDS_A_DAY ? 0 : trunc(first);      /* so that no digit is lost */
     timing->time = (struct time_column){ column, t->counted.origin, zero, unit->factor, unit->divisor };
-    st = read_stamps(t, timing, fabs(zero) > 0 ? find_digit(t, column, zero) : 0, &rate, err);
+    ss_status st = read_stamps(t, timing, zero != 0 ? find_digit(t, column, zero) : 0, &rate, err);
     if (st == SS_OK)
         st = check_rate(t, name, known, first, rate, err);
     else if ((st == SS_EUNEVEN || st == SS_EGAPS) && known == NULL) {
@@ -188,7 +170,7 @@ read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
         if (are_days(first, rate))
             st = ask_about_days(t, name, first, rate, err);
     }
-    if (st != SS_OK || !(fabs(zero) > 0))
+    if (st != SS_OK || zero == 0)
         return st;
     snprintf(text, sizeof text, "%.0f", zero);  /* the day from whose midnight on seconds are counted */
     return ss_header_note(t->names, "day", text, NULL) == SS_OK ? SS_OK : ss_fail_memory(err, t->name);
@@ -220,18 +202,6 @@ read_stamp_clock(struct sheet *t, size_t column, struct timing *timing, ss_error
     return ss_header_note(t->names, "date", text, NULL) == SS_OK ? SS_OK : ss_fail_memory(err, t->name);
 }
 
-/* The first column of dates with times, or else of times, or else of dates; NONE if there is none. */
-static size_t
-find_stamps(const struct sheet *t)
-{
-    static const unsigned parts[] = { STAMP_DATE | STAMP_TIME, STAMP_TIME, STAMP_DATE };
-    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
-        for (size_t i = 0; i < t->n_columns; i++)
-            if (t->column[i].kind == COLUMN_STAMPS && t->column[i].stamps.parts == parts[k])
-                return i;
-    return NONE;
-}
-
 /* --- the choice ---------------------------------------------------------------------------- */
 
 static ss_status
@@ -256,10 +226,12 @@ refuse_text(const struct sheet *t, size_t column, ss_status st, ss_error *err)
                    t->name, t->names->column[column].name);
 }
 
-/* The column of time, or NONE.  *guessed becomes 1 if only its place suggests that it is one. */
+/* The column of time, or NONE: one with the name of a time, or else the first of dates with times, or else of times,
+ * or else of dates.  *guessed becomes 1 if only its place suggests that it is one. */
 static size_t
 find_time(const struct sheet *t, int *guessed)
 {
+    static const unsigned parts[] = { STAMP_DATE | STAMP_TIME, STAMP_TIME, STAMP_DATE };
     const ss_read_opts *opts = t->opts;
     const ss_column *column = t->names->column;
     int chosen = opts->time != NULL ? ss_header_column(t->names, opts->time) : -1;
@@ -271,9 +243,10 @@ find_time(const struct sheet *t, int *guessed)
     for (size_t i = 0; i < t->n_columns; i++)
         if (t->column[i].kind == COLUMN_NUMBERS && ss_is_called_time(column[i].name))
             return i;
-    size_t stamps = find_stamps(t);
-    if (stamps != NONE)
-        return stamps;
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+        for (size_t i = 0; i < t->n_columns; i++)
+            if (t->column[i].kind == COLUMN_STAMPS && t->column[i].stamps.parts == parts[k])
+                return i;
     size_t first = 0;
     while (first < t->n_columns && t->column[first].kind != COLUMN_NUMBERS)
         first++;
@@ -317,12 +290,9 @@ ss_sheet_mark_spare(struct sheet *t, ss_error *err)
 static ss_status
 read_column(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
 {
-    switch (t->column[column].kind) {
-    case COLUMN_STAMPS:  return read_stamp_clock(t, column, timing, err);
-    case COLUMN_NUMBERS: return read_clock(t, column, timing, err);
-    case COLUMN_TEXT:    break;
-    }
-    return refuse_text(t, column, SS_EDATA, err);
+    enum column_kind kind = t->column[column].kind;
+    return kind == COLUMN_TEXT ? refuse_text(t, column, SS_EDATA, err)
+        : (kind == COLUMN_STAMPS ? read_stamp_clock : read_clock)(t, column, timing, err);
 }
 
 ss_status

@@ -78,12 +78,6 @@ ss_time_unit_of_date(double number)
     return NULL;
 }
 
-double
-ss_time_unit_zero(const struct time_unit *unit, double first)
-{
-    return unit->factor < SECONDS_A_DAY ? 0 : trunc(first);
-}
-
 int
 ss_is_day_now(double number)
 {

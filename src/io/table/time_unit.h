@@ -20,9 +20,6 @@ const struct time_unit *ss_time_unit_find(const char *name);
 const struct time_unit *ss_time_unit_in(const char *name, size_t *length);
 /* The unit in which a number is a date between 2000 and 2100, counted from 1970; NULL: there is none. */
 const struct time_unit *ss_time_unit_of_date(double number);
-/* What is taken from all times of a column with this first time, before they become seconds: whole days, so that
- * no digit is lost; of other units 0. */
-double ss_time_unit_zero(const struct time_unit *unit, double first);
 /* Is this the number of a day of our time, as Excel, MATLAB or astronomers count days? */
 int ss_is_day_now(double number);
 
