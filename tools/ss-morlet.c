@@ -97,6 +97,8 @@ check_request(request *req)
         tool_usage("--stream needs --fmin, as the length of the record is not known");
     if (req->stream && opts->detrend != SS_DETREND_NONE)
         tool_usage("--stream excludes --detrend, which needs the whole record");
+    if (req->stream && opts->engine == SS_ENGINE_QUADRATURE)
+        tool_usage("--stream excludes --method quadrature, which needs the whole record");
     if (req->stream && req->check)
         tool_usage("--stream excludes --check, which needs the whole record");
     req->kind = tool_output_kind(req->output, TOOL_SIGNALS, req->kind);
@@ -228,21 +230,6 @@ invert(const request *req, const char *path)
 
 /* --- streams ------------------------------------------------------------------------------- */
 
-/* By the definition a coefficient is written with the last sample that it needs, which costs the same as
- * writing later.  Windows are written when they are full.  In neither case does it matter how many samples
- * come at a time. */
-static void
-push_samples(flow *f, const double *x, size_t n, const request *req, const char *path)
-{
-    int one_by_one = req->opts.engine == SS_ENGINE_QUADRATURE;
-    size_t step = one_by_one ? 1 : n;
-    for (size_t i = 0; i < n; i += step) {
-        check_flow(f, ss_stream_push(f->stream, x + i, step, &tool_error), path);
-        if (one_by_one)
-            check_flow(f, ss_stream_drain(f->stream, &tool_error), path);
-    }
-}
-
 /* Push samples as they come, until there are no more. */
 static void
 follow(flow *f, ss_reader *reader, size_t column, const request *req, const char *path)
@@ -260,7 +247,7 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
         if (f->writer == NULL)
             open_output(f, req, head, column, 0, ss_stream_grid(f->stream));
         tool_check(ss_writer_rows(f->writer, x, n, &tool_error));
-        push_samples(f, x[column], n, req, path);
+        check_flow(f, ss_stream_push(f->stream, x[column], n, &tool_error), path);
         if (st != SS_OK)                /* coefficients that are complete before bad data are written */
             check_flow(f, ss_stream_drain(f->stream, &tool_error), path);
         if ((st != SS_OK || ss_reader_waits(reader)) && fflush(NULL) != 0)

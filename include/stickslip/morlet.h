@@ -37,7 +37,7 @@ typedef enum ss_engine {
     SS_ENGINE_AUTO,             /* SS_ENGINE_FFT */
     SS_ENGINE_QUADRATURE,       /* the sum of the definition, over all samples within 8.5 a */
     SS_ENGINE_FFT               /* spectra, by FFTW; but the sum for forced scales that are narrower
-                                   than two samples or longer than two records */
+                                   than half a sample or longer than two records */
 } ss_engine;
 
 /* The ranges of the numbers are ss_morlet_ranges. */
@@ -141,9 +141,8 @@ int ss_scale_edge(const ss_scale *scale, size_t k, size_t n, double rate);
 /* --- streams --------------------------------------------------------------------------------
  *
  * The transform of a signal whose length is not known.  Its memory is bounded by the logarithm of the
- * longest scale, by quadrature by that scale.  A coefficient is complete when
- * the samples up to 8.5 a after b have arrived: any later sample changes it by less than the
- * rounding that accuracy allows.  So the accuracy is that of a whole record.
+ * longest scale.  A coefficient is complete when the samples up to 8.5 a after b have arrived: any later
+ * sample changes it by less than the rounding that accuracy allows.  So the accuracy is that of a whole record.
  *
  * Windows lie at fixed times and are computed when their last sample arrives.  So the coefficients
  * and their order depend on the samples and on the times at which the stream was drained.  They
@@ -154,8 +153,8 @@ typedef struct ss_stream ss_stream;
 
 /* Begin a stream.  The sink gets the scales in any order; their n and offset have no meaning.  A
  * scale may become longer than the record; then all its coefficients lie inside the cone of
- * influence.  SS_EINVAL: neither fmin nor octaves is given, or detrend is, which needs the whole
- * record. */
+ * influence.  SS_EINVAL: neither fmin nor octaves is given; or detrend or quadrature is, which are for whole
+ * records.  SS_ESCALE: as ss_morlet_new, or a scale is shorter than half a sample. */
 ss_status ss_stream_new(ss_stream **out, double rate, const ss_morlet_opts *opts,
                         ss_coefficient_sink *sink, void *user, ss_error *err);
 const ss_grid *ss_stream_grid(const ss_stream *stream);             /* owned by the stream */

@@ -80,17 +80,13 @@ ss_morlet_scratch(const ss_morlet *plan, double **scratch)
 }
 
 ss_status
-ss_morlet_keep_wavelets(ss_morlet *plan, size_t bytes)
+ss_morlet_keep_wavelets(ss_morlet *plan)
 {
     plan->wave = calloc(plan->n_scales, sizeof(wavelet *));
-    for (size_t i = plan->n_scales, all = 0; plan->wave != NULL && i-- > 0;) {
-        if (ss_blocks_covers(plan->blocks, i))
-            continue;
-        if ((all += ss_wavelet_bytes(plan->scale[i].a, plan->rate, plan->n)) > bytes)
-            break;
-        if ((plan->wave[i] = ss_wavelet_new(&plan->opts, plan->scale[i].a, plan->rate, plan->n)) == NULL)
+    for (size_t i = 0; plan->wave != NULL && i < plan->n_scales; i++)
+        if (!ss_blocks_covers(plan->blocks, i)
+            && (plan->wave[i] = ss_wavelet_new(&plan->opts, plan->scale[i].a, plan->rate, plan->n)) == NULL)
             return SS_ENOMEM;
-    }
     return plan->wave != NULL ? SS_OK : SS_ENOMEM;
 }
 

@@ -30,19 +30,16 @@ struct ss_morlet {
     ss_scale *scale;        /* long to short */
     size_t total;           /* coefficients */
     ss_grid grid;           /* these, for callers */
-    int window;             /* 1: for windows of a stream, of whose coefficients only those are
-                               asked for that lie REACH a and a unit within its ends */
+    int window;             /* 1: of a stream */
     struct blocks *blocks;  /* NULL: all by quadrature */
-    struct wavelet **wave;  /* of scales by quadrature, or NULL where they are made when needed; NULL: of all */
+    struct wavelet **wave;  /* of scales by quadrature; NULL: they are made when needed */
 };
 
-/* A copy of the samples, detrended, times the power of two that brings max|x| into [1/2, 1); or a
- * window of a stream, zero outside. */
+/* A copy of the samples, detrended, times the power of two that brings max|x| into [1/2, 1). */
 typedef struct record {
     size_t n;
     double *x;              /* the caller's to free */
     int exponent;           /* the samples are x 2^exponent */
-    ptrdiff_t origin;       /* x[0] is sample origin of the signal */
 } record;
 
 /* Translations first ... first + n - 1 of a scale. */
@@ -103,10 +100,9 @@ ss_status ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double 
  * memory. */
 typedef struct wavelet wavelet;
 wavelet *ss_wavelet_new(const ss_morlet_opts *opts, double a, double rate, size_t n);
-size_t ss_wavelet_bytes(double a, double rate, size_t n);
 void ss_wavelet_free(wavelet *wave);                   /* NULL is allowed */
-/* Let a plan keep so many bytes of wavelets at most, the shortest first. */
-ss_status ss_morlet_keep_wavelets(ss_morlet *plan, size_t bytes);
+/* Let a plan keep all wavelets that it uses. */
+ss_status ss_morlet_keep_wavelets(ss_morlet *plan);
 /* The coefficient at a place by the definition, as exactly as double precision allows, in units of a^1/2 and of
  * the record; and the adjoint: Re(w h) is added to the n samples x. */
 void ss_wavelet_sum(const wavelet *wave, const record *rec, spot at, double w[2]);

@@ -47,25 +47,12 @@ set_rates(wavelet *wave, const ss_morlet_opts *opts, double a, double rate)
     wave->second = wavelet_second(opts);
 }
 
-/* Taps on either side, and one: those within REACH a of a centre half a sample away, and no more than n, which
- * leave out nothing. */
-static size_t
-taps_of(double a, double rate, size_t n)
-{
-    double taps = ceil(REACH * a * rate + 0.5);
-    return taps < (double)n ? (size_t)taps : n;
-}
-
-size_t
-ss_wavelet_bytes(double a, double rate, size_t n)
-{
-    return 6 * sizeof(double) * taps_of(a, rate, n);
-}
-
 wavelet *
 ss_wavelet_new(const ss_morlet_opts *opts, double a, double rate, size_t n)
 {
-    size_t taps = taps_of(a, rate, n), width = 2 * taps - 1;
+    /* on either side, and one: those within REACH a of a centre half a sample away; more than n add nothing */
+    double reach = ceil(REACH * a * rate + 0.5);
+    size_t taps = reach < (double)n ? (size_t)reach : n, width = 2 * taps - 1;
     wavelet *wave = calloc(1, sizeof *wave);
     if (wave != NULL && taps <= SIZE_MAX / (8 * sizeof(double)))
         wave->base = malloc(3 * width * sizeof(double));
@@ -184,7 +171,6 @@ ss_wavelet_sum(const wavelet *wave, const record *rec, spot b, double w[2])
 {
     double sum[2], second[2] = { 0, 0 };
     place at;
-    b.c -= (double)rec->origin;
     locate(&at, wave, b, rec->n);
     add_up(&at, rec->x, wave->re, wave->im, sum);
     if (wave->second > 0)

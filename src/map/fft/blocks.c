@@ -48,11 +48,11 @@
 #define BAND 1.99
 #define FILTER_CUT 8.3
 #define IMAGES 5e-17            /* the bound of the images of an interpolation */
+#define SHORTEST 0.5            /* samples: rounding is some 4 eps / a of a shorter scale */
 
 enum {
     LEAST_SAMPLES = 4,          /* a level has at least so many */
     LONGEST = 1 << 20,          /* inverse FFT, in points */
-    LONGEST_WINDOW = 1 << 18,
     ALIGN = 8                   /* doubles; FFTW's plans are for arrays that begin at multiples */
 };
 
@@ -116,7 +116,7 @@ level_of(const ss_morlet *plan, const ss_scale *scale)
     double a = scale->a * plan->rate;
     int l = a < 2 * least_scale(&plan->opts) ? 0 : ilogb(a / least_scale(&plan->opts));
     int enough = plan->window || ldexp((double)plan->n, -l) >= LEAST_SAMPLES;
-    return a >= 2 && l < LEVELS && enough ? l : -1;
+    return a >= SHORTEST && l < LEVELS && enough ? l : -1;
 }
 
 /* Choose L and hop of a level of n samples, on which wavelets reach `reach` samples, a power of two. */
@@ -179,15 +179,15 @@ points_of(const stage *st, const ss_scale *scale, int l, double rate)
     return (size_t)points;
 }
 
-/* M where translations lie between points: the least power of two that the kernel needs. */
+/* M where translations lie between points: the least power of two that the kernel needs, and no less than `least`. */
 static size_t
 points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, const ss_scale *scale,
-               int l)
+               int l, size_t least)
 {
     const ss_morlet_opts *opts = &plan->opts;
     band of = band_around(opts->center, half_width(opts), ldexp(scale->a, -l), plan->rate,
                           (double)st->length);
-    size_t points = 4 * PLACES_MARGIN, least = opts->dense ? st->circle / DENSE_PHASES_MAX : 0;
+    size_t points = 4 * PLACES_MARGIN;
     while (points < least || edge_of(&of, points) > b->kernel->edge)
         points *= 2;
     return points <= LONGEST ? points : 0;
@@ -205,23 +205,22 @@ choose_points(struct blocks *b, const ss_morlet *plan, size_t i)
     const stage *st = &b->stage[r->level];
     r->points = points_of(st, scale, r->level, plan->rate);
     r->hop = r->points - r->points / (st->length / st->overlap);
-    r->kind = plan->opts.dense && r->level > 0 ? EACH : r->points == 0 ? BETWEEN : AT_POINTS;
+    size_t least = plan->opts.dense ? st->circle / DENSE_PHASES_MAX : 0;
+    r->kind = plan->opts.dense && r->level > 0 && least <= LONGEST ? EACH : r->points == 0 ? BETWEEN : AT_POINTS;
     if (r->kind != AT_POINTS)
-        r->points = points_between(b, plan, st, scale, r->level);
+        r->points = points_between(b, plan, st, scale, r->level, r->kind == EACH ? least : 0);
     if (r->kind == EACH)
         r->hop = st->hop << r->level;
 }
 
-/* Choose the scales that are computed here: those that can be, in a stream only the longest. */
+/* Choose the scales that are computed here: those that can be. */
 static void
 choose_rows(struct blocks *b, const ss_morlet *plan)
 {
-    int others = 0;
     for (size_t i = 0; i < b->n_scales; i++) {
         block_scale *r = &b->scale[i];
         choose_points(b, plan, i);
-        others |= r->points == 0;
-        if (r->points == 0 || (plan->window && others)) {
+        if (r->points == 0) {
             r->level = -1;
             continue;
         }
@@ -299,9 +298,8 @@ ss_status
 ss_blocks_new(ss_morlet *plan)
 {
     double margin = ceil(REACH / ((M_PI / 2 - BAND / 2) / FILTER_CUT));
-    double reach = fmax(REACH * 2 * least_scale(&plan->opts) + 2, margin);
     if (plan->opts.engine == SS_ENGINE_QUADRATURE
-        || 16 * reach > LONGEST_WINDOW || plan->n > INT_MAX / 2)
+        || plan->n > INT_MAX / 2)
         return SS_OK;
     struct blocks *b = plan->blocks = calloc(1, sizeof *b);
     if (b == NULL || (b->scale = calloc(plan->n_scales, sizeof *b->scale)) == NULL)

@@ -6,8 +6,7 @@
 #include "map/plan.h"
 
 /* Choose the scales that are transformed in blocks: all that can be, unless the engine is
- * SS_ENGINE_QUADRATURE; of a stream, where plan->window is 1, the longest scales down to the first that
- * cannot be.  plan->blocks stays NULL if there are none.  SS_ENOMEM. */
+ * SS_ENGINE_QUADRATURE.  plan->blocks stays NULL if there are none.  SS_ENOMEM. */
 ss_status ss_blocks_new(ss_morlet *plan);
 void ss_blocks_free(struct blocks *blocks);           /* NULL is allowed */
 int ss_blocks_covers(const struct blocks *blocks, size_t i);     /* blocks may be NULL */
@@ -49,10 +48,10 @@ cascade *ss_cascade_new(const struct blocks *blocks);
 void ss_cascade_free(cascade *c);                      /* NULL is allowed */
 /* Divide all samples that are there: see ss_morlet_divide. */
 void ss_cascade_divide(cascade *c, int exponent, double most);
-/* Samples that the first level's window lacks, >= 1; at most so many more; then the windows that are full
- * now. */
+/* Samples that the first level's window lacks, >= 1; at most so many more, and where they now stand; then the
+ * windows that are full now. */
 size_t ss_cascade_room(const cascade *c);
-void ss_cascade_append(cascade *c, const double *x, size_t n);
+double *ss_cascade_append(cascade *c, const double *x, size_t n);
 ss_status ss_cascade_run(cascade *c, window_sink *sink, void *user);
 /* All windows of what is there, n samples so far, as if the signal ended here, and then going on with
  * it is still possible.  SS_ENOMEM. */

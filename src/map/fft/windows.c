@@ -215,11 +215,12 @@ ss_cascade_divide(cascade *c, int exponent, double most)
         ss_morlet_divide(c->level[l].x, c->level[l].have, exponent, most);
 }
 
-void
+double *
 ss_cascade_append(cascade *c, const double *x, size_t n)
 {
-    memcpy(c->level[0].x + c->level[0].have, x, n * sizeof *x);
+    double *to = c->level[0].x + c->level[0].have;
     c->level[0].have += n;
+    return memcpy(to, x, n * sizeof *x);
 }
 
 ss_status

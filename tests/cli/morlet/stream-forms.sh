@@ -2,7 +2,7 @@
 ss-signal chirp --duration 4 --to 200 -o s.tsv
 ss-cat s.tsv -o s.au
 ss-cat s.tsv -o s.h5
-grid="--fmin 10 --fmax 200 --voices 4 --method quadrature"
+grid="--fmin 10 --fmax 200 --voices 4"
 rows() { grep -v '^#' "$1" | sort; }
 # shellcheck disable=SC2086  # grid is a list
 {
