@@ -187,7 +187,7 @@ $(BUILD)/tests/test_sim $(BUILD)/tests/test_sim_truth $(BUILD)/tests/test_taylor
 $(BUILD)/tests/test_random $(BUILD)/tests/test_rigs $(BUILD)/tests/test_taylor $(BUILD)/tests/test_laws $(BUILD)/tests/test_trade \
 	$(BUILD)/tests/proof/prove_events: $(BUILD)/tests/random_scene.o
 $(BUILD)/tests/test_trade: $(BUILD)/tests/clock.o
-$(BUILD)/tests/test_rig: $(BUILD)/tests/rig.o
+$(BUILD)/tests/test_rig $(BUILD)/tests/test_transitions: $(BUILD)/tests/rig.o
 $(BUILD)/tests/test_backbone: $(BUILD)/tests/decay.o
 
 # The harness of a reader: with libFuzzer, and over files that are named.

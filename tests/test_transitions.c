@@ -4,7 +4,9 @@
 #include <complex.h>
 #include <math.h>
 #include <stickslip.h>
+#include <gsl/gsl_rng.h>
 #include "new_signal.h"
+#include "rig.h"
 #include "shipped.h"
 #include "unit.h"
 #include "find/slope.h"
@@ -168,6 +170,79 @@ counts_the_slips_of_a_displacement(void **state)
         ss_features_free(f);
         ss_signal_free(signal);
     }
+}
+
+/* A rig with true sticks, or with none, on a base of three harmonics. */
+static rig
+draw_rig(gsl_rng *rng)
+{
+    rig r = { .m = 2.42L, .k = 2310, .f_s = 0, .n_harmonics = 3 };
+    for (int h = 0; h < 3; h++) {
+        r.f[h] = 2.5L * (h + 1);
+        r.A[h] = 1e-3L * (long double)gsl_rng_uniform(rng) / (h + 1);
+        r.p[h] = 6.283185307179586L * (long double)gsl_rng_uniform(rng);
+        r.f_k = r.f_s += r.k * r.A[h] * (long double)gsl_rng_uniform(rng);
+    }
+    return r;
+}
+
+/* The slips between two times: all begin behind a stick of a sample or more, or all where the motion turns; else NaN. */
+static double
+true_slips(const rig_motion *m, double from, double to, double rate)
+{
+    double slips = 0, turns = 0;
+    for (size_t i = 1; i < m->n; i++) {
+        const rig_piece *p = &m->piece[i];
+        int is_slip = p->mode != 0 && (double)p->t >= from && (double)p->t < to;
+        int is_behind = p[-1].mode == 0 && (double)(p->t - p[-1].t) * rate >= 1;
+        slips += is_slip && is_behind;
+        turns += is_slip && !is_behind;
+    }
+    return slips > 0 && turns > 0 ? NAN : slips + turns;
+}
+
+/* A converter that clips makes levels at which a signal seems to rest. */
+static void
+what_is_clipped_has_no_slips_of_its_own(void **state)
+{
+    enum { DRAWS = 100, N = 8000, FIRST = 4000 };
+    static const char *const names[] = { "v", "a" }, *const units[] = { "m/s", "m/s^2" };
+    const double rate = 1000;
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_taus2);
+    int known = 0, clipped = 0;
+    (void)state;
+    gsl_rng_set(rng, 27);
+    for (int draw = 0; draw < DRAWS; draw++) {
+        const rig r = draw_rig(rng);
+        rig_motion motion;
+        size_t at = 0;
+        int of = draw % 2;
+        double range = 0, part = draw % 5 == 0 ? 1 : .15 + .8 * gsl_rng_uniform(rng);
+        ss_signal *signal = new_signal(N, rate, 0, names[of], units[of]);
+        ss_features *f = NULL;
+        assert_true(rig_run(&motion, &r, (N + FIRST) / 1000.L, 5000));
+        for (int i = 0; i < N; i++) {
+            double x[4];
+            rig_at(&motion, (FIRST + i) / 1000.L, &at, x);
+            signal->values[i] = x[1 + of];
+            range = fmax(range, fabs(signal->values[i]));
+        }
+        ss_noise_add_once(signal->values, N, range * 1e-4, (unsigned long)draw + 1, NULL);
+        for (int i = 0; i < N; i++)
+            signal->values[i] = fmax(-part * range, fmin(signal->values[i], part * range));
+        assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
+        const double slips = f->number[SS_SLIPS].value, truth = true_slips(&motion, FIRST / rate, (FIRST + N) / rate, rate);
+        if (!isnan(slips) && fabs(slips - truth) > 1)
+            fail_msg("draw %d, %s clipped at %g: %g slips, there are %g", draw, names[of], part, slips, truth);
+        known += !isnan(slips);
+        clipped += !isnan(slips) && part < 1;
+        ss_features_free(f);
+        ss_signal_free(signal);
+        rig_free(&motion);
+    }
+    gsl_rng_free(rng);
+    print_message("%d known, %d of these clipped\n", known, clipped);
+    assert_true(known >= 20 && clipped >= 10);
 }
 
 /* Half a cycle of these bases leaves sticks of 0.3 to 1.5 periods. */
@@ -858,6 +933,7 @@ main(void)
         cmocka_unit_test(reads_stiffness_and_damping),
         cmocka_unit_test(reads_long_records_as_well),
         cmocka_unit_test(counts_the_slips_of_a_displacement),
+        cmocka_unit_test(what_is_clipped_has_no_slips_of_its_own),
         cmocka_unit_test(reads_stiff_and_soft_contacts),
         cmocka_unit_test(refuses_sticks_under_two_periods),
         cmocka_unit_test(compliant_contacts_have_local_maxima_and_others_not),

@@ -62,6 +62,18 @@ is_no_noise(const double *x, ss_window rest, double level, double deviation)
     return (double)beyond > FEW + 2 * OUTLIERS * (double)ss_window_length(rest);
 }
 
+/* Does the signal not go beyond its level, on one side, and is this no level of 0?  So a converter clips. */
+static int
+is_end_of_range(const double *x, size_t n, const ss_rests *r)
+{
+    size_t above = 0, below = 0;
+    for (size_t i = 0; i < n; i++) {
+        above += x[i] > r->level + r->band;
+        below += x[i] < r->level - r->band;
+    }
+    return (above == 0 || below == 0) && fabs(r->level) > SLIGHT;
+}
+
 ss_status
 ss_rests_find(const double *x, size_t n, ss_rests *out)
 {
@@ -87,6 +99,7 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
         out->is_doubtful |= is_no_noise(x, out->rest[i], level, deviation);
     out->level = level;
     out->band = BAND * deviation;
+    out->is_doubtful |= is_end_of_range(x, n, out);
     out->is_doubtful |= out->band > SLIGHT;     /* of the largest sample */
     return st;
 }
