@@ -426,22 +426,22 @@ measures_every_engine_on_a_signal(void **state)
     }
     grid.voices = 2;
     assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_OK);
-    assert_int_equal(trade->n, 3 * 12);
+    assert_int_equal(trade->n, 2);
     assert_true(trade->transform && trade->samples > 0 && trade->events == 0);
     for (size_t k = 0; k < trade->n; k++) {
         const ss_trade_row *row = &trade->row[k];
         assert_true(row->status == SS_OK && row->seconds > 0);
-        assert_true(row->error_x >= DBL_EPSILON && row->error_x <= row->tol);
+        assert_true(row->error_x >= DBL_EPSILON && row->error_x <= 1e-13 && row->tol == 0);
     }
     const ss_trade_row *cheapest = ss_trade_cheapest(trade, 1e-7);
     assert_true(cheapest != NULL && 2 * cheapest->error_x <= 1e-7);
-    assert_true(row_of(trade, "quadrature", 1e-2)->error_x <= 4 * DBL_EPSILON);     /* no sum is cut */
+    assert_true(row_of(trade, "quadrature", 0)->error_x <= 4 * DBL_EPSILON);     /* no sum is cut */
     ss_trade_free(trade);
 
     opts.budget = 1e-9;
     assert_int_equal(ss_trade_transform(&trade, x, N, 2000, &grid, &opts, NULL), SS_OK);
-    assert_int_equal(row_of(trade, "quadrature", 1e-6)->status, SS_EBUDGET);
-    assert_int_equal(row_of(trade, "fft", 1e-6)->status, SS_OK);
+    assert_int_equal(row_of(trade, "quadrature", 0)->status, SS_EBUDGET);
+    assert_int_equal(row_of(trade, "fft", 0)->status, SS_OK);
     ss_trade_free(trade);
 
     opts.budget = 0;

@@ -8,8 +8,8 @@
 
 static const char usage[] =
 "usage: ss-trade [options] SCENE|SIGNAL\n"
-"Simulate a scene, or transform a signal, with every method at tolerances 1e-2\n"
-"... 1e-13 on this machine, and write one row each: errors, cost, and whether no\n"
+"Simulate a scene with every method at tolerances 1e-2 ... 1e-13, or transform a\n"
+"signal, on this machine, and write one row each: errors, cost, and whether no\n"
 "other row is both faster and more accurate.  A file whose first line that is not\n"
 "a comment is KEY = VALUE is a scene, and so is the name of a shipped one;\n"
 "- is standard input.\n"
@@ -41,7 +41,7 @@ write_options(FILE *out, const ss_trade *trade, double target)
     fprintf(out, "--method %s", row->method);
     if (row->tol > 0) {
         ss_number_format(tol, row->tol);
-        fprintf(out, " --%s %s", trade->transform ? "accuracy" : "tol", tol);
+        fprintf(out, " --tol %s", tol);
     }
     fputc('\n', out);
 }

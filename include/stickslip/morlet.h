@@ -57,7 +57,7 @@ typedef struct ss_morlet_opts {
     double accuracy;            /* TOL: the error of a coefficient is at most TOL x (largest |W| of its
                                    scale) + 16 DBL_EPSILON a^1/2 max|x|, with the 1/a norm
                                    16 DBL_EPSILON max|x|, and never less than the least step of a double */
-    int rounded;                /* 1: leave 7/8 of TOL for the rounding of ss_writer_new */
+    int rounded;                /* 1: ss_writer_new may use TOL for rounding */
     ss_norm norm;
     int admissible;             /* 1: h has its second term too: exp(i omega_c t) becomes
                                    exp(i omega_c t) - exp(-omega_c^2/2) */

@@ -56,10 +56,10 @@ void ss_trade_opts_init(ss_trade_opts *opts, size_t size);
  * other errors are those of ss_sim_run for the reference. */
 ss_status ss_trade_measure(ss_trade **out, const ss_scene *scene, const ss_trade_opts *opts,
                            ss_error *err);
-/* Transform n samples with every engine at the accuracies 1e-2, 1e-3, ... 1e-13, on this machine,
- * with one thread, at the scales of grid that 1e-13 resolves.
+/* Transform n samples with both engines on this machine, with one thread, at the scales of grid that the
+ * accuracy 1e-13 resolves.
  *
- * The method of a row is "quadrature", "fft" or "auto", and tol is the accuracy asked for.
+ * The method of a row is "quadrature" or "fft", and tol is 0: an accuracy changes neither error nor time.
  * error_x is the largest error of W over the largest |W| of its scale, less the 16 DBL_EPSILON
  * a^1/2 max|x| of rounding, which no accuracy includes.  There are no events.  The reference is
  * the definition at some 40 translations of each scale, among them that of the largest |W|;

@@ -9,9 +9,6 @@
 #define PI_M14 0.75112554446494248286   /* pi^-1/4 */
 #define WAVELET_CENTER 6.0              /* omega_c, where none is asked for */
 
-/* The part of an accuracy that is left for rounding, of coefficients that are rounded. */
-#define WAVELET_ROUNDED 0.875
-
 /* The factor of the second term of h; 0 where that is left out. */
 static inline double
 wavelet_second(const ss_morlet_opts *opts)

@@ -451,7 +451,7 @@ begin_wavelet(h5_writer *w, const ss_coefficients *grid)
 static double
 rounding_of(double tolerance, double most)
 {
-    double unit = WAVELET_ROUNDED * tolerance * M_SQRT2 * most;
+    double unit = tolerance * M_SQRT2 * most;
     return tolerance >= 1e-12 && unit > 1e-280 && unit < 1e280 ? ldexp(0x1.8p52, ilogb(unit)) : 0;
 }
 

@@ -1,4 +1,4 @@
-/* transform.c -- measure error and time of the transform of a signal, for each engine and accuracy.
+/* transform.c -- measure error and time of the transform of a signal, for each engine.
  *
  * The reference is the sum of the definition; only terms below its rounding are left out.  It is
  * computed at random translations and at the largest |W|, where the features of the signal are.
@@ -15,11 +15,12 @@
 #include "base/progress.h"
 #include "map/plan.h"
 
-/* The first and the last accuracy are those of ss_trade_tolerance. */
-enum { EACH = 40, ENGINES = 3, LOOSEST = 1, TIGHTEST = 12, ROWS = ENGINES * (TIGHTEST - LOOSEST + 1) };
+enum { EACH = 40 };
 
-static const char *const method[ENGINES] = { "quadrature", "fft", "auto" };
-static const ss_engine engine[ENGINES] = { SS_ENGINE_QUADRATURE, SS_ENGINE_FFT, SS_ENGINE_AUTO };
+static const struct { const char *name; ss_engine engine; } method[] = {
+    { "quadrature", SS_ENGINE_QUADRATURE }, { "fft", SS_ENGINE_FFT },
+};
+enum { METHODS = sizeof method / sizeof *method };
 
 typedef struct scale_reference {
     size_t k[EACH];                 /* translations */
@@ -62,25 +63,13 @@ choose_places(scale_reference *ref, const ss_scale *scale, const double *w)
     ref->most = most;
 }
 
-static ss_status
-refer_scale(trial *t, const ss_morlet *plan, const record *rec, size_t i, ss_error *err)
-{
-    const ss_scale *scale = &plan->scale[i];
-    scale_reference *ref = &t->reference[i];
-    double began = ss_trade_cpu_time();
-    choose_places(ref, scale, t->w + 2 * scale->offset);
-    ss_status st = ss_morlet_points(plan, scale, rec, ref->k, EACH, ref->w, err);
-    t->by_sum += (ss_trade_cpu_time() - began) * (double)scale->n / EACH;
-    return st;
-}
-
-/* Make the grid of the tightest accuracy, which serves for all rows, and its reference. */
+/* Make the grid of the tightest accuracy, and its reference. */
 static ss_status
 refer(trial *t, ss_error *err)
 {
     ss_morlet *plan = NULL;
     record rec = { 0 };
-    t->opts.accuracy = ss_trade_tolerance[TIGHTEST];
+    t->opts.accuracy = ss_morlet_ranges.accuracy.from;
     ss_status st = ss_morlet_new(&plan, t->n, t->rate, &t->opts, err);
     if (st != SS_OK)
         return st;
@@ -91,7 +80,12 @@ refer(trial *t, ss_error *err)
     if (st == SS_OK)
         st = ss_morlet_record(&rec, t->x, t->n, t->opts.detrend, err);
     for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
-        st = refer_scale(t, plan, &rec, i, err);
+        const ss_scale *scale = &plan->scale[i];
+        scale_reference *ref = &t->reference[i];
+        double began = ss_trade_cpu_time();
+        choose_places(ref, scale, t->w + 2 * scale->offset);
+        st = ss_morlet_points(plan, scale, &rec, ref->k, EACH, ref->w, err);
+        t->by_sum += (ss_trade_cpu_time() - began) * (double)scale->n / EACH;
         if (st == SS_OK)
             st = ss_progress_at(&t->how->progress, 0);
     }
@@ -131,18 +125,16 @@ run_row(size_t i, int again, double done, double *seconds, void *user)
 {
     trial *t = user;
     ss_trade_row *row = &t->trade->row[i];
-    size_t e = i / (ROWS / ENGINES);
     ss_morlet *plan = NULL;
     ss_morlet_opts opts = t->opts;
     (void)done;
     *seconds = NAN;
-    if (engine[e] == SS_ENGINE_QUADRATURE && t->by_sum > t->how->budget) {
+    opts.engine = method[i].engine;
+    if (opts.engine == SS_ENGINE_QUADRATURE && t->by_sum > t->how->budget) {
         row->status = SS_EBUDGET;
         row->seconds = t->by_sum;
         return SS_OK;
     }
-    opts.engine = engine[e];
-    opts.accuracy = row->tol;
     ss_status st = ss_morlet_new(&plan, t->n, t->rate, &opts, t->err);
     if (st != SS_OK)
         return st;
@@ -160,16 +152,15 @@ fill_rows(trial *t, ss_error *err)
 {
     ss_trade *trade = t->trade;
     ss_status st = refer(t, err);
-    trade->row = calloc(ROWS, sizeof *trade->row);
+    trade->row = calloc(METHODS, sizeof *trade->row);
     if (st == SS_OK && trade->row == NULL)
         st = SS_ENOMEM;
     trade->samples = EACH * t->n_scales;
     trade->known_x = DBL_EPSILON;
     trade->transform = 1;
     strcpy(trade->reference, "quadrature in full");
-    for (int e = 0; st == SS_OK && e < ENGINES; e++)
-        for (int i = LOOSEST; i <= TIGHTEST; i++)
-            trade->row[trade->n++] = (ss_trade_row){ .method = method[e], .tol = ss_trade_tolerance[i] };
+    for (; st == SS_OK && trade->n < METHODS; trade->n++)
+        trade->row[trade->n].method = method[trade->n].name;
     t->err = err;
     return st == SS_OK ? ss_trade_time(trade, run_row, &t->how->progress, t) : st;
 }

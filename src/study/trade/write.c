@@ -16,7 +16,8 @@ write_row(struct rows *rows, const ss_trade_row *row, int transform, double fast
 {
     int measured = row->status == SS_OK, estimated = row->status == SS_EBUDGET;
     ss_rows_word(rows, "method", row->method);
-    ss_rows_rounded(rows, transform ? "accuracy" : "tol", "", row->tol > 0 ? row->tol : NAN, DIGITS);
+    if (!transform)
+        ss_rows_rounded(rows, "tol", "", row->tol > 0 ? row->tol : NAN, DIGITS);
     ss_rows_rounded(rows, transform ? "error" : "x_error", "", measured ? row->error_x : NAN, DIGITS);
     if (!transform) {
         ss_rows_rounded(rows, "a_error", "", measured ? row->error_a : NAN, DIGITS);
