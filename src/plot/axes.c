@@ -131,26 +131,19 @@ quantity_of(const ss_column *column, double offset)
     return l;
 }
 
-/* "10^-3 unit". */
-static label
-unit_of(const ss_column *column, int exponent)
-{
-    label l = { .text = "" };
-    if (exponent != 0) {
-        add(&l, "10");
-        add_superscript(&l, exponent);
-        add(&l, column->unit[0] != '\0' ? " " : "");
-    }
-    add_text(&l, column->unit, 1);
-    return l;
-}
-
 /* "name / (10^-3 unit)", or "(name − offset unit) / (10^-3 unit)"; if it is wider than its room, two lines, "name"
  * and "(10^-3 unit)", or broken near its middle, in smaller letters; cut where it is longer than any picture. */
 static label
 make_label(const ss_column *column, script_scale scale, double room)
 {
-    const label name = quantity_of(column, scale.offset), unit = unit_of(column, scale.exponent);
+    const label name = quantity_of(column, scale.offset);
+    label unit = { .text = "" };
+    if (scale.exponent != 0) {
+        add(&unit, "10");
+        add_superscript(&unit, scale.exponent);
+        add(&unit, column->unit[0] != '\0' ? " " : "");
+    }
+    add_text(&unit, column->unit, 1);
     int is_square = strchr(column->unit, '(') != NULL;          /* brackets go round round ones */
     const char *open = is_square ? "[" : "(", *close = is_square ? "]" : ")";
     int is_sole = column->unit[0] == '\0' || (scale.exponent == 0 && strpbrk(column->unit, "/ *") == NULL);

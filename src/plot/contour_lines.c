@@ -28,33 +28,23 @@ write_point(FILE *out, const contour_map *map, const double point[2], const char
     ss_script_write(out, f, 3 - (int)floor(log10(f)), behind);
 }
 
-/* May the points between first and last be left out? */
-static int
-is_straight(const double (*point)[2], size_t first, size_t last, double row)
-{
-    double dx = point[last][0] - point[first][0], dy = (point[last][1] - point[first][1]) * row;
-    double length = hypot(dx, dy);
-    for (size_t i = first + 1; i < last; i++) {
-        double x = point[i][0] - point[first][0], y = (point[i][1] - point[first][1]) * row;
-        double along = x * dx + y * dy, off = fabs(x * dy - y * dx);
-        if (!(off <= BLUR * length && along >= 0 && along <= length * length))
-            return 0;
-    }
-    return 1;
-}
-
 /* The next of n points, after first, that is needed to keep a line within a fraction of a pixel. */
 static size_t
 next_point(const contour_map *map, const double (*point)[2], size_t n, size_t first)
 {
     double row = (double)CONTOUR_ROWS / (double)(map->rows - 1);        /* pixels */
-    size_t last = first + 1;
-    while (last + 1 < n && last - first < 64 && is_straight(point, first, last + 1, row))
-        last++;
-    return last;
+    for (size_t last = first + 2; last < n && last - first <= 64; last++) {
+        double dx = point[last][0] - point[first][0], dy = (point[last][1] - point[first][1]) * row;
+        double length = hypot(dx, dy);
+        for (size_t i = first + 1; i < last; i++) {
+            double x = point[i][0] - point[first][0], y = (point[i][1] - point[first][1]) * row;
+            double along = x * dx + y * dy, off = fabs(x * dy - y * dx);
+            if (!(off <= BLUR * length && along >= 0 && along <= length * length))
+                return last - 1;
+        }
+    }
+    return n - 1 - first < 64 ? n - 1 : first + 64;
 }
-
-/* --- lines --------------------------------------------------------------------------------- */
 
 typedef struct line_sink {
     FILE *out;
@@ -151,18 +141,6 @@ larger_first(const void *a, const void *b)
 }
 
 /* An area below the last line has the colour of the ground. */
-static void
-write_polygon(FILE *out, const painting *p, const polygon *area, int levels)
-{
-    fputs("set object polygon from ", out);
-    for (size_t i = 0; i <= area->n; i++)
-        write_point(out, p->map, p->point[area->first + i % area->n], ",", i < area->n ? " to " : "");
-    if (area->band < levels)
-        ss_print(out, " back fc palette cb -%d.5*step fs solid 1 noborder\n", area->band);
-    else
-        fputs(" back fc rgb ground_colour fs solid 1 noborder\n", out);
-}
-
 ss_status
 ss_contour_write_fill(FILE *out, const contour_map *map, int levels)
 {
@@ -182,9 +160,17 @@ ss_contour_write_fill(FILE *out, const contour_map *map, int levels)
     }
     if (st == SS_OK && p.n > 0)
         qsort(p.polygon, p.n, sizeof *p.polygon, larger_first);
-    for (size_t i = 0; st == SS_OK && i < p.n; i++)
-        if (p.polygon[i].n > 2)
-            write_polygon(out, &p, &p.polygon[i], levels);
+    for (const polygon *area = p.polygon; st == SS_OK && area < p.polygon + p.n; area++) {
+        if (area->n <= 2)
+            continue;
+        fputs("set object polygon from ", out);
+        for (size_t i = 0; i <= area->n; i++)
+            write_point(out, map, p.point[area->first + i % area->n], ",", i < area->n ? " to " : "");
+        if (area->band < levels)
+            ss_print(out, " back fc palette cb -%d.5*step fs solid 1 noborder\n", area->band);
+        else
+            fputs(" back fc rgb ground_colour fs solid 1 noborder\n", out);
+    }
     free(height);
     free(p.polygon);
     free(p.point);

@@ -43,25 +43,7 @@ in_column(const ss_scale *scale, const double *level, double lo, double hi)
     return here;
 }
 
-/* Find the largest |W| and the noise of scale i.  Returns 0 if a |W| is not finite. */
-static int
-survey(filling *f, size_t i, const double *level)
-{
-    for (size_t k = 0; k < f->c->scale[i].n; k++) {
-        double here = level[k];
-        if (!isfinite(here))
-            return 0;
-        f->anywhere = fmax(f->anywhere, here);
-        if ((f->noise == NULL && (f->contour->top > 0 || here <= f->outside)) || ss_coefficients_edge(f->c, i, k))
-            continue;
-        f->outside = fmax(f->outside, here);
-        if (f->noise != NULL)
-            ss_noise_level_add(f->noise, &f->c->scale[i], i, &here, k, 1);
-    }
-    return 1;
-}
-
-/* Fill the rows with |W|, and survey all scales. */
+/* Fill the rows with |W|, and find the largest |W| and the noise of all scales. */
 static ss_status
 fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
 {
@@ -71,9 +53,16 @@ fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
         ss_status st = ss_map_read(c, &(ss_map_part){ s, 0, c->scale[s].n, NULL, level }, 1, err);
         if (st != SS_OK)
             return st;
-        if (!survey(f, s, level))
-            return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite",
-                           c->scale[s].f);
+        for (size_t k = 0; k < c->scale[s].n; k++) {
+            if (!isfinite(level[k]))
+                return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite", c->scale[s].f);
+            f->anywhere = fmax(f->anywhere, level[k]);
+            if ((f->noise == NULL && (f->contour->top > 0 || level[k] <= f->outside)) || ss_coefficients_edge(c, s, k))
+                continue;
+            f->outside = fmax(f->outside, level[k]);
+            if (f->noise != NULL)
+                ss_noise_level_add(f->noise, &c->scale[s], s, &level[k], k, 1);
+        }
         for (size_t i = 0; s >= f->first && s - f->first < map->rows && i <= CONTOUR_COLUMNS; i++) {
             double t = map->from - c->head->start + (double)i * width;
             map->level[(s - f->first) * (CONTOUR_COLUMNS + 1) + i]
@@ -123,26 +112,6 @@ cut_rows(contour_map *map, double fmin, double fmax)
     f[last] = hi < 1 ? fmax : f[last];
 }
 
-/* Choose the scales to draw: those within the labels, and one more beyond each end. */
-static ss_status
-choose_rows(contour_map *map, filling *f, ss_error *err)
-{
-    const ss_scale *scale = f->c->scale;
-    size_t last = f->c->n_scales - 1;
-    double lo = fmax(f->contour->fmin, scale[0].f), hi = f->contour->fmax > 0
-        ? fmin(f->contour->fmax, scale[last].f) : scale[last].f;
-    if (!(lo < hi))
-        return ss_fail(err, SS_EINVAL, "nothing to draw from %g Hz to %g Hz; the coefficients go from %g Hz to "
-                       "%g Hz", f->contour->fmin, f->contour->fmax > 0 ? f->contour->fmax : hi, scale[0].f,
-                       scale[last].f);
-    while (scale[f->first + 1].f <= lo)
-        f->first++;
-    while (scale[last - 1].f >= hi)
-        last--;
-    map->rows = last - f->first + 1;
-    return SS_OK;
-}
-
 void
 ss_contour_map_free(contour_map *map)
 {
@@ -150,29 +119,35 @@ ss_contour_map_free(contour_map *map)
     free(map->level);
 }
 
+/* The scales that are drawn are those within the labels, and one more beyond each end. */
 ss_status
 ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_contour_opts *contour,
                const script_span *span, ss_error *err)
 {
     filling f = { .c = c, .contour = contour, .outside = -1 };
-    size_t longest = 0;
-    double start = c->head->start, end = start + (double)c->n / c->head->rate;
+    const ss_scale *scale = c->scale;
+    size_t longest = 0, last = c->n_scales - 1;
+    double start = c->head->start, end = start + (double)c->n / c->head->rate, lo = fmax(contour->fmin, scale[0].f);
+    double hi = contour->fmax > 0 ? fmin(contour->fmax, scale[last].f) : scale[last].f;
     *map = (contour_map){ .span_of_time = span, .from = fmax(span->from, start), .to = fmin(span->to, end) };
-    ss_status st = choose_rows(map, &f, err);
-    if (st != SS_OK)
-        return st;
+    if (!(lo < hi))
+        return ss_fail(err, SS_EINVAL, "nothing to draw from %g Hz to %g Hz; the coefficients go from %g Hz to "
+                       "%g Hz", contour->fmin, contour->fmax > 0 ? contour->fmax : hi, scale[0].f, scale[last].f);
+    while (scale[f.first + 1].f <= lo)
+        f.first++;
+    while (scale[last - 1].f >= hi)
+        last--;
+    map->rows = last - f.first + 1;
     for (size_t s = 0; s < c->n_scales; s++)
-        longest = c->scale[s].n > longest ? c->scale[s].n : longest;
+        longest = scale[s].n > longest ? scale[s].n : longest;
     map->f = malloc(map->rows * sizeof *map->f);
     map->level = malloc(map->rows * (CONTOUR_COLUMNS + 1) * sizeof *map->level);
     double *level = malloc(longest * sizeof *level);
     f.noise = isnan(contour->noise) ? ss_noise_level_new(c->n_scales) : NULL;
-    if (map->f == NULL || map->level == NULL || level == NULL || (isnan(contour->noise) && f.noise == NULL))
-        st = ss_fail_memory(err, NULL);
-    for (size_t i = 0; st == SS_OK && i < map->rows; i++)
-        map->f[i] = c->scale[f.first + i].f;
-    if (st == SS_OK)
-        st = fill_rows(map, &f, level, err);
+    int made = map->f != NULL && map->level != NULL && level != NULL && (!isnan(contour->noise) || f.noise != NULL);
+    for (size_t i = 0; made && i < map->rows; i++)
+        map->f[i] = scale[f.first + i].f;
+    ss_status st = made ? fill_rows(map, &f, level, err) : ss_fail_memory(err, NULL);
     if (st == SS_OK) {
         set_levels(map, &f);
         cut_rows(map, contour->fmin, contour->fmax);
@@ -218,20 +193,12 @@ top_of(const contour_map *map, const double *level, size_t r, double *height)
     return 1 / x;
 }
 
-/* Is the time within the cone of influence at label f? */
-static int
-in_cone(const ss_coefficients *c, double t, double f)
-{
-    double start = c->head->start, reach = wavelet_cone(c->center / (2 * M_PI * f));
-    return t < start + reach || t > start + (double)(c->n - 1) / c->head->rate - reach
-        || (c->n_gaps > 0 && ss_gaps_near(c->gap, c->n_gaps, t, reach));
-}
-
 size_t
 ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
                  void (*visit)(double t, double f, double level, void *user), void *user)
 {
     size_t n = 0;
+    double start = c->head->start, end = start + (double)(c->n - 1) / c->head->rate;
     for (size_t i = 0; i <= CONTOUR_COLUMNS; i++)
         for (size_t r = 1; r + 1 < map->rows; r++) {
             const double *level = map->level + i;
@@ -239,8 +206,8 @@ ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
             if (here < -map->span || here <= at(level, r - 1) || here < at(level, r + 1)
                 || !falls(level, map->rows, r, 1) || !falls(level, map->rows, r, (size_t)-1))
                 continue;
-            double top, f = top_of(map, level, r, &top);
-            if (in_cone(c, t, f))
+            double top, f = top_of(map, level, r, &top), cone = wavelet_cone(c->center / (2 * M_PI * f));
+            if (t < start + cone || t > end - cone || (c->n_gaps > 0 && ss_gaps_near(c->gap, c->n_gaps, t, cone)))
                 continue;
             visit(t, f, top, user);
             n++;

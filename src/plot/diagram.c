@@ -18,30 +18,7 @@
 #define ROOM 8.0                /* for the label of a panel of NEXT [ems] */
 enum { COLUMNS_MAX = 8, CELLS = 1500 };     /* CELLS: in which points of one value of the key are told apart */
 
-/* Points that would cover each other are written once. */
-static void
-write_points(FILE *out, const double *x, script_scale of_x, const double *y, script_scale of_y, size_t n,
-             script_extent e)
-{
-    char seen[CELLS + 1] = { 0 };
-    int decimals = ss_script_decimals((e.hi - e.lo) / of_y.unit);
-    for (size_t i = 0; i < n; i++) {
-        if (i > 0 && x[i] != x[i - 1])
-            memset(seen, 0, sizeof seen);
-        if (isnan(y[i])) {
-            putc('\n', out);                /* a line breaks */
-            continue;
-        }
-        size_t cell = e.hi > e.lo ? (size_t)((y[i] - e.lo) / (e.hi - e.lo) * CELLS) : 0;
-        if (seen[cell])
-            continue;
-        seen[cell] = 1;
-        ss_print(out, "%.9g ", ss_script_scaled(x[i], of_x));
-        ss_script_write(out, ss_script_scaled(y[i], of_y), decimals, "\n");
-    }
-}
-
-/* Write panel i of n rows. */
+/* Write panel i of n rows.  Points that would cover each other are written once. */
 static void
 write_panel(script_stack *stack, const map_column *column, script_scale of_x, size_t i, size_t n)
 {
@@ -50,13 +27,23 @@ write_panel(script_stack *stack, const map_column *column, script_scale of_x, si
     map_label label;
     const script_axis axis = ss_script_axis(ss_map_label(&label, column[i].label), ss_script_extent(y, n));
     const script_extent e = axis.extent;
-    int line = 1, whole = 1;
+    char seen[CELLS + 1] = { 0 };
+    int line = 1, whole = 1, decimals = ss_script_decimals((e.hi - e.lo) / axis.scale.unit);
+    ss_print(out, "$panel%zu << EOD\n", i);
     for (size_t k = 0; k < n; k++) {            /* rows of one value of the key stand together */
         line &= k == 0 || x[k] != x[k - 1] || y[k] == y[k - 1] || (isnan(y[k]) && isnan(y[k - 1]));
         whole &= isnan(y[k]) || y[k] == floor(y[k]);
+        if (k > 0 && x[k] != x[k - 1])
+            memset(seen, 0, sizeof seen);
+        size_t cell = !isnan(y[k]) && e.hi > e.lo ? (size_t)((y[k] - e.lo) / (e.hi - e.lo) * CELLS) : 0;
+        if (isnan(y[k])) {
+            putc('\n', out);                    /* a line breaks */
+        } else if (!seen[cell]) {
+            seen[cell] = 1;
+            ss_print(out, "%.9g ", ss_script_scaled(x[k], of_x));
+            ss_script_write(out, ss_script_scaled(y[k], axis.scale), decimals, "\n");
+        }
     }
-    ss_print(out, "$panel%zu << EOD\n", i);
-    write_points(out, x, of_x, y, axis.scale, n, e);
     fputs("EOD\n", out);
     double height = i == 1 ? FIRST : NEXT, room = ROOM / NEXT * height;
     ss_script_write_panel(stack, height, GAP, &axis, room, i == 1 ? 6 : 4);
@@ -69,38 +56,13 @@ write_panel(script_stack *stack, const map_column *column, script_scale of_x, si
                 line ? "lines lw 1 lc rgb colour" : "points pt 7 ps size lc rgb colour");
 }
 
-static ss_status
-write_diagram(FILE *out, const ss_table *t, const map_column *column, size_t n_columns, const map_axis *x,
-              const ss_plot_opts *opts, ss_error *err)
-{
-    const ss_plot_opts titled = ss_map_titled(opts, t);
-    script_stack stack;
-    map_label label;
-    ss_status st = ss_script_begin_stack(&stack, out, &titled, NULL,
-                                         FIRST + (double)(n_columns - 2) * (GAP + NEXT) + KEY, err);
-    if (st != SS_OK)
-        return st;
-    ss_script_write_frame(out, 0.175, 0.965);
-    fputs("colour = '" BLUE "'; size = 0.15*mark\nset xtics format ''; set border back\n"
-          "set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n", out);
-    ss_map_write_axis(out, 'x', x);
-    for (size_t i = 1; i < n_columns; i++) {
-        if (i + 1 == n_columns) {
-            fputs("set xtics format '%g'; ", out);
-            ss_script_write_x_label(out, ss_map_label(&label, column[0].label), x->scale);
-            if (x->log)
-                ss_script_write_decades(out, "x", x->value[0], x->value[x->n - 1]);
-        }
-        write_panel(&stack, column, x->scale, i, t->n);
-    }
-    return ss_script_end(out);
-}
-
 ss_status
 ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, const ss_plot_opts *opts,
                 ss_error *err)
 {
     ss_plot_opts own;
+    script_stack stack;
+    map_label label;
     if (out == NULL || t == NULL || drawn == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_script_take(&own, opts, err);
@@ -118,8 +80,25 @@ ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, co
         if (!(e.lo <= e.hi))
             st = ss_fail(err, SS_EINVAL, "%s has no value to draw", column[i].label->name);
     }
+    own = ss_map_titled(&own, t);
     if (st == SS_OK)
-        st = write_diagram(out, t, column, n, &x, &own, err);
+        st = ss_script_begin_stack(&stack, out, &own, NULL, FIRST + (double)(n - 2) * (GAP + NEXT) + KEY, err);
+    if (st == SS_OK) {
+        ss_script_write_frame(out, 0.175, 0.965);
+        fputs("colour = '" BLUE "'; size = 0.15*mark\nset xtics format ''; set border back\n"
+              "set offsets 0,0,graph 0.04,graph 0.04; set autoscale yfix\n", out);
+        ss_map_write_axis(out, 'x', &x);
+    }
+    for (size_t i = 1; st == SS_OK && i < n; i++) {
+        if (i + 1 == n) {
+            fputs("set xtics format '%g'; ", out);
+            ss_script_write_x_label(out, ss_map_label(&label, column[0].label), x.scale);
+            if (x.log)
+                ss_script_write_decades(out, "x", x.value[0], x.value[x.n - 1]);
+        }
+        write_panel(&stack, column, x.scale, i, t->n);
+    }
+    st = st == SS_OK ? ss_script_end(out) : st;
     free(x.value);
     ss_map_free_columns(column, n);
     return st;

@@ -11,22 +11,7 @@
 
 /* --- columns -------------------------------------------------------------------------------- */
 
-/* Read a cell: a number, "-" for an unknown value, or "aperiodic". */
-static ss_status
-read_cell(double *x, const char *cell, const char *column, size_t row, ss_error *err)
-{
-    char *end;
-    *x = ss_number_parse(cell, &end);
-    if (strcmp(cell, "-") == 0)
-        *x = NAN;
-    else if (strcmp(cell, "aperiodic") == 0)
-        *x = 0;
-    else if (end == cell || *end != '\0' || !isfinite(*x))
-        return ss_fail(err, SS_EDATA, "row %zu, column %s: '%.40s' is not a finite number", row + 1, column,
-                       cell);
-    return isnan(*x) || fabs(*x) < 1 ? SS_OK : ss_script_check(column, (script_extent){ *x, *x }, err);
-}
-
+/* A cell is a number, "-" for an unknown value, or "aperiodic". */
 ss_status
 ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size_t index[],
                     ss_error *err)
@@ -40,8 +25,16 @@ ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size
         column[k] = (map_column){ &t->column[c], malloc((t->n + 1) * sizeof *column[k].value) };
         if (column[k].value == NULL)
             return ss_fail_memory(err, NULL);
-        for (size_t i = 0; st == SS_OK && i < t->n; i++)
-            st = read_cell(&column[k].value[i], t->cell[i * t->n_columns + c], t->column[c].name, i, err);
+        for (size_t i = 0; st == SS_OK && i < t->n; i++) {
+            const char *cell = t->cell[i * t->n_columns + c], *name = t->column[c].name;
+            int unknown = strcmp(cell, "-") == 0, aperiodic = strcmp(cell, "aperiodic") == 0;
+            char *end;
+            double x = column[k].value[i] = unknown ? NAN : aperiodic ? 0 : ss_number_parse(cell, &end);
+            if (!unknown && !aperiodic && (end == cell || *end != '\0' || !isfinite(x)))
+                st = ss_fail(err, SS_EDATA, "row %zu, column %s: '%.40s' is not a finite number", i + 1, name, cell);
+            else if (fabs(x) >= 1)
+                st = ss_script_check(name, (script_extent){ x, x }, err);
+        }
     }
     return st;
 }
@@ -188,8 +181,9 @@ ss_map_label(map_label *l, const ss_column *column)
     return &l->column;
 }
 
-script_extent
-ss_map_range(const map_axis *a)
+/* The range of an axis, as it is drawn. */
+static script_extent
+range_of(const map_axis *a)
 {
     return ss_script_scaled_extent((script_extent){ a->value[0], a->value[a->n - 1] }, a->scale);
 }
@@ -197,21 +191,21 @@ ss_map_range(const map_axis *a)
 int
 ss_map_letters(const map_axis *a)
 {
-    return a->log ? DECADE_LETTERS : ss_script_letters(ss_map_range(a), INTERVALS);
+    return a->log ? DECADE_LETTERS : ss_script_letters(range_of(a), INTERVALS);
 }
 
 /* gnuplot leaves out a tic at the very end of a logarithmic axis where rounding puts it beyond. */
 void
 ss_map_write_axis(FILE *out, char name, const map_axis *a)
 {
-    script_extent e = ss_map_range(a);
+    script_extent e = range_of(a);
     const char axis[] = { name, 't', 'i', 'c', 's', '\0' };
-    if (a->log)
+    if (a->log) {
         ss_print(out, "set %crange [%.9g:%.9g]; set logscale %c\n", name, e.lo * (1 - 1e-8), e.hi * (1 + 1e-8),
                  name);
-    else
-        ss_print(out, "set %crange [%.*g:%.*g]\n", name, a->digits, e.lo, a->digits, e.hi);
-    if (!a->log)
-        ss_script_write_tics(out, axis, e, name == 'y' ? INTERVALS
-                             : (int)fmax(1, fmin(INTERVALS, TICS_WIDE / ss_map_letters(a))));
+        return;
+    }
+    ss_print(out, "set %crange [%.*g:%.*g]\n", name, a->digits, e.lo, a->digits, e.hi);
+    ss_script_write_tics(out, axis, e, name == 'y' ? INTERVALS
+                         : (int)fmax(1, fmin(INTERVALS, TICS_WIDE / ss_map_letters(a))));
 }

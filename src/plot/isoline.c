@@ -79,17 +79,19 @@ exit_side(const tracer *t, cell_side p)
     if (crossed < 4)
         return other;
     double corner = height(t, p.i, p.j);
-    double mean = (corner + height(t, p.i + 1, p.j) + height(t, p.i, p.j + 1)
-                   + height(t, p.i + 1, p.j + 1)) / 4;
+    double mean = (corner + height(t, p.i + 1, p.j) + height(t, p.i, p.j + 1) + height(t, p.i + 1, p.j + 1)) / 4;
     return (mean >= t->level) == (corner >= t->level) ? p.side ^ 1 : 3 - p.side;
 }
 
-/* Trace the line that enters a cell through p.side, to its end or back to its start. */
+/* Trace the line that enters a cell through p.side, to its end or back to its start, unless there is none, or it was
+ * traced before. */
 static void
 trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
 {
     static const int dx[] = { 0, 1, 0, -1 }, dy[] = { -1, 0, 1, 0 };
     size_t n = 0, end[2][2];
+    if (!is_crossed(t, p) || t->passed[side_index(t, p)])
+        return;
     side_ends(p, end[0], end[1]);
     const size_t *left = end[p.side >= 2];      /* on the way into the cell through the side */
     int high_left = height(t, left[0], left[1]) >= t->level;
@@ -111,13 +113,6 @@ trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
     sink((const double (*)[2])t->point, n, high_left, user);
 }
 
-static void
-start_at(tracer *t, cell_side p, isoline_sink *sink, void *user)
-{
-    if (is_crossed(t, p) && !t->passed[side_index(t, p)])
-        trace(t, p, sink, user);
-}
-
 ss_status
 ss_isolines(const isoline_map *map, double level, isoline_sink *sink, void *user)
 {
@@ -125,16 +120,16 @@ ss_isolines(const isoline_map *map, double level, isoline_sink *sink, void *user
     tracer t = { map, level, calloc(sides, 1), malloc((sides + 2) * sizeof *t.point) };
     ss_status status = t.passed != NULL && t.point != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0; status == SS_OK && i + 1 < map->nx; i++) {
-        start_at(&t, (cell_side){ i, 0, 0 }, sink, user);
-        start_at(&t, (cell_side){ i, map->ny - 2, 2 }, sink, user);
+        trace(&t, (cell_side){ i, 0, 0 }, sink, user);
+        trace(&t, (cell_side){ i, map->ny - 2, 2 }, sink, user);
     }
     for (size_t j = 0; status == SS_OK && j + 1 < map->ny; j++) {
-        start_at(&t, (cell_side){ 0, j, 3 }, sink, user);
-        start_at(&t, (cell_side){ map->nx - 2, j, 1 }, sink, user);
+        trace(&t, (cell_side){ 0, j, 3 }, sink, user);
+        trace(&t, (cell_side){ map->nx - 2, j, 1 }, sink, user);
     }
     for (size_t j = 0; status == SS_OK && j + 1 < map->ny; j++)
         for (size_t i = 0; i + 1 < map->nx; i++)
-            start_at(&t, (cell_side){ i, j, 0 }, sink, user);   /* every closed line crosses one */
+            trace(&t, (cell_side){ i, j, 0 }, sink, user);   /* every closed line crosses one */
     free(t.passed);
     free(t.point);
     return status;

@@ -54,9 +54,7 @@ typedef struct map_label {
     ss_column column;
 } map_label;
 const ss_column *ss_map_label(map_label *label, const ss_column *column);
-/* The range of an axis, as it is drawn, and the length of the longest label of its tics. */
-script_extent ss_map_range(const map_axis *a);
-int ss_map_letters(const map_axis *a);
+int ss_map_letters(const map_axis *a);          /* of the longest label of its tics */
 /* Set the range of axis x or y, and tics that have room; powers of ten are left to ss_script_write_decades. */
 void ss_map_write_axis(FILE *out, char name, const map_axis *a);
 

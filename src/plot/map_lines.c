@@ -43,15 +43,6 @@ write_point(const lines *s, const double point[2], double level)
     ss_print(s->out, "%.6g\n", level);
 }
 
-/* Are the values at both ends of the side of a cell known, on which a point lies? */
-static int
-is_known(const lines *s, const double point[2])
-{
-    size_t n = s->g->x.n, x = (size_t)point[0], y = (size_t)point[1];
-    size_t x1 = (size_t)ceil(point[0]), y1 = (size_t)ceil(point[1]);
-    return isfinite(s->height[y * n + x] + s->height[y1 * n + x1]);
-}
-
 /* The place of a point in the map, 0 to 1 on each axis. */
 static void
 place_of(double place[2], const lines *s, const double point[2])
@@ -71,7 +62,11 @@ write_line(const double (*point)[2], size_t n, int high_left, void *user)
     (void)high_left;
     for (size_t first = 0, end; first < n; first = end + 1) {
         double length = 0, at[2], last[2] = { 0, 0 };
-        for (end = first; end < n && is_known(s, point[end]); end++) {
+        for (end = first; end < n; end++) {
+            size_t x = (size_t)point[end][0], y = (size_t)point[end][1];        /* of the ends of a cell's side */
+            size_t x1 = (size_t)ceil(point[end][0]), y1 = (size_t)ceil(point[end][1]);
+            if (!isfinite(s->height[y * s->g->x.n + x] + s->height[y1 * s->g->x.n + x1]))
+                break;
             write_point(s, point[end], s->level);
             place_of(at, s, point[end]);
             length += end > first ? hypot(at[0] - last[0], at[1] - last[1]) : 0;
@@ -92,19 +87,7 @@ write_line(const double (*point)[2], size_t n, int high_left, void *user)
     }
 }
 
-/* The distance of a label from the next and from the rim, 1 if it just touches none. */
-static double
-clearance(const lines *s, const label *new)
-{
-    double nearest = 1;
-    for (int k = 0; k < 2; k++)
-        nearest = fmin(nearest, fmin(new->at[k], 1 - new->at[k]) / (k == 0 ? new->width / 2 : RIM));
-    for (const label *l = s->label; l < s->label + s->labels; l++)
-        nearest = fmin(nearest, fmax(fabs(new->at[0] - l->at[0]) / ((new->width + l->width) / 2),
-                                     fabs(new->at[1] - l->at[1]) / TALL));
-    return nearest;
-}
-
+/* Place a label where it is as far as possible from the next and from the rim, up to 1: it just touches none. */
 static void
 place_label(lines *s)
 {
@@ -113,7 +96,11 @@ place_label(lines *s)
     for (size_t k = 0; k < s->n && most < 1; k++) {
         memcpy(new.point, s->longest[k % 2 == 0 ? s->n / 2 - k / 2 : s->n / 2 + k / 2], sizeof new.point);
         place_of(new.at, s, new.point);
-        double clear = clearance(s, &new);
+        double clear = fmin(1, fmin(new.at[0], 1 - new.at[0]) / (new.width / 2));
+        clear = fmin(clear, fmin(new.at[1], 1 - new.at[1]) / RIM);
+        for (const label *l = s->label; l < s->label + s->labels; l++)
+            clear = fmin(clear, fmax(fabs(new.at[0] - l->at[0]) / ((new.width + l->width) / 2),
+                                     fabs(new.at[1] - l->at[1]) / TALL));
         best = clear > most ? new : best;
         most = fmax(most, clear);
     }

@@ -137,19 +137,12 @@ end_part(noise_level *noise, struct of_scale *of)
 
 /* Two coefficients per length of the wavelet, 2 sqrt(pi) a, measure noise as well as all do, since those
  * between follow from them: the 0th and each that is so many behind. */
-static size_t
-step_of(const ss_scale *scale)
-{
-    double step = floor(sqrt(M_PI) * scale->a * scale->b_den / scale->b_num);
-    return step > 1 ? (size_t)step : 1;
-}
-
 void
 ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const double *level, size_t first,
                    size_t n)
 {
     struct of_scale *of = &noise->scale[i];
-    size_t step = step_of(scale);
+    size_t step = (size_t)fmax(1, floor(sqrt(M_PI) * scale->a * scale->b_den / scale->b_num));
     for (size_t k = (step - first % step) % step; k < n; k += step) {
         size_t bin = bin_of(level[k] * level[k]);
         of->count[bin] += step;

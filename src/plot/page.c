@@ -44,26 +44,6 @@ static const struct format {
     { "eps", "epscairo", 1, " cm", 6, "0.6 fontscale 1", "0.8" },
 };
 
-static void
-write_terminal(FILE *out, const struct format *f, const char *output, double width, double height)
-{
-    const double size[2] = { width * f->per_cm, height * f->per_cm };
-    int in_cm = f->unit[0] != '\0';
-    for (int i = 0; i < 2; i++) {
-        fputs(i == 0 ? "width = " : "height = ", out);
-        ss_script_write(out, in_cm ? size[i] : round(size[i]), 3, in_cm ? "        # cm\n" : "\n");
-    }
-    ss_print(out, "letters = %d\nfont = sprintf('Sans,%%g', letters)\n", f->letters);
-    ss_print(out, "set terminal %s noenhanced size width%s,height%s font font linewidth %s\n", f->terminal,
-             f->unit, f->unit, f->lines);
-    if (output != NULL) {
-        /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
-        ss_print(out, "set output \"%s", strchr("|~<>", output[0]) != NULL ? "./" : "");
-        ss_script_write_bytes(out, output, strlen(output), 0);
-        fputs("\"\n", out);
-    }
-}
-
 /* The scene or the model of a signal, or "". */
 static const char *
 origin_of(const ss_header *head)
@@ -90,22 +70,35 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, doub
     const char *name = opts->format, *dot;
     if (name == NULL && opts->output != NULL && (dot = strrchr(opts->output, '.')) != NULL)
         name = dot + 1;
-    const struct format *format = NULL;
+    const struct format *f = NULL;
     for (size_t i = 0; name != NULL && i < sizeof formats / sizeof *formats; i++)
         if (strcmp(name, formats[i].name) == 0)
-            format = &formats[i];
-    if ((name != NULL || opts->output != NULL) && format == NULL)
+            f = &formats[i];
+    if ((name != NULL || opts->output != NULL) && f == NULL)
         return ss_fail(err, SS_EINVAL, "a picture is png, svg or pdf, not '%s'",
                        name != NULL ? name : opts->output);
     double scale = opts->style == SS_SCREEN ? SCREEN : 1;
+    const double size[2] = { scale * WIDTH, scale * height };
     fputs("# Made by libstickslip " SS_VERSION " for gnuplot 5.2 or later: gnuplot -p FILE\n", out);
-    if (format != NULL)
-        write_terminal(out, format, opts->output, scale * WIDTH, scale * height);
-    else
+    if (f == NULL)
         ss_print(out, "# set terminal pdfcairo size %gcm,%gcm font 'Sans,6' fontscale 1 "
-                 "linewidth 0.5; set output 'figure.pdf'\nletters = 10\n", scale * WIDTH, scale * height);
-    ss_print(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n",
-             format != NULL ? format->mark : "1");
+                 "linewidth 0.5; set output 'figure.pdf'\nletters = 10\n", size[0], size[1]);
+    for (int i = 0; f != NULL && i < 2; i++) {
+        int in_cm = f->unit[0] != '\0';
+        fputs(i == 0 ? "width = " : "height = ", out);
+        ss_script_write(out, in_cm ? size[i] : round(size[i] * f->per_cm), 3, in_cm ? "        # cm\n" : "\n");
+    }
+    if (f != NULL)
+        ss_print(out, "letters = %d\nfont = sprintf('Sans,%%g', letters)\n"
+                 "set terminal %s noenhanced size width%s,height%s font font linewidth %s\n", f->letters, f->terminal,
+                 f->unit, f->unit, f->lines);
+    if (f != NULL && opts->output != NULL) {
+        /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
+        ss_print(out, "set output \"%s", strchr("|~<>", opts->output[0]) != NULL ? "./" : "");
+        ss_script_write_bytes(out, opts->output, strlen(opts->output), 0);
+        fputs("\"\n", out);
+    }
+    ss_print(out, "set encoding utf8; set termoption noenhanced\nmark = %s\n", f != NULL ? f->mark : "1");
     ss_script_write_title(out, title_of(opts, head), lines);
     return SS_OK;
 }

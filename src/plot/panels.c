@@ -25,22 +25,6 @@ typedef struct drawing {
     size_t bands;                       /* of features */
 } drawing;
 
-/* Write the data of all panels, those over a panel in its scale, and widen its extent. */
-static void
-write_data(drawing *d)
-{
-    char name[40];
-    for (size_t k = 0; k <= d->opts->n_over; k++)
-        for (size_t m = 0; m < d->layer[k].n; m++) {
-            size_t panel = d->layer[k].panel[m];
-            trace *t = &d->of[k][m], *first = &d->of[0][panel];
-            t->y.scale = first->y.scale;
-            ss_layer_name(name, k, panel, 1);
-            ss_trace_write(d->out, name, t);
-            ss_script_widen(&first->y.extent, t->y.extent);
-        }
-}
-
 /* The differences of all signals from the first panel, which have one scale and label. */
 static ss_status
 write_differences(drawing *d, ss_error *err)
@@ -71,6 +55,7 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     const ss_plot_opts *opts = d->opts;
     const ss_column *first[LAYERS];
     size_t panels = d->n + (opts->difference != 0);
+    char name[40];
     script_stack stack;
     ss_status st = ss_script_begin_stack(&stack, out, opts, head, TIME + PANEL * (double)panels, err);
     if (st != SS_OK)
@@ -79,7 +64,15 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     ss_script_write_colours(out, opts);
     if (opts->features != NULL && (d->bands = ss_contour_write_spans(out, d->span, opts->features)) > 0)
         fputs("feature_colour = '" SHADE_COLOUR "'; set y2range [0:1]\n", out);
-    write_data(d);
+    for (size_t k = 0; k <= opts->n_over; k++)
+        for (size_t m = 0; m < d->layer[k].n; m++) {            /* those over a panel have its scale */
+            size_t panel = d->layer[k].panel[m];
+            trace *t = &d->of[k][m], *under = &d->of[0][panel];
+            t->y.scale = under->y.scale;
+            ss_layer_name(name, k, panel, 1);
+            ss_trace_write(out, name, t);
+            ss_script_widen(&under->y.extent, t->y.extent);
+        }
     if (opts->difference && (st = write_differences(d, err)) != SS_OK)
         return st;
     ss_script_write_frame(out, 0.175, letters < 5 ? 0.965 : 1 - 0.0095 * letters);
@@ -114,29 +107,6 @@ write_panels(drawing *d, const ss_header *head, ss_error *err)
     return ss_script_end(out);
 }
 
-/* --- differences ------------------------------------------------------------------------------------ */
-
-/* A column of another signal, sample by sample. */
-typedef struct cursor {
-    series s;
-    size_t at, n;               /* in the piece */
-    double row, before, value;  /* the number of the sample, the one before, and the sample; NaN behind the end */
-} cursor;
-
-static ss_status
-go_on(cursor *c, ss_error *err)
-{
-    ss_status st = SS_OK;
-    if (c->at == c->n && !(c->row >= 0 && c->n == 0)) {
-        st = ss_series_next(&c->s, &c->n, err);
-        c->at = 0;
-    }
-    c->before = c->value;
-    c->value = c->at < c->n ? c->s.value[c->at++] : NAN;
-    c->row++;
-    return st;
-}
-
 /* Read column x of one signal less column y of another, which begins with it. */
 static ss_status
 read_difference(trace *t, ss_reader *reader, size_t x, ss_reader *over, size_t y, const ss_plot_opts *opts,
@@ -144,26 +114,31 @@ read_difference(trace *t, ss_reader *reader, size_t x, ss_reader *over, size_t y
 {
     ss_plot_opts whole = *opts;
     whole.from = whole.to = NAN;
-    cursor c = { .row = -1, .value = NAN };
-    series s;
-    size_t n = 1;
-    double row = 0;
+    series s, o;                                /* o: the other */
+    size_t n = 1, next = 0, there = 1;          /* the next sample of its piece; there: of so many */
+    double row = 0, number = -1, before = NAN, value = NAN;     /* its sample of this number, and the one before */
     script_span span;
-    ss_status st = ss_series_begin(&s, reader, &x, 1, NAN, opts, err), other = ss_series_begin(&c.s, over, &y, 1,
-                                   ss_reader_header(reader)->start, &whole, err);
+    ss_status st = ss_series_begin(&s, reader, &x, 1, NAN, opts, err);
+    ss_status other = ss_series_begin(&o, over, &y, 1, ss_reader_header(reader)->start, &whole, err);
     st = st == SS_OK ? other : st;
     if (st == SS_OK && (st = ss_series_rewind(&s, err)) == SS_OK)
-        st = ss_series_rewind(&c.s, err);
+        st = ss_series_rewind(&o, err);
     if (st == SS_OK && !ss_extremes_make(&t->block, BLOCKS, 1))
         st = ss_fail_memory(err, NULL);
     for (row = (double)s.first; st == SS_OK && n > 0;) {
         st = ss_series_next(&s, &n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++, row++) {
-            double at = row * (c.s.head->rate / s.head->rate), part;
-            while (st == SS_OK && c.row < at)
-                st = go_on(&c, err);
-            part = c.row - at;
-            s.value[i] -= part > 0 ? c.value + part * (c.before - c.value) : c.value;
+            double at = row * (o.head->rate / s.head->rate);
+            for (; st == SS_OK && number < at; number++) {
+                if (there > 0 && (number < 0 || next == there)) {
+                    st = ss_series_next(&o, &there, err);
+                    next = 0;
+                }
+                before = value;
+                value = next < there ? o.value[next++] : NAN;           /* NaN behind the end */
+            }
+            double part = number - at;
+            s.value[i] -= part > 0 ? value + part * (before - value) : value;
         }
         if (st == SS_OK)
             ss_extremes_add(&t->block, s.value, n);
@@ -174,23 +149,8 @@ read_difference(trace *t, ss_reader *reader, size_t x, ss_reader *over, size_t y
     if (st == SS_OK)
         st = ss_trace_end(t, &s, &span, err);
     ss_series_free(&s);
-    ss_series_free(&c.s);
+    ss_series_free(&o);
     return st;
-}
-
-/* Read layer k, and what the first panel has beyond it. */
-static ss_status
-read_layer(drawing *d, size_t k, ss_reader *reader, script_span *first, ss_error *err)
-{
-    const layer *l = &d->layer[k];
-    ss_reader *of = k == 0 ? reader : d->opts->over[k - 1];
-    script_span span, *drawn = k == 0 ? first : &span;
-    double start = k == 0 ? NAN : ss_reader_header(reader)->start;
-    d->of[k] = calloc(l->n, sizeof *d->of[k]);
-    ss_status st = d->of[k] == NULL ? ss_fail_memory(err, NULL)
-        : ss_traces_read(d->of[k], drawn, of, l->column, l->n, start, d->opts, err);
-    return st == SS_OK && k > 0 && d->opts->difference && l->panel[0] == 0
-        ? read_difference(&d->left[k], reader, *d->layer->column, of, *l->column, d->opts, err) : st;
 }
 
 ss_status
@@ -198,7 +158,7 @@ ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n, co
                ss_error *err)
 {
     ss_plot_opts own;
-    script_span span;
+    script_span span, ignored;
     if (out == NULL || reader == NULL || (column == NULL && n > 0))
         return SS_FAIL_NULL(err);
     ss_status st = ss_script_take(&own, opts, err);
@@ -209,8 +169,15 @@ ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n, co
     if (d.n == 0)
         return ss_fail(err, SS_EINVAL, "no columns to draw");
     st = ss_layers_find(d.layer, head, n > 0 ? column : NULL, d.n, &own, err);
-    for (size_t k = 0; st == SS_OK && k <= own.n_over; k++)
-        st = read_layer(&d, k, reader, &span, err);
+    for (size_t k = 0; st == SS_OK && k <= own.n_over; k++) {
+        const layer *l = &d.layer[k];
+        ss_reader *of = k == 0 ? reader : own.over[k - 1];
+        d.of[k] = calloc(l->n, sizeof *d.of[k]);
+        st = d.of[k] == NULL ? ss_fail_memory(err, NULL)
+            : ss_traces_read(d.of[k], k == 0 ? &span : &ignored, of, l->column, l->n, k == 0 ? NAN : head->start, &own, err);
+        if (st == SS_OK && k > 0 && own.difference && l->panel[0] == 0)
+            st = read_difference(&d.left[k], reader, *d.layer->column, of, *l->column, &own, err);
+    }
     if (st == SS_OK)
         st = write_panels(&d, head, err);
     for (size_t k = 0; k < LAYERS; k++) {

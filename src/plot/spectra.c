@@ -85,17 +85,6 @@ ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[
 
 /* --- the script ----------------------------------------------------------------------------- */
 
-/* The smallest and the largest density above 0. */
-static script_extent
-extent_of(const ss_spectrum *s)
-{
-    script_extent e = SCRIPT_NO_EXTENT;
-    for (size_t k = 1; k < s->n; k++)
-        if (s->density[k] > 0)
-            ss_script_include(&e, s->density[k]);
-    return e;
-}
-
 /* The spectrum of a layer in a panel; NULL: none. */
 static const ss_spectrum *
 in_panel(const layer *l, ss_spectrum *const spectrum[], size_t panel)
@@ -138,11 +127,11 @@ write_panels(FILE *out, const ss_header *head, size_t n, const layer layers[], s
         ss_script_write_legend(out, opts, first);
     ss_print(out, "set logscale %s; set xrange [from:to]; set format x ''\n", opts->decibels ? "x" : "xy");
     for (size_t i = 0; i < n; i++) {
-        script_extent e = SCRIPT_NO_EXTENT;
+        script_extent e = SCRIPT_NO_EXTENT;             /* of densities above 0 */
         double gap = i + 1 < n ? 0.12 * PANEL : 0;
         for (size_t k = 0; k <= opts->n_over; k++)
-            if ((s = in_panel(&layers[k], of[k], i)) != NULL)
-                ss_script_widen(&e, extent_of(s));
+            for (size_t m = 1; (s = in_panel(&layers[k], of[k], i)) != NULL && m < s->n; m++)
+                ss_script_include(&e, s->density[m] > 0 ? s->density[m] : NAN);
         if (!opts->decibels)
             ss_script_write_decade_range(out, e.lo, e.hi);
         if (i + 1 == n) {

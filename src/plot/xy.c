@@ -121,25 +121,6 @@ read_path(path *p, ss_reader *reader, const size_t column[2], double start, cons
     return st;
 }
 
-static void
-write_path(FILE *out, const char *name, const path *p, const script_scale scale[2])
-{
-    int decimals[2];
-    for (int k = 0; k < 2; k++) {
-        script_extent e = ss_script_scaled_extent(p->extent[k], scale[k]);
-        decimals[k] = ss_script_decimals(e.hi - e.lo);
-    }
-    ss_print(out, "%s << EOD\n", name);
-    for (size_t i = 0; i < p->n; i++)
-        if (isnan(p->point[i][0])) {
-            putc('\n', out);
-        } else {
-            ss_script_write(out, ss_script_scaled(p->point[i][0], scale[0]), decimals[0], " ");
-            ss_script_write(out, ss_script_scaled(p->point[i][1], scale[1]), decimals[1], "\n");
-        }
-    fputs("EOD\n", out);
-}
-
 /* The path, and those over it. */
 static ss_status
 write_paths(FILE *out, const ss_header *head, const path p[], const ss_plot_opts *opts, ss_error *err)
@@ -162,10 +143,23 @@ write_paths(FILE *out, const ss_header *head, const path p[], const ss_plot_opts
         ss_script_write_tics(out, k == 0 ? "xtics" : "ytics", ss_script_scaled_extent(drawn, scale[k]), 6);
     }
     for (size_t i = 0; i <= opts->n_over; i++) {
-        char block[16];
-        snprintf(block, sizeof block, i == 0 ? "$path" : "$over%s", i == 0 ? "" : ss_script_number[i - 1]);
-        write_path(out, block, &p[i], scale);
+        int decimals[2];
+        for (int k = 0; k < 2; k++) {
+            script_extent e = ss_script_scaled_extent(p[i].extent[k], scale[k]);
+            decimals[k] = ss_script_decimals(e.hi - e.lo);
+        }
         second[i] = p[i].column[1];
+        ss_print(out, "$%s%s << EOD\n", i == 0 ? "path" : "over", i == 0 ? "" : ss_script_number[i - 1]);
+        for (size_t n = 0; n < p[i].n; n++) {
+            const double *at = p[i].point[n];
+            if (isnan(at[0])) {
+                putc('\n', out);
+                continue;
+            }
+            ss_script_write(out, ss_script_scaled(at[0], scale[0]), decimals[0], " ");
+            ss_script_write(out, ss_script_scaled(at[1], scale[1]), decimals[1], "\n");
+        }
+        fputs("EOD\n", out);
     }
     if (opts->n_over > 0)
         ss_script_write_legend(out, opts, second);
