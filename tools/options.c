@@ -13,8 +13,6 @@
 
 enum { OPTIONS_MOST = 64, LONG = 256 };         /* LONG: getopt_long's value of a table's first row */
 
-/* --- values -------------------------------------------------------------------------------- */
-
 double
 tool_number(const char *option, const char *text, double lo, double hi)
 {
@@ -75,8 +73,6 @@ tool_choice(const char *option, const char *text, const char *const choice[])
     }
     tool_usage("%s: '%s' is none of %s", option, text, list);
 }
-
-/* --- rows ---------------------------------------------------------------------------------- */
 
 /* The option's name with its dashes, for messages. */
 static const char *
@@ -154,8 +150,6 @@ set_common(const tool_option *o, char *text)
         tool_show(o->letter == 'h');
     tool_verbosity = o->letter == 'q' ? -1 : 1;
 }
-
-/* --- the command line ---------------------------------------------------------------------- */
 
 static const char *given[OPTIONS_MOST];
 static size_t n_given;

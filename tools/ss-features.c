@@ -130,8 +130,6 @@ follow(const request *req, const char *path, tool_kind kind)
     free(x);
 }
 
-/* --- several files ------------------------------------------------------------------------- */
-
 typedef struct table {
     const request *req;
     char *const *path;

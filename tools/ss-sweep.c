@@ -42,8 +42,6 @@ typedef struct request {
     ss_sweep_text text;
 } request;
 
-/* --- options ------------------------------------------------------------------------------- */
-
 static void
 pick_measure(request *req, ss_measure m)
 {
@@ -147,8 +145,6 @@ parse(request *req, int argc, char *argv[])
     if (req->resume != NULL && req->text.format != SS_TSV)
         tool_usage("--resume goes on with .tsv, whose notes say of what sweep it is");
 }
-
-/* --- the scene ---------------------------------------------------------------------------- */
 
 /* Refuse a setting of a key that is varied. */
 static void

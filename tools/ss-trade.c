@@ -143,8 +143,6 @@ measure_signal(request *req)
     return trade;
 }
 
-/* --- simpler scenes ------------------------------------------------------------------------ */
-
 static void
 set_needs(const tool_option *o, char *list)
 {

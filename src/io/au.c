@@ -102,8 +102,6 @@ open_au(ss_source **out, const struct opening *o, ss_error *err)
     return ss_refuse_clock(in->name, f->base.head->rate, o->opts, err);
 }
 
-/* --- writing ------------------------------------------------------------------------------- */
-
 enum { ANNOTATION_UNIT = 8 };
 
 static ss_status

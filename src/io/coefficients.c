@@ -50,8 +50,6 @@ refuse(const coefficient_reader *r, const char *format, ...)
                    line > 0 ? line : r->row, why);
 }
 
-/* --- rows */
-
 /* Set the number of translations of a scale, and what else follows from j and a. */
 static ss_status
 set_scale(coefficient_reader *r, ss_scale *scale, int j, double a)
@@ -145,8 +143,6 @@ read_rows_of_scales(coefficient_reader *r)
     }
     return st;
 }
-
-/* --- the whole */
 
 static ss_status
 assemble(coefficient_reader *r)

@@ -8,8 +8,6 @@
 static const struct format *const list[FORMATS] = { FORMAT_LIST(ROW) };
 enum { LONGEST_MAGIC = 12 };
 
-/* --- reading ------------------------------------------------------------------------------- */
-
 static int
 begins(const char *bytes, size_t n, const char *magic)
 {
@@ -51,8 +49,6 @@ ss_format_of_file(const char *path)
             return list[i];
     return NULL;
 }
-
-/* --- writing ------------------------------------------------------------------------------- */
 
 const struct format *
 ss_format_table(ss_format of)

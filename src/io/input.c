@@ -200,8 +200,6 @@ ss_input_waits(const struct input *in)
     return !in->ended && fd.fd >= 0 && poll(&fd, 1, 0) == 0;
 }
 
-/* --- options that mean nothing for a format -------------------------------------------------- */
-
 ss_status
 ss_refuse_table(const char *name, const ss_read_opts *opts, ss_error *err)
 {

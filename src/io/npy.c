@@ -31,8 +31,6 @@ struct npy {
     struct kept all;                    /* values of an array whose columns follow each other in the file */
 };
 
-/* --- the header ---------------------------------------------------------------------------- */
-
 /* Copy a line without the blanks outside of strings, and with QUOTE for either kind of quotes around these. */
 static char *
 tidy(const char *p)
@@ -165,8 +163,6 @@ read_header(struct npy *a, ss_error *err)
     free(text);
     return st;
 }
-
-/* --- the numbers --------------------------------------------------------------------------- */
 
 /* Read the next n values, whole records; `at` values precede them. */
 static ss_status

@@ -17,8 +17,6 @@ static const ss_read_opts defaults = { .size = sizeof defaults };
 
 SS_OPTIONS(ss_read_opts, defaults)
 
-/* --- opening ------------------------------------------------------------------------------- */
-
 #define MOST 1e6                /* samples for each row: a short file cannot fill a disk */
 
 /* Bring the rows to the rate that was asked for, unless a table has brought its own to it. */
@@ -134,8 +132,6 @@ ss_reader_free(ss_reader *reader)
     free(reader);
 }
 
-/* --- reading ------------------------------------------------------------------------------- */
-
 const ss_header *
 ss_reader_header(const ss_reader *reader)
 {
@@ -174,8 +170,6 @@ ss_reader_filter(ss_reader *reader, const ss_filter_opts *opts, ss_error *err)
 {
     return reader != NULL ? ss_source_filter(&reader->source, opts, err) : SS_FAIL_NULL(err);
 }
-
-/* --- whole signals ------------------------------------------------------------------------- */
 
 ss_status
 ss_reader_of_signal(ss_reader **out, const ss_signal *signal, ss_error *err)

@@ -78,8 +78,6 @@ ss_rows_notes(struct rows *rows, const ss_header *head, const char *const own[])
             ss_rows_note(rows, "%s", head->note[i]);
 }
 
-/* --- cells --------------------------------------------------------------------------------- */
-
 static void
 write_cell(struct rows *rows, const char *name, const char *word, int is_word)
 {

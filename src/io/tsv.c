@@ -15,8 +15,6 @@ struct text {
     void *user;
 };
 
-/* --- reading ------------------------------------------------------------------------------- */
-
 /* The error of a row that could not be read. */
 static ss_status
 refuse_row(const struct text *s, const char *line, ss_error *err)
@@ -132,8 +130,6 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
     head->rate = o->opts->rate;
     return ss_refuse_table(in->name, o->opts, err);
 }
-
-/* --- writing ------------------------------------------------------------------------------- */
 
 static ss_status
 begin_text(FILE *out, const ss_header *head, const char *magic, ss_error *err)

@@ -117,8 +117,6 @@ open_wav(ss_source **out, const struct opening *o, ss_error *err)
     return ss_refuse_clock(in->name, f->base.head->rate, o->opts, err);
 }
 
-/* --- writing ------------------------------------------------------------------------------- */
-
 enum { WRITTEN_HEADER = 58, WIDTH = sizeof(double) };
 
 static char *

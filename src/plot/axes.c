@@ -23,8 +23,6 @@ typedef struct label {
 } label;
 enum { LABEL_MAX = sizeof ((label *)0)->text - sizeof "…" };
 
-/* --- text ----------------------------------------------------------------------------------- */
-
 /* Append to the text, which is full when it has LABEL_MAX bytes. */
 static void
 add(label *l, const char *format, ...)
@@ -108,8 +106,6 @@ break_text(label *l)
     memmove(l->text + best + 1, l->text + best, (size_t)(n - best) + 1);
     l->text[best] = '\n';
 }
-
-/* --- labels --------------------------------------------------------------------------------- */
 
 /* "name", or "name − offset unit". */
 static label
@@ -211,8 +207,6 @@ ss_script_write_title(FILE *out, const char *title, const ss_column *lines)
     fputs("set title ", out);
     write_label(out, &all, " noenhanced offset 0,-0.5");
 }
-
-/* --- tics ----------------------------------------------------------------------------------- */
 
 void
 ss_script_write_tics(FILE *out, const char *axis, script_extent drawn, int intervals)

@@ -89,8 +89,6 @@ ss_contour_write_lines(FILE *out, const contour_map *map, int levels, int *any)
     return status;
 }
 
-/* --- areas --------------------------------------------------------------------------------- */
-
 typedef struct polygon {
     double area;                /* [cells] */
     int band;                   /* just inside, |W| is between lines band and band + 1 */

@@ -157,8 +157,6 @@ ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_contour_opts
     return st;
 }
 
-/* --- ridges: at each time, the scales of the maxima ------------------------------------------ */
-
 /* A column of the map: its level at row r is level[r * (CONTOUR_COLUMNS + 1)]. */
 static double
 at(const double *level, size_t r)

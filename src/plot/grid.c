@@ -9,8 +9,6 @@
 #include "base/error.h"
 #include "base/sort.h"
 
-/* --- columns -------------------------------------------------------------------------------- */
-
 /* A cell is a number, "-" for an unknown value, or "aperiodic". */
 ss_status
 ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size_t index[],
@@ -45,8 +43,6 @@ ss_map_free_columns(map_column column[], size_t n)
     for (size_t k = 0; k < n; k++)
         free(column[k].value);
 }
-
-/* --- the grid ------------------------------------------------------------------------------- */
 
 /* Returns 1 if the ratios of neighbouring values vary less than their differences. */
 static int
@@ -154,8 +150,6 @@ ss_map_write_coordinate(FILE *out, const map_axis *a, double x, char behind)
 {
     ss_print(out, "%.*g%c", a->digits, ss_script_scaled(x, a->scale), behind);
 }
-
-/* --- title and axes ------------------------------------------------------------------------- */
 
 enum { INTERVALS = 9,           /* of tics at most; */
        TICS_WIDE = 27,          /* letters of all tics below a map together */

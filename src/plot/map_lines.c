@@ -108,8 +108,6 @@ place_label(lines *s)
         s->label[s->labels++] = best;
 }
 
-/* --- levels --------------------------------------------------------------------------------- */
-
 /* If no value is below 0, the middle 96 % of those above 0 span more than a factor of 20, and their median is
  * nearer to the geometric than to the arithmetic middle of these, levels are at 1, 2 and 5 times powers of ten;
  * else they have equal steps of 1, 2 or 5 times a power of ten.  None is at the largest value, which a region may

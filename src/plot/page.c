@@ -124,8 +124,6 @@ ss_script_write_key(FILE *out)
     fputs("set title offset 0,0.7; set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\n", out);
 }
 
-/* --- signals over another ------------------------------------------------------------------------ */
-
 const char *const ss_script_number[] = { "", "2", "3", "4", "5", "6" };
 
 void

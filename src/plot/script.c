@@ -10,8 +10,6 @@
 
 #define LARGEST 1e300           /* drawn value: differences and powers of ten stay finite */
 
-/* --- numbers and text ---------------------------------------------------------------------- */
-
 void
 ss_script_write(FILE *out, double x, int decimals, const char *behind)
 {

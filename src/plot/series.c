@@ -8,8 +8,6 @@
 #include "base/error.h"
 #include "signal/gaps.h"
 
-/* --- rows ----------------------------------------------------------------------------------- */
-
 /* Of a number of rows that may be less than 0, or more than there are in any file; NaN: all. */
 static size_t
 row_number(double row)
@@ -89,8 +87,6 @@ ss_series_free(series *s)
     free(s->value);
 }
 
-/* --- layers --------------------------------------------------------------------------------- */
-
 ss_status
 ss_layers_find(layer l[LAYERS], const ss_header *head, const size_t drawn[], size_t n, const ss_plot_opts *opts,
                ss_error *err)
@@ -153,8 +149,6 @@ ss_layers_plot(FILE *out, const layer l[], const ss_plot_opts *opts, size_t pane
     }
     fputs(titled ? "\nunset key\n" : "\n", out);
 }
-
-/* --- over time ------------------------------------------------------------------------------ */
 
 ss_status
 ss_trace_end(trace *t, const series *s, const script_span *span, ss_error *err)

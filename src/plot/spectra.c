@@ -41,8 +41,6 @@ write_densities(FILE *out, const char *name, const ss_spectrum *s, int decibels)
     fputs("EOD\n", out);
 }
 
-/* --- a signal of any length ----------------------------------------------------------------- */
-
 /* The rows are read once to be counted, and once for each column. */
 ss_status
 ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[], size_t n,
@@ -82,8 +80,6 @@ ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[
     ss_series_free(&s);
     return st;
 }
-
-/* --- the script ----------------------------------------------------------------------------- */
 
 /* The spectrum of a layer in a panel; NULL: none. */
 static const ss_spectrum *

@@ -27,8 +27,6 @@ ss_script_find_span(script_span *span, double start, double rate, size_t n, cons
     return SS_OK;
 }
 
-/* --- tics ----------------------------------------------------------------------------------- */
-
 #define INTERVALS 6.0           /* at most, */
 #define LETTERS 34.0            /* and so many that their labels have this many letters, blanks between them */
 

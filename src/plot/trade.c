@@ -67,8 +67,6 @@ write_axes(const scatter *s, const char *error, const char *of, int rows)
     ss_script_write_decade_range(s->out, fmin(s->error.lo, 1), s->error.hi > 0 ? s->error.hi : 1);
 }
 
-/* --- methods -------------------------------------------------------------------------------- */
-
 ss_status
 ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_error *err)
 {
@@ -112,8 +110,6 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
     putc('\n', out);
     return ss_script_end(out);
 }
-
-/* --- simpler scenes ------------------------------------------------------------------------- */
 
 /* The errors that are drawn, of which each has its point. */
 enum { X, V, A, F, CONTOURS, KINDS };

@@ -26,8 +26,6 @@ typedef struct file_source {
 
 static const char *const part_name[] = { "re", "im" };
 
-/* --- the grid ------------------------------------------------------------------------------ */
-
 static hid_t
 open_scale(const file_source *s, char name[32], size_t i)
 {
@@ -119,8 +117,6 @@ read_grid(file_source *s, ss_coefficients *map)
     if (file->status == SS_OK && (s->row = malloc(s->longest * sizeof *s->row)) == NULL)
         file->status = SS_ENOMEM;
 }
-
-/* --- the coefficients ---------------------------------------------------------------------- */
 
 /* Read all of scale i. */
 static void

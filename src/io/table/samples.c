@@ -171,8 +171,6 @@ ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *
     return st == SS_OK && t->opts->gaps != SS_GAPS_REFUSE ? ss_source_fill_gaps(out, t->opts->gaps, err) : st;
 }
 
-/* --- rows of another source ----------------------------------------------------------------- */
-
 void
 ss_sheet_free(struct sheet *t)
 {

@@ -160,8 +160,6 @@ ss_stamp_read(const char *cell)
     return p != NULL && *p == '\0' && h <= 23 && m <= 59 ? found : none;
 }
 
-/* --- a column ------------------------------------------------------------------------------ */
-
 static int
 order_of(const struct stamp_column *c)
 {
