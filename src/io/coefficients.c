@@ -125,25 +125,6 @@ read_late_note(void *reader, char *line, ss_error *err)
     return set_length(reader, ss_number_parse(line + sizeof length - 1, NULL));
 }
 
-/* In AU, a row at scale 0 ends a stream: its b is the time of the last sample. */
-static ss_status
-read_rows_of_scales(coefficient_reader *r)
-{
-    double row[COEFFICIENT_COLUMNS];
-    size_t n;
-    ss_status st;
-    double *column[COEFFICIENT_COLUMNS];
-    for (int c = 0; c < COEFFICIENT_COLUMNS; c++)
-        column[c] = &row[c];
-    while ((st = ss_reader_rows(r->in, column, 1, &n, r->err)) == SS_OK && n > 0) {
-        r->row++;
-        st = row[1] == 0 ? set_length(r, rint(row[2] * r->coef->head->rate) + 1) : append_row(r, row);
-        if (st != SS_OK)
-            return st;
-    }
-    return st;
-}
-
 static ss_status
 assemble(coefficient_reader *r)
 {
@@ -178,9 +159,12 @@ assemble(coefficient_reader *r)
     return SS_OK;
 }
 
+/* In AU, a row at scale 0 ends a stream: its b is the time of the last sample. */
 static ss_status
 read_all(coefficient_reader *r, FILE *in, const char *name)
 {
+    double row[COEFFICIENT_COLUMNS], *column[COEFFICIENT_COLUMNS];
+    size_t n = 1;
     struct opening o = { .kind = SS_KIND_COEFFICIENTS, .late_note = read_late_note, .user = r };
     ss_error why;
     ss_status st = ss_reader_open(&r->in, in, name, &o, r->err);
@@ -209,7 +193,14 @@ read_all(coefficient_reader *r, FILE *in, const char *name)
     r->part = calloc(r->possible, sizeof(part *));
     if (r->part == NULL)
         return SS_ENOMEM;
-    st = read_rows_of_scales(r);
+    for (int c = 0; c < COEFFICIENT_COLUMNS; c++)
+        column[c] = &row[c];
+    while (st == SS_OK && n > 0) {
+        st = ss_reader_rows(r->in, column, 1, &n, r->err);
+        r->row += st == SS_OK ? n : 0;
+        if (st == SS_OK && n > 0)
+            st = row[1] == 0 ? set_length(r, rint(row[2] * r->coef->head->rate) + 1) : append_row(r, row);
+    }
     return st == SS_OK ? assemble(r) : st;
 }
 

@@ -40,36 +40,26 @@ ss_input_close(struct input *in)
     free(in->buffer);
 }
 
+/* Read more bytes, at least one unless the file ends. */
 static ss_status
-make_room(struct input *in, ss_error *err)
+fill(struct input *in, ss_error *err)
 {
+    ssize_t n;
     if (in->lo > 0) {
         memmove(in->buffer, in->buffer + in->lo, in->hi - in->lo);
         in->scanned -= in->scanned < in->lo ? in->scanned : in->lo;
         in->hi -= in->lo;
         in->lo = 0;
     }
-    if (in->hi + PIECE / 2 <= in->capacity)
-        return SS_OK;
-    if (in->capacity >= MAX_LINE)
-        return ss_fail(err, SS_EDATA, "%s:%lu: a line of more than 16 MB", in->name, in->line + 1);
-    char *more = realloc(in->buffer, 2 * in->capacity + 1);
-    if (more == NULL)
-        return ss_fail(err, SS_ENOMEM, "%s:%lu: no memory for a line this long", in->name,
-                       in->line + 1);
-    in->buffer = more;
-    in->capacity *= 2;
-    return SS_OK;
-}
-
-/* Read more bytes, at least one unless the file ends. */
-static ss_status
-fill(struct input *in, ss_error *err)
-{
-    ssize_t n;
-    ss_status st = make_room(in, err);
-    if (st != SS_OK)
-        return st;
+    if (in->hi + PIECE / 2 > in->capacity) {
+        char *more = in->capacity < MAX_LINE ? realloc(in->buffer, 2 * in->capacity + 1) : NULL;
+        if (more == NULL)
+            return in->capacity < MAX_LINE
+                ? ss_fail(err, SS_ENOMEM, "%s:%lu: no memory for a line this long", in->name, in->line + 1)
+                : ss_fail(err, SS_EDATA, "%s:%lu: a line of more than 16 MB", in->name, in->line + 1);
+        in->buffer = more;
+        in->capacity *= 2;
+    }
     char *to = in->buffer + in->hi;
     size_t room = in->capacity - in->hi;
     if (fileno(in->file) < 0) {

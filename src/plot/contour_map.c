@@ -74,25 +74,6 @@ fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
     return SS_OK;
 }
 
-/* Replace |W| by decibels, and decide how far down the lines go. */
-static void
-set_levels(contour_map *map, const filling *f)
-{
-    double max = !isnan(f->contour->level) ? pow(10, f->contour->level / 20)
-        : f->contour->top > 0 ? f->contour->top : f->outside >= 0 ? f->outside : f->anywhere;
-    double noise = f->noise != NULL ? ss_noise_level(f->noise, f->c->scale) : f->contour->noise;
-    for (size_t i = 0; i < map->rows * (CONTOUR_COLUMNS + 1); i++)
-        map->level[i] = max > 0 && map->level[i] > 0
-            ? fmin(fmax(20 * log10(map->level[i] / max), -CONTOUR_FLOOR), CONTOUR_FLOOR) : -CONTOUR_FLOOR;
-    map->top = max;
-    map->span = f->contour->span;
-    map->noise = max > 0 && noise > 0 ? round(20 * log10(noise / max)) : NAN;
-    if (!(map->noise > -map->span))
-        map->noise = NAN;
-    if (!isnan(map->noise))
-        map->span = fmin(fmax(-map->noise, LEAST_SPAN), map->span);
-}
-
 /* If fmin and fmax are given, replace the first row by the map at the label fmin, the last by that
  * at fmax. */
 static void
@@ -148,10 +129,21 @@ ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_contour_opts
     for (size_t i = 0; made && i < map->rows; i++)
         map->f[i] = scale[f.first + i].f;
     ss_status st = made ? fill_rows(map, &f, level, err) : ss_fail_memory(err, NULL);
-    if (st == SS_OK) {
-        set_levels(map, &f);
+    double max = !isnan(contour->level) ? pow(10, contour->level / 20)
+        : contour->top > 0 ? contour->top : f.outside >= 0 ? f.outside : f.anywhere;
+    double noise = st == SS_OK && f.noise != NULL ? ss_noise_level(f.noise, scale) : contour->noise;
+    for (size_t i = 0; st == SS_OK && i < map->rows * (CONTOUR_COLUMNS + 1); i++)       /* decibels */
+        map->level[i] = max > 0 && map->level[i] > 0
+            ? fmin(fmax(20 * log10(map->level[i] / max), -CONTOUR_FLOOR), CONTOUR_FLOOR) : -CONTOUR_FLOOR;
+    map->top = max;
+    map->span = contour->span;
+    map->noise = max > 0 && noise > 0 ? round(20 * log10(noise / max)) : NAN;
+    if (!(map->noise > -map->span))
+        map->noise = NAN;
+    if (!isnan(map->noise))
+        map->span = fmin(fmax(-map->noise, LEAST_SPAN), map->span);
+    if (st == SS_OK)
         cut_rows(map, contour->fmin, contour->fmax);
-    }
     ss_noise_level_free(f.noise);
     free(level);
     return st;

@@ -44,23 +44,11 @@ ss_map_free_columns(map_column column[], size_t n)
         free(column[k].value);
 }
 
-/* Returns 1 if the ratios of neighbouring values vary less than their differences. */
-static int
-is_log(const map_axis *a)
-{
-    script_extent d = SCRIPT_NO_EXTENT, r = SCRIPT_NO_EXTENT;
-    for (size_t i = 1; i < a->n; i++) {
-        ss_script_include(&d, a->value[i] - a->value[i - 1]);
-        ss_script_include(&r, log(a->value[i] / a->value[i - 1]));
-    }
-    return a->n > 2 && a->value[0] > 0 && isfinite(a->value[a->n - 1] / a->value[0])
-        && d.hi > d.lo * (1 + 1e-6) && r.hi / r.lo < d.hi / d.lo;
-}
-
 ss_status
 ss_map_make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
 {
     size_t found = 0;
+    script_extent d = SCRIPT_NO_EXTENT, r = SCRIPT_NO_EXTENT;   /* differences of neighbours, and of their logarithms */
     *a = (map_axis){ .n = 0 };
     a->value = malloc((n + 1) * sizeof *a->value);
     if (a->value == NULL)
@@ -75,7 +63,11 @@ ss_map_make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
     if (a->n < 2)
         return ss_fail(err, SS_EINVAL, "a picture needs two values of %s at least", column->label->name);
     double lo = a->value[0], hi = a->value[a->n - 1];
-    a->log = is_log(a);
+    for (size_t i = 1; i < a->n; i++) {
+        ss_script_include(&d, a->value[i] - a->value[i - 1]);
+        ss_script_include(&r, log(a->value[i] / a->value[i - 1]));
+    }
+    a->log = a->n > 2 && lo > 0 && isfinite(hi / lo) && d.hi > d.lo * (1 + 1e-6) && r.hi / r.lo < d.hi / d.lo;
     a->scale = ss_script_scale((script_extent){ lo, hi });
     if (a->log || a->scale.offset == 0)         /* values as they are, unless their labels would be long */
         a->scale = ss_script_power(0);

@@ -523,26 +523,6 @@ write_part(h5_writer *w, hid_t id, int single, int rank, const hsize_t at[], siz
                  single ? (const void *)w->single : x);
 }
 
-/* Write n coefficients of scale i, at most a piece. */
-static void
-write_piece(h5_writer *w, size_t i, size_t n, const double *x, size_t samples)
-{
-    const ss_scale *scale = &w->scale[i];
-    const struct scale_datasets *d = &w->datasets[w->dense ? 0 : i];
-    size_t first = w->datasets[i].done;
-    int rank = w->dense ? 2 : 1;
-    const hsize_t where[2] = { i, first }, *at = where + 2 - rank;
-    split(w->value[0], w->value[1], x, n, rounding_of(w->tolerance, w->datasets[i].most));
-    for (size_t k = 0; k < n; k++)
-        w->edge[k] = (unsigned char)wavelet_edge(scale, first + k, samples, w->rate, w->start, w->gap, w->n_gaps);
-    write_part(w, d->part[RE], d->single, rank, at, n, w->value[0]);
-    write_part(w, d->part[IM], d->single, rank, at, n, w->value[1]);
-    write_values(w, d->part[EDGE], rank, at, n, H5T_NATIVE_UCHAR, w->edge);
-    if (!w->dense)
-        write_times(w, d->part[TIME], scale, first, n);
-    w->datasets[i].done += n;
-}
-
 /* Write the next n coefficients of a scale, as pairs, of a record with so many samples until now. */
 static void
 append_coefficients(h5_writer *w, const ss_scale *scale, size_t first, size_t n, const double *x, size_t samples)
@@ -561,9 +541,19 @@ append_coefficients(h5_writer *w, const ss_scale *scale, size_t first, size_t n,
     if (w->file.status == SS_OK && shared->single && d->most > FLT_MAX)
         ss_h5_fail(&w->file, SS_ERANGE, w->group, "re", "coefficients of at most 1e20 precede some above 3.4e38, "
                    "which 32-bit floats do not hold; keep all bits");
-    for (size_t m; w->file.status == SS_OK && n > 0; n -= m, x += 2 * m) {
+    const int rank = w->dense ? 2 : 1;
+    scale = &w->scale[i];
+    for (size_t m; w->file.status == SS_OK && n > 0; n -= m, x += 2 * m, d->done += m) {
+        const hsize_t where[2] = { i, d->done }, *at = where + 2 - rank;
         m = n < PIECE ? n : PIECE;
-        write_piece(w, i, m, x, samples);
+        split(w->value[0], w->value[1], x, m, rounding_of(w->tolerance, d->most));
+        for (size_t k = 0; k < m; k++)
+            w->edge[k] = (unsigned char)wavelet_edge(scale, d->done + k, samples, w->rate, w->start, w->gap, w->n_gaps);
+        write_part(w, shared->part[RE], shared->single, rank, at, m, w->value[0]);
+        write_part(w, shared->part[IM], shared->single, rank, at, m, w->value[1]);
+        write_values(w, shared->part[EDGE], rank, at, m, H5T_NATIVE_UCHAR, w->edge);
+        if (!w->dense)
+            write_times(w, d->part[TIME], scale, d->done, m);
     }
     for (size_t k = 0; !w->growing && !w->dense && d->done == w->scale[i].n && k < PARTS; k++) {
         if (d->part[k] >= 0 && H5Dclose(d->part[k]) < 0)

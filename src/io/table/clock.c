@@ -73,29 +73,6 @@ ss_clock_sample(struct sample_count *c, double stamp)
     return sample;
 }
 
-struct line {
-    double period, at_0;
-};
-
-/* The straight line through stamps, by least squares. */
-static struct line
-fit_line(struct stamps s, struct clock *c)
-{
-    struct sample_count count = { .usual = c->usual };
-    double sample = 0, stamp = 0, product = 0, square = 0;      /* means from the first on, sums about them */
-    while (ss_stamps_next(&s)) {
-        c->last = (double)ss_clock_sample(&count, s.stamp);
-        c->start = s.n == 1 ? s.stamp : c->start;
-        double t = s.stamp - c->start, off = c->last - sample;
-        sample += off / (double)s.n;
-        stamp += (t - stamp) / (double)s.n;
-        product += off * (t - stamp);
-        square += off * (c->last - sample);
-    }
-    c->n = s.n;
-    return (struct line){ product / square, c->start + (stamp - product / square * sample) };
-}
-
 /* A stamp that is off by `by`. */
 struct off {
     double by, step;            /* step: from the one before */
@@ -168,27 +145,39 @@ ss_clock_digits(double x)
 ss_status
 ss_find_clock(struct stamps s, struct clock *c, ss_error *err)
 {
-    struct line l = fit_line(s, c);
+    /* the straight line through stamps, by least squares */
     struct sample_count count = { .usual = c->usual };
-    struct off worst = { .by = 0 };     /* the stamp farthest from the line; of those that rounding separates, the first */
+    double sample = 0, stamp = 0, product = 0, square = 0;      /* means from the first on, sums about them */
+    for (struct stamps i = s; ss_stamps_next(&i); c->n = i.n) {
+        c->last = (double)ss_clock_sample(&count, i.stamp);
+        c->start = i.n == 1 ? i.stamp : c->start;
+        double t = i.stamp - c->start, off = c->last - sample;
+        sample += off / (double)i.n;
+        stamp += (t - stamp) / (double)i.n;
+        product += off * (t - stamp);
+        square += off * (c->last - sample);
+    }
+    double period = product / square, at_0 = c->start + (stamp - period * sample);
+    /* the stamp that is farthest from it; of several that differ only by rounding, the first */
+    struct off worst = { .by = 0 };
+    count = (struct sample_count){ .usual = c->usual };
     for (struct stamps i = s; ss_stamps_next(&i);) {
-        double off = fabs(i.stamp - l.at_0 - l.period * (double)ss_clock_sample(&count, i.stamp));
+        double off = fabs(i.stamp - at_0 - period * (double)ss_clock_sample(&count, i.stamp));
         if (!(off <= worst.by * (1 + 1e-9)))    /* NaN, too */
             worst = (struct off){ off, i.stamp - i.before, i.line };
     }
-    if (!(l.period > 0 && worst.by <= l.period * CLOCK_TOLERANCE)
-        && !(l.period > 0 && worst.by <= fmin(c->digit, BY_DIGITS * l.period)))
-        return refuse(s, c, l.period, worst, err);
+    if (!(period > 0 && worst.by <= fmax(period * CLOCK_TOLERANCE, fmin(c->digit, BY_DIGITS * period))))
+        return refuse(s, c, period, worst, err);
     /* each stamp is off by at most the deviation, so the period over all of them by at most twice that */
-    double end = l.at_0 + l.period * c->last;
+    double end = at_0 + period * c->last;
     double rounding = 2 * DBL_EPSILON * fmax(fabs(c->taken + c->start), fabs(c->taken + end));
-    double slack = 2 * (worst.by + rounding) / c->last + 4 * DBL_EPSILON * l.period;
+    double slack = 2 * (worst.by + rounding) / c->last + 4 * DBL_EPSILON * period;
     int rate_digits, period_digits;
-    ss_status st = ss_refuse_range(s.rows->name, 1 / (l.period - slack), c->start, err);
+    ss_status st = ss_refuse_range(s.rows->name, 1 / (period - slack), c->start, err);
     if (st != SS_OK)
         return st;
-    double by_rate = roundest(1 / (l.period + slack), 1 / (l.period - slack), &rate_digits);
-    double by_period = roundest(l.period - slack, l.period + slack, &period_digits);
+    double by_rate = roundest(1 / (period + slack), 1 / (period - slack), &rate_digits);
+    double by_period = roundest(period - slack, period + slack, &period_digits);
     c->rate = rate_digits <= period_digits ? by_rate : 1 / by_period;
     return SS_OK;
 }

@@ -160,18 +160,9 @@ keep_header(struct text *x)
     return found;
 }
 
-/* 1 if two rows have cells of the same kinds.  The second may lack its empty cells at the end. */
-static int
-is_like(const char *shape, const char *row)
-{
-    for (; *shape != '\0' && *row != '\0'; shape++, row++)
-        if (*shape != *row && *row != 'e')
-            return 0;
-    return *row == '\0' && strchr(shape, 'n') == NULL;
-}
-
 /* The first of the kept lines with numbers and words, below one without numbers, that has two lines like it below,
- * or one if there are no more; else n_head. */
+ * or one if there are no more; else n_head.  Rows that are alike have cells of the same kinds; the second may lack its
+ * empty cells at the end. */
 static size_t
 find_like(struct text *x, char separator)
 {
@@ -184,13 +175,16 @@ find_like(struct text *x, char separator)
         has = strchr(x->like, 'n') != NULL;
         if (!has || had || strpbrk(x->like, "te") == NULL)
             continue;
-        for (below = i + 1; below < x->n_head && alike < 2; below++)
+        for (below = i + 1; below < x->n_head && alike < 2; below++) {
             if (x->head[below].comment)
                 continue;
-            else if (is_like(x->like, ss_text_shape(x, x->head[below].text, separator, &numbers)))
-                alike++;
-            else
+            const char *shape = x->like, *row = ss_text_shape(x, x->head[below].text, separator, &numbers);
+            for (; *shape != '\0' && (*shape == *row || *row == 'e'); row++)
+                shape++;
+            if (*row != '\0' || strchr(shape, 'n') != NULL)
                 break;
+            alike++;
+        }
         if (alike == 2 || (below == x->n_head && i > 0))
             return i;
     }
@@ -391,28 +385,14 @@ is_heading(struct text *x, const char *line)
         && (n != x->t.n_columns || (n > 1 && strchr(shape, 'n') == NULL));
 }
 
-/* Are the lines from a heading to the end of the file nothing but words, in more or fewer cells than rows have? */
-static int
-is_footer(struct text *x)
-{
-    size_t numbers;
-    for (size_t i = 0; i < x->n_head; i++) {
-        const char *shape = ss_text_shape(x, x->head[i].text, x->separator, &numbers);
-        size_t filled = strlen(shape);
-        while (filled > 0 && shape[filled - 1] == 'e')
-            filled--;
-        if (filled == x->t.n_columns || strchr(shape, 'n') != NULL)
-            return 0;
-    }
-    return x->n_head < HEADER_LINES;
-}
-
 /* Read a line below the first row.  Keep the lines from a heading on, up to the first row of another table.  If none
- * follows, the heading is a footer or a malformed row. */
+ * follows, the heading begins a footer, which is nothing but words, in more or fewer cells than rows have, or is a
+ * malformed row. */
 static void
 read_line(struct text *x)
 {
     int comment;
+    size_t numbers;
     const char *line = next_line(x, &comment);
     unsigned long number = x->in->line;
     x->ended = line == NULL || (!comment && is_heading(x, line));
@@ -428,38 +408,38 @@ read_line(struct text *x)
     if (x->status != SS_OK || x->another)
         return;
     x->in->line = number;
-    if (is_footer(x))
+    int is_footer = x->n_head < HEADER_LINES;
+    for (size_t i = 0; is_footer && i < x->n_head; i++) {
+        const char *shape = ss_text_shape(x, x->head[i].text, x->separator, &numbers);
+        size_t filled = strlen(shape);
+        while (filled > 0 && shape[filled - 1] == 'e')
+            filled--;
+        is_footer = filled != x->t.n_columns && strchr(shape, 'n') == NULL;
+    }
+    if (is_footer)
         ss_sheet_warn(&x->t, SS_OK, "%s:%lu: the rows end here; the words below them were skipped", x->t.name, number);
     else
         append_row(x, x->head[0].text);
 }
 
-/* Append a description of a table: "2 from line 17, 1200 rows of t Fx Fz". */
-static void
-list_table(const struct text *x, size_t number, char *list, size_t size)
-{
-    const struct sheet *t = &x->t;
-    size_t n = strlen(list);
-    int more = snprintf(list + n, size - n, "%s%zu from line %lu, %llu row%s of", number > 1 ? "; " : "",
-                        number, x->first, (unsigned long long)t->rows.n, PLURAL(t->rows.n));
-    for (size_t c = 0; c < t->n_columns && more >= 0 && n + (size_t)more < size; c++) {
-        n += (size_t)more;
-        more = snprintf(list + n, size - n, " %s", t->names->column[c].name);
-    }
-}
-
-/* Read the tables, up to the one that is wanted. */
+/* Read the tables, up to the one that is wanted.  If there are several and none is, the error lists them: "2 from line
+ * 17, 1200 rows of t Fx Fz". */
 static void
 read_tables(struct text *x)
 {
     struct sheet *t = &x->t;
     char list[300] = "";
+    size_t n = 0;                               /* letters of the list, or of what it would be with more room */
     for (size_t number = 1, wanted = t->opts->table;; number++) {
         while (x->status == SS_OK && !x->ended)
             read_line(x);
         if (x->status != SS_OK || number == wanted || (!x->another && number == 1 && wanted == 0))
             return;
-        list_table(x, number, list, sizeof list);
+        if (n < sizeof list)
+            n += (size_t)snprintf(list + n, sizeof list - n, "%s%zu from line %lu, %llu row%s of", number > 1 ? "; " : "",
+                                  number, x->first, (unsigned long long)t->rows.n, PLURAL(t->rows.n));
+        for (size_t c = 0; c < t->n_columns && n < sizeof list; c++)
+            n += (size_t)snprintf(list + n, sizeof list - n, " %s", t->names->column[c].name);
         if (!x->another) {
             ss_text_fail(x, SS_ETABLES, 0, "%zu table%s: %s", number, PLURAL(number), list);
             return;

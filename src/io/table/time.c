@@ -38,16 +38,13 @@ ss_sheet_warn(const struct sheet *t, ss_status about, const char *format, ...)
     t->opts->warn(about, text.text, t->opts->user);
 }
 
-/* The clock is opts->resample; check that the stamps can be resampled to it. */
+/* The clock is opts->resample; check that the stamps, which begin at t->names->start, can be resampled to it. */
 static ss_status
-find_resampled(struct sheet *t, struct stamps s, double usual, double *longest, ss_error *err)
+find_resampled(struct sheet *t, struct stamps s, double usual, double longest, ss_error *err)
 {
-    double start = 0, gap = -1, rate = t->names->rate = t->opts->resample;
-    *longest = LONGEST * usual;
+    double start = t->names->start, gap = -1, rate = t->names->rate = t->opts->resample;
     while (ss_stamps_next(&s))
-        if (s.n == 1)
-            t->names->start = start = s.stamp;
-        else if (gap < 0 && s.stamp - s.before > *longest)
+        if (s.n > 1 && gap < 0 && s.stamp - s.before > longest)
             gap = ss_resample_gap(s.before - start, s.stamp - start, rate);
     double samples = ss_resample_count(start, s.stamp, rate);
     if (samples > MOST_SAMPLES && samples / MOST_PER_STAMP >= (double)s.n + 1)
@@ -70,12 +67,17 @@ read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, s
     if (st != SS_OK)
         return st;
     if (t->opts->resample > 0 || t->opts->stamps) {
+        struct stamps first = s;
         double usual = ss_usual_step(s);
         *own = t->names->rate = 1 / usual;
-        t->names->start = ss_sheet_stamp(time, ss_kept_row(&t->rows, 0));
-        if (*own > SAME * t->opts->resample && t->opts->resample > 0)
+        ss_stamps_next(&first);
+        t->names->start = first.stamp;
+        if (!(t->opts->resample > 0))
+            return SS_OK;
+        if (*own > SAME * t->opts->resample)
             ss_sheet_warn(t, SS_OK, "%s: frequencies above %g Hz fold down", t->name, t->opts->resample / 2);
-        return t->opts->resample > 0 ? find_resampled(t, s, usual, &timing->longest, err) : SS_OK;
+        timing->longest = LONGEST * usual;
+        return find_resampled(t, s, usual, timing->longest, err);
     }
     timing->usual = gaps ? ss_usual_step(s) : 0;
     struct clock clock = { .usual = timing->usual, .taken = time->zero * time->factor / time->divisor,
@@ -128,18 +130,6 @@ check_rate(const struct sheet *t, const char *name, const struct time_unit *give
     return SS_OK;
 }
 
-/* What 1 in the last digit of the times in a column of days is [s], as far as doubles have it. */
-static double
-find_digit(struct sheet *t, size_t column, double zero)
-{
-    const double *row;
-    double days = 1, apart = nextafter(fabs(zero), INFINITY) - fabs(zero);
-    for (uint64_t i = 0; (row = ss_kept_row(&t->rows, i)) != NULL; i++)
-        while (days > 10 * apart && fabs(remainder(row[column] - zero, days)) > apart)
-            days /= 10;
-    return SECONDS_A_DAY * days;
-}
-
 /* The unit is that which the caller, the file or the column's name gives, or that of a date, else seconds. */
 static ss_status
 read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
@@ -162,7 +152,12 @@ read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
     const struct time_unit *unit = known != NULL ? known : ss_time_unit_find("s");
     double zero = unit->factor < SECONDS_A_DAY ? 0 : trunc(first);      /* so that no digit is lost */
     timing->time = (struct time_column){ column, t->counted.origin, zero, unit->factor, unit->divisor };
-    ss_status st = read_stamps(t, timing, zero != 0 ? find_digit(t, column, zero) : 0, &rate, err);
+    /* 1 in the last digit of the times in a column of days is so many days, as far as doubles have it */
+    double days = 1, apart = nextafter(fabs(zero), INFINITY) - fabs(zero);
+    for (uint64_t i = 0; zero != 0 && (row = ss_kept_row(&t->rows, i)) != NULL; i++)
+        while (days > 10 * apart && fabs(remainder(row[column] - zero, days)) > apart)
+            days /= 10;
+    ss_status st = read_stamps(t, timing, zero != 0 ? SECONDS_A_DAY * days : 0, &rate, err);
     if (st == SS_OK)
         st = check_rate(t, name, known, first, rate, err);
     else if ((st == SS_EUNEVEN || st == SS_EGAPS) && known == NULL) {
@@ -209,10 +204,9 @@ no_such_column(const struct sheet *t, const char *name, ss_error *err)
 {
     char list[300] = "";
     size_t length = 0, room = sizeof list - sizeof " ...";
-    for (size_t i = 0; i < t->n_columns && length < room; i++) {
-        size_t before = length;
-        length += (size_t)snprintf(list + length, room - length, "%s%s", i > 0 ? ", " : "",
-                                   t->names->column[i].name);
+    for (size_t i = 0, before; i < t->n_columns && length < room; i++) {
+        before = length;
+        length += (size_t)snprintf(list + length, room - length, "%s%s", i > 0 ? ", " : "", t->names->column[i].name);
         if (length >= room)
             strcpy(list + before, " ...");
     }
