@@ -78,7 +78,8 @@ give_frames(ss_source *s, double *const column[], size_t max, size_t *n, ss_erro
             break;
         there = f->bytes_left < there ? (size_t)f->bytes_left : there;
         if (there < frame && there > 0)
-            return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu bytes of row %llu", in->name, there, frame, row + 1);
+            return ss_fail(err, SS_EDATA, "%s: truncated: %zu of %zu bytes of row %llu", in->name, there, frame,
+                           row + 1);
         if (there < frame)
             return ss_fail(err, SS_EDATA, "%s: truncated: ends after row %llu, %llu bytes before the end that its "
                            "header gives", in->name, row, (unsigned long long)f->bytes_left);

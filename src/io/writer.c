@@ -187,14 +187,12 @@ begin_coefficients(struct stream *s, ss_error *err)
     const char *open_end = ss_header_find_note(s->head, "stream");
     s->open_end = open_end != NULL && strcmp(open_end, "yes") == 0;
     ss_status st = ss_header_gaps(&s->gap, &s->n_gaps, s->head, NULL);
-    if (st == SS_OK)
-        st = ss_header_select(&own, s->head, NULL, 0, 0, NULL);
+    if (st == SS_OK && (st = ss_header_select(&own, s->head, NULL, 0, 0, NULL)) == SS_OK)
+        own->has_time = 0;
     for (int i = 0; st == SS_OK && i < COEFFICIENT_COLUMNS; i++)
         st = ss_header_add_column(own, ss_coefficient_columns[i][0], ss_coefficient_columns[i][1], NULL);
-    if (st == SS_OK) {
-        own->has_time = 0;
+    if (st == SS_OK)
         st = s->format->begin(s->file, own, ss_kind_magic(SS_KIND_COEFFICIENTS), err);
-    }
     ss_header_free(own);
     return st;
 }

@@ -57,7 +57,8 @@ fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
             if (!isfinite(level[k]))
                 return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite", c->scale[s].f);
             f->anywhere = fmax(f->anywhere, level[k]);
-            if ((f->noise == NULL && (f->contour->top > 0 || level[k] <= f->outside)) || ss_coefficients_edge(c, s, k))
+            int is_known = f->noise == NULL && (f->contour->top > 0 || level[k] <= f->outside);
+            if (is_known || ss_coefficients_edge(c, s, k))
                 continue;
             f->outside = fmax(f->outside, level[k]);
             if (f->noise != NULL)

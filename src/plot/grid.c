@@ -48,7 +48,7 @@ ss_status
 ss_map_make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
 {
     size_t found = 0;
-    script_extent d = SCRIPT_NO_EXTENT, r = SCRIPT_NO_EXTENT;   /* differences of neighbours, and of their logarithms */
+    script_extent d = SCRIPT_NO_EXTENT, r = SCRIPT_NO_EXTENT;   /* of neighbours: differences, logarithms of ratios */
     *a = (map_axis){ .n = 0 };
     a->value = malloc((n + 1) * sizeof *a->value);
     if (a->value == NULL)

@@ -174,7 +174,8 @@ ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n, co
         ss_reader *of = k == 0 ? reader : own.over[k - 1];
         d.of[k] = calloc(l->n, sizeof *d.of[k]);
         st = d.of[k] == NULL ? ss_fail_memory(err, NULL)
-            : ss_traces_read(d.of[k], k == 0 ? &span : &ignored, of, l->column, l->n, k == 0 ? NAN : head->start, &own, err);
+            : ss_traces_read(d.of[k], k == 0 ? &span : &ignored, of, l->column, l->n, k == 0 ? NAN : head->start,
+                             &own, err);
         if (st == SS_OK && k > 0 && own.difference && l->panel[0] == 0)
             st = read_difference(&d.left[k], reader, *d.layer->column, of, *l->column, &own, err);
     }

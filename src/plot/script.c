@@ -55,16 +55,6 @@ ss_script_write_bytes(FILE *out, const char *bytes, size_t n, int escaped)
 
 /* XML, and so SVG, has no control characters and no U+FFFE and U+FFFF (XML 1.0, production Char), and
  * gnuplot writes the > of "]]>" as it is, which no text of XML may have (production CharData). */
-static int
-is_drawable(const char *text, size_t at, size_t n)
-{
-    const unsigned char *p = (const unsigned char *)text + at;
-    if (n == 1)
-        return p[0] >= 0x20 && p[0] != 0x7f && !(at >= 2 && memcmp(p - 2, "]]>", 3) == 0);
-    return n == 2 ? p[0] != 0xc2 || p[1] >= 0xa0
-        : n == 3 ? p[0] != 0xef || p[1] != 0xbf || p[2] < 0xbe : 1;
-}
-
 void
 ss_script_quote(FILE *out, const char *text, int in_lines)
 {
@@ -78,7 +68,10 @@ ss_script_quote(FILE *out, const char *text, int in_lines)
         } else if (length == 0) {
             escaped = ss_script_write_bytes(out, "\xef\xbf\xbd", 3, escaped);
         } else {
-            int drawable = is_drawable(text, i, length);
+            const unsigned char *p = (const unsigned char *)text + i;
+            int drawable = length == 1 ? p[0] >= 0x20 && p[0] != 0x7f && !(i >= 2 && memcmp(p - 2, "]]>", 3) == 0)
+                : length == 2 ? p[0] != 0xc2 || p[1] >= 0xa0
+                : length == 3 ? p[0] != 0xef || p[1] != 0xbf || p[2] < 0xbe : 1;
             escaped = ss_script_write_bytes(out, drawable ? text + i : " ", drawable ? length : 1, escaped);
         }
     }

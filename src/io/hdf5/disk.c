@@ -63,23 +63,15 @@ get_eof(const H5FD_t *file, H5FD_mem_t type)
     return ((const h5_disk *)file)->eof;
 }
 
-/* The head of a heap begins with FRHP, a version and the length of an address, of 3 bytes, and the length of
- * its filters.  An image of the cache, MDCI, would bring such heads unseen. */
-static int
-is_packed(const unsigned char *bytes, size_t size)
-{
-    return size >= 9 && ((memcmp(bytes, "FRHP", 4) == 0 && (bytes[7] | bytes[8]) != 0)
-                         || memcmp(bytes, "MDCI", 4) == 0);
-}
-
-/* Bytes that are not in the file read as zeros. */
+/* Bytes that are not in the file read as zeros.  The head of a heap begins with FRHP, a version and the length of an
+ * address, of 3 bytes, and the length of its filters.  An image of the cache, MDCI, would bring such heads unseen. */
 static herr_t
 read_bytes(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, size_t size, void *buffer)
 {
     (void)how;
     size_t all = size;
     h5_disk *f = (h5_disk *)file;
-    char *to = buffer;
+    char *to = buffer, *is = buffer;
     while (size > 0) {
         ssize_t n = pread(f->fd, to, size, (off_t)at);
         if (n < 0 && errno == EINTR)
@@ -93,7 +85,8 @@ read_bytes(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, size_t size, vo
         size -= (size_t)n;
     }
     memset(to, 0, size);
-    f->packed |= f->reading && type != H5FD_MEM_DRAW && is_packed(buffer, all);
+    f->packed |= f->reading && type != H5FD_MEM_DRAW && all >= 9
+        && ((memcmp(is, "FRHP", 4) == 0 && (is[7] | is[8]) != 0) || memcmp(is, "MDCI", 4) == 0);
     return f->packed ? -1 : 0;
 }
 

@@ -310,39 +310,15 @@ columns_of(const rows *s)
     return s->n_datasets > 1 || s->is_own ? 1 : s->base.head->n_columns - (s->times > 0);
 }
 
-/* Read n rows of dataset d, which has so many columns, into columns of the piece.  Values that are not finite
- * become NaN if there may be gaps, else SS_EDATA. */
-static void
-read_dataset(rows *s, size_t d, size_t n, size_t columns)
-{
-    char text[64];
-    double *x = columns == 1 ? s->value[d] : s->raw;
-    size_t row = (size_t)s->base.row;
-    if (!ss_h5_read_rows(s->dataset[d], s->by_columns, row, n, x))
-        ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
-    for (size_t i = 0; s->file.status == SS_OK && i < n * columns; i++) {
-        if (isfinite(x[i]))
-            continue;
-        x[i] = NAN;
-        if (s->gaps)
-            continue;
-        size_t place = s->by_columns ? i / n * s->n + row + i % n : row * columns + i;
-        snprintf(text, sizeof text, "value %zu is not finite", place + 1);
-        ss_h5_fail(&s->file, SS_EDATA, s->dataset[d], "", text);
-    }
-    for (size_t c = 0; columns > 1 && c < columns; c++)
-        for (size_t i = 0; i < n; i++)
-            s->value[c][i] = x[s->by_columns ? c * n + i : i * columns + c];
-}
-
-/* Read the next n rows.  Times of our own files are not given, but must be those of the clock. */
+/* Read the next n rows.  Times of our own files are not given, but must be those of the clock.  Values that are not
+ * finite become NaN if there may be gaps, else SS_EDATA. */
 static void
 read_piece(rows *s, size_t n)
 {
     const ss_header *head = s->base.head;
     double *times = s->is_own ? s->raw : s->value[head->n_columns - 1];
     char text[64];
-    size_t row = (size_t)s->base.row;
+    size_t row = (size_t)s->base.row, columns = columns_of(s);
     if (n > 0 && s->times > 0 && !ss_h5_read_rows(s->times, s->times_by_columns, row, n, times))
         ss_h5_fail(&s->file, SS_EIO, s->times, "", "cannot be read");
     for (size_t i = 0; s->is_own && s->file.status == SS_OK && i < n; i++)
@@ -350,8 +326,24 @@ read_piece(rows *s, size_t n)
             snprintf(text, sizeof text, "value %zu is not start + %zu / rate", row + i + 1, row + i);
             ss_h5_fail(&s->file, SS_EDATA, s->times, "", text);
         }
-    for (size_t d = 0; s->file.status == SS_OK && n > 0 && d < s->n_datasets; d++)
-        read_dataset(s, d, n, columns_of(s));
+    for (size_t d = 0; s->file.status == SS_OK && n > 0 && d < s->n_datasets; d++) {
+        double *x = columns == 1 ? s->value[d] : s->raw;
+        if (!ss_h5_read_rows(s->dataset[d], s->by_columns, row, n, x))
+            ss_h5_fail(&s->file, SS_EIO, s->dataset[d], "", "cannot be read");
+        for (size_t i = 0; s->file.status == SS_OK && i < n * columns; i++) {
+            if (isfinite(x[i]))
+                continue;
+            x[i] = NAN;
+            if (s->gaps)
+                continue;
+            size_t place = s->by_columns ? i / n * s->n + row + i % n : row * columns + i;
+            snprintf(text, sizeof text, "value %zu is not finite", place + 1);
+            ss_h5_fail(&s->file, SS_EDATA, s->dataset[d], "", text);
+        }
+        for (size_t c = 0; columns > 1 && c < columns; c++)
+            for (size_t i = 0; i < n; i++)
+                s->value[c][i] = x[s->by_columns ? c * n + i : i * columns + c];
+    }
     if (s->file.status != SS_OK)
         return;
     s->base.row += n;

@@ -351,13 +351,12 @@ write_all_events(h5_writer *w)
     for (size_t i = 0; kind != NULL && i < w->n_events; i++)
         snprintf(kind + i * KIND_LENGTH, KIND_LENGTH, "%s", ss_event_kind_name(event[i].kind));
     const dataset v[] = {
-        { .name = "t", .unit = "s", .long_name = "time", .type = H5T_IEEE_F64LE, .values = &event->t },
-        { .name = "kind", .unit = "", .long_name = "what begins: stick, slip, or slip the other way", .type = text,
-          .values = kind },
-        { .name = "x", .unit = "m", .long_name = "displacement", .type = H5T_IEEE_F64LE, .values = &event->x },
-        { .name = "v", .unit = "m/s", .long_name = "velocity", .type = H5T_IEEE_F64LE, .values = &event->v },
-        { .name = "direction", .unit = "1", .long_name = "sign of the slip that begins, or ended at a stick",
-          .type = H5T_STD_I8LE, .values = &event->direction },
+        { "t", "s", "time", H5T_IEEE_F64LE, &event->t, 0, 0 },
+        { "kind", "", "what begins: stick, slip, or slip the other way", text, kind, 0, 0 },
+        { "x", "m", "displacement", H5T_IEEE_F64LE, &event->x, 0, 0 },
+        { "v", "m/s", "velocity", H5T_IEEE_F64LE, &event->v, 0, 0 },
+        { "direction", "1", "sign of the slip that begins, or ended at a stick", H5T_STD_I8LE, &event->direction, 0,
+          0 },
     };
     if (kind == NULL && w->file.status == SS_OK)
         w->file.status = SS_ENOMEM;
@@ -421,13 +420,10 @@ begin_wavelet(h5_writer *w, const ss_coefficients *grid)
     write_number(w, w->group, "dense", H5T_STD_I8LE, w->dense);
     write_number(w, w->group, "scales", H5T_STD_I32LE, (double)w->n_scales);
     const dataset v[] = {
-        { .name = "scale", .unit = "s", .long_name = "scale a", .type = H5T_IEEE_F64LE, .values = &w->scale->a },
-        { .name = "frequency", .unit = "Hz", .long_name = "frequency label omega_c / (2 pi a)",
-          .type = H5T_IEEE_F64LE, .values = &w->scale->f },
-        { .name = "m", .unit = "1", .long_name = "log2 of the scale in seconds", .type = H5T_IEEE_F64LE,
-          .values = &w->scale->m },
-        { .name = "j", .unit = "1", .long_name = "number of the scale, a = 2^(j/voices) s", .type = H5T_STD_I32LE,
-          .values = &w->scale->j },
+        { "scale", "s", "scale a", H5T_IEEE_F64LE, &w->scale->a, 0, 0 },
+        { "frequency", "Hz", "frequency label omega_c / (2 pi a)", H5T_IEEE_F64LE, &w->scale->f, 0, 0 },
+        { "m", "1", "log2 of the scale in seconds", H5T_IEEE_F64LE, &w->scale->m, 0, 0 },
+        { "j", "1", "number of the scale, a = 2^(j/voices) s", H5T_STD_I32LE, &w->scale->j, 0, 0 },
     };
     write_lists(w, w->group, v, sizeof v / sizeof *v, w->n_scales, sizeof *w->scale);
     if (w->dense)
@@ -483,13 +479,10 @@ open_datasets(h5_writer *w, size_t i, double most)
     d->single = w->tolerance >= 1e-7 && most >= 1e-20 && most <= 1e20;
     hid_t group = w->dense ? w->group : d->group, type = d->single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
     const dataset v[] = {
-        { .name = "time", .unit = "s", .long_name = "time", .type = H5T_IEEE_F64LE, .chunk = chunk },
-        { .name = "re", .unit = w->unit, .long_name = "real part of the wavelet coefficient", .type = type,
-          .chunk = chunk, .in_rows = 1 },
-        { .name = "im", .unit = w->unit, .long_name = "imaginary part of the wavelet coefficient", .type = type,
-          .chunk = chunk, .in_rows = 1 },
-        { .name = "edge", .unit = "1", .long_name = "1 inside the cone of influence", .type = H5T_STD_U8LE,
-          .chunk = chunk, .in_rows = 1 },
+        { "time", "s", "time", H5T_IEEE_F64LE, NULL, chunk, 0 },
+        { "re", w->unit, "real part of the wavelet coefficient", type, NULL, chunk, 1 },
+        { "im", w->unit, "imaginary part of the wavelet coefficient", type, NULL, chunk, 1 },
+        { "edge", "1", "1 inside the cone of influence", H5T_STD_U8LE, NULL, chunk, 1 },
     };
     for (size_t k = 0; k < PARTS; k++) {
         d->part[k] = k == TIME ? new_dataset(w, group, &v[k], 1, &length, NULL)
@@ -548,7 +541,8 @@ append_coefficients(h5_writer *w, const ss_scale *scale, size_t first, size_t n,
         m = n < PIECE ? n : PIECE;
         split(w->value[0], w->value[1], x, m, rounding_of(w->tolerance, d->most));
         for (size_t k = 0; k < m; k++)
-            w->edge[k] = (unsigned char)wavelet_edge(scale, d->done + k, samples, w->rate, w->start, w->gap, w->n_gaps);
+            w->edge[k] = (unsigned char)wavelet_edge(scale, d->done + k, samples, w->rate, w->start, w->gap,
+                                                     w->n_gaps);
         write_part(w, shared->part[RE], shared->single, rank, at, m, w->value[0]);
         write_part(w, shared->part[IM], shared->single, rank, at, m, w->value[1]);
         write_values(w, shared->part[EDGE], rank, at, m, H5T_NATIVE_UCHAR, w->edge);
@@ -733,7 +727,8 @@ static void
 free_writer(ss_writer *base)
 {
     h5_writer *w = (h5_writer *)base;
-    w->file.status = w->file.status == SS_OK ? SS_STOP : w->file.status;       /* a file that has not ended is incomplete */
+    if (w->file.status == SS_OK)
+        w->file.status = SS_STOP;               /* a file that has not ended is incomplete */
     H5E_BEGIN_TRY {
         close_file(w);
     } H5E_END_TRY

@@ -77,8 +77,8 @@ is_no_number(const char *cell)
 }
 
 /* SCPI writes 9.9E37 for infinity, and 9.91E37 for no number. */
-int
-ss_is_value(double x)
+static int
+is_value(double x)
 {
     return isfinite(x) && !(fabs(x) >= 9.9e37 && fabs(x) <= 9.91e37);
 }
@@ -101,7 +101,7 @@ ss_cell_read(char *cell, char separator, double *x)
     if (comma != NULL)
         *comma = ',';
     if (number)
-        return ss_is_value(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
+        return is_value(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
     if (is_no_number(cell))
         return CELL_NOT_FINITE;
     return *cell >= '0' && *cell <= '9' && ss_stamp_read(cell).parts != 0 ? CELL_STAMP : CELL_TEXT;

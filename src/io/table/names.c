@@ -300,7 +300,8 @@ label_columns(struct text *x, const char *const *word, size_t first, size_t step
         size_t i = (c - first) / step + 1;
         const char *cell = c >= first && (c - first) % step == 0 && i <= n ? x->cell[i] : "";
         if (head != NULL)
-            x->status = ss_header_add_column(head, *cell != '\0' ? cell : old->column[c].name, old->column[c].unit, NULL);
+            x->status = ss_header_add_column(head, *cell != '\0' ? cell : old->column[c].name, old->column[c].unit,
+                                             NULL);
         else if (*cell != '\0')
             set_unit(x, c, cell);
     }

@@ -436,8 +436,9 @@ read_tables(struct text *x)
         if (x->status != SS_OK || number == wanted || (!x->another && number == 1 && wanted == 0))
             return;
         if (n < sizeof list)
-            n += (size_t)snprintf(list + n, sizeof list - n, "%s%zu from line %lu, %llu row%s of", number > 1 ? "; " : "",
-                                  number, x->first, (unsigned long long)t->rows.n, PLURAL(t->rows.n));
+            n += (size_t)snprintf(list + n, sizeof list - n, "%s%zu from line %lu, %llu row%s of",
+                                  number > 1 ? "; " : "", number, x->first, (unsigned long long)t->rows.n,
+                                  PLURAL(t->rows.n));
         for (size_t c = 0; c < t->n_columns && n < sizeof list; c++)
             n += (size_t)snprintf(list + n, sizeof list - n, " %s", t->names->column[c].name);
         if (!x->another) {

@@ -52,8 +52,6 @@ void ss_text_fail(struct text *x, ss_status status, unsigned long line, const ch
 char *ss_cell_trim(char *p);
 /* The number in a cell, with a decimal comma unless commas separate cells. */
 enum cell_kind ss_cell_read(char *cell, char separator, double *number);
-/* 1 if a number is finite, and none that instruments write in place of one. */
-int ss_is_value(double x);
 /* 1 if the cell has separators of thousands, 1,234.5 or 1'234; a number such as 1,234 may be one that
  * has a decimal comma. */
 int ss_cell_is_grouped(const char *cell);
