@@ -133,8 +133,6 @@ void ss_script_write_decades(FILE *out, const char *axis, double lo, double hi);
 /* Set the vertical range, widened to powers of ten, and its tics as above; nothing if lo > hi. */
 void ss_script_write_decade_range(FILE *out, double lo, double hi);
 
-/* --- time.c --------------------------------------------------------------------------------- */
-
 /* The part of a record that is drawn. */
 typedef struct script_span {
     double from, to;            /* [s] on the source's clock */

@@ -1,10 +1,25 @@
-/* cells.c -- divide lines of a text table into cells, and read the numbers in cells. */
+/* cells.c -- divide lines of a text table into cells, read the numbers in cells, and say what is wrong in a line. */
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <stickslip/number.h>
 #include "io/table/text.h"
+
+void
+ss_text_fail(struct text *x, ss_status status, unsigned long line, const char *format, ...)
+{
+    ss_error why;
+    va_list args;
+    if (x->status != SS_OK)
+        return;
+    va_start(args, format);
+    ss_print_text(why.text, sizeof why.text, format, args);
+    va_end(args);
+    x->status = line > 0 ? ss_fail(x->err, status, "%s:%lu: %s", x->t.name, line, why.text)
+        : ss_fail(x->err, status, "%s: %s", x->t.name, why.text);
+}
 
 char *
 ss_cell_trim(char *p)

@@ -13,7 +13,6 @@
 #include "base/error.h"
 #include "signal/header.h"
 #include "io/table/text.h"
-#include "io/table/time_unit.h"
 
 /* --- units --------------------------------------------------------------------------------- */
 

@@ -71,6 +71,10 @@ struct timing {
     double longest;             /* [s] between two stamps without a gap; 0: they are not resampled */
 };
 
+/* The unit of time with this name, in upper or lower case; NULL: there is none. */
+const struct time_unit *ss_time_unit_find(const char *name);
+/* Does a column with this name hold times, as Time, t, time_ms, ms and Seconds do? */
+int ss_is_called_time(const char *name);
 /* Find the column of time, and in t->names the clock on which the rows are samples (time.c). */
 ss_status ss_sheet_find_clock(struct sheet *t, struct timing *timing, ss_error *err);
 /* Do the rows, which are all in memory, lie on a clock without rounding?  SS_ENOMEM, without a text. */

@@ -5,7 +5,6 @@
  * like, cell by cell.  The lines above it are searched for names and units (names.c).  A line of words below the
  * rows begins another table if rows follow it again. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -17,20 +16,6 @@
 #include "io/table/text.h"
 
 enum { HEADER_LINES = 1000 };
-
-void
-ss_text_fail(struct text *x, ss_status status, unsigned long line, const char *format, ...)
-{
-    ss_error why;
-    va_list args;
-    if (x->status != SS_OK)
-        return;
-    va_start(args, format);
-    ss_print_text(why.text, sizeof why.text, format, args);
-    va_end(args);
-    x->status = line > 0 ? ss_fail(x->err, status, "%s:%lu: %s", x->t.name, line, why.text)
-        : ss_fail(x->err, status, "%s: %s", x->t.name, why.text);
-}
 
 /* --- lines --------------------------------------------------------------------------------- */
 

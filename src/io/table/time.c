@@ -1,4 +1,7 @@
-/* time.c -- find the column of time of a table, and the clock that its numbers, dates or times of day show. */
+/* time.c -- find the column of time of a table, by its name or unit, and the clock that its numbers, dates or times of
+ * day show. */
+#include <stickslip/signal.h>
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -10,7 +13,103 @@
 #include "signal/resample.h"
 #include "io/table/clock.h"
 #include "io/table/sheet.h"
-#include "io/table/time_unit.h"
+
+/* --- units of numbers that are times -------------------------------------------------------- */
+
+#define SECONDS_A_DAY 86400.
+
+/* Seconds are numbers * factor / divisor. */
+struct time_unit {
+    const char *name, *others;  /* the usual name; other names, with blanks between them */
+    double factor, divisor;
+    int is_name;                /* 1: a column with only this name holds times */
+};
+
+static const struct time_unit units_of_time[] = {
+    { "s", "sec secs second seconds", 1, 1, 0 },
+    { "ms", "msec millisecond milliseconds", 1, 1e3, 1 },
+    { "us", "usec microsecond microseconds \u00b5s \u03bcs", 1, 1e6, 1 },
+    { "ns", "nsec nanosecond nanoseconds", 1, 1e9, 1 },
+    { "min", "minute minutes", 60, 1, 0 },
+    { "h", "hr hour hours", 3600, 1, 0 },
+    { "d", "day days datenum mjd", SECONDS_A_DAY, 1, 0 }
+};
+enum { UNITS_OF_TIME = sizeof units_of_time / sizeof *units_of_time };
+
+const char *
+ss_time_unit_name(size_t i)
+{
+    return i < UNITS_OF_TIME ? units_of_time[i].name : NULL;
+}
+
+/* Is this word of n bytes in the list, in upper or lower case? */
+static int
+is_in_list(const char *list, const char *word, size_t n)
+{
+    for (; n > 0 && *list != '\0'; list += strcspn(list, " "), list += *list == ' ')
+        if (strcspn(list, " ") == n && strncasecmp(list, word, n) == 0)
+            return 1;
+    return 0;
+}
+
+const struct time_unit *
+ss_time_unit_find(const char *name)
+{
+    for (const struct time_unit *unit = units_of_time; unit < units_of_time + UNITS_OF_TIME; unit++)
+        if (strcasecmp(unit->name, name) == 0 || is_in_list(unit->others, name, strlen(name)))
+            return unit;
+    return NULL;
+}
+
+/* The unit that is the name of a column or its end, as in ms and Time_ms; NULL: there is none.  *length
+ * becomes the number of letters before it. */
+static const struct time_unit *
+unit_in(const char *name, size_t *length)
+{
+    size_t n = strlen(name);
+    while (n > 0 && strchr("_.-", name[n - 1]) == NULL)
+        n--;
+    const struct time_unit *unit = ss_time_unit_find(name + n);
+    *length = unit == NULL ? strlen(name) : n > 0 ? n - 1 : 0;
+    return unit;
+}
+
+int
+ss_is_called_time(const char *name)
+{
+    static const char words[] = "t time timestamp time_stamp datetime date_time epoch unix_time zeit temps "
+        "tempo tiempo elapsed elapsed_time x_value";
+    static const char alone[] = "sec second seconds datenum mjd";
+    size_t length;
+    name += *name == '%';                       /* MATLAB's comment */
+    const struct time_unit *unit = unit_in(name, &length);
+    if (unit != NULL && length == 0)
+        return unit->is_name || is_in_list(alone, name, strlen(name));
+    return is_in_list(words, name, length);
+}
+
+/* The unit in which a number is a date between 2000 and 2100, counted from 1970; NULL: there is none. */
+static const struct time_unit *
+unit_of_date(double number)
+{
+    for (size_t i = 0; i < 4; i++) {
+        double seconds = number / units_of_time[i].divisor;
+        if (seconds >= 946684800 && seconds < 4102444800)
+            return &units_of_time[i];
+    }
+    return NULL;
+}
+
+/* Is this the number of a day of our time, as Excel, MATLAB or astronomers count days? */
+static int
+is_day_now(double number)
+{
+    return (number >= 20000 && number < 80000)          /* Excel's days of 1954 to 2119, MJD of 1913 to 2077 */
+        || (number >= 690000 && number < 770000)        /* MATLAB's of 1889 to 2108 */
+        || (number >= 2430000 && number < 2490000);     /* Julian days of 1941 to 2105 */
+}
+
+/* --- clocks ---------------------------------------------------------------------------------- */
 
 enum { GAPS_MOST = 1000 };      /* at most so many samples for each one that is not missing */
 #define SAME 1.1                /* times a rate: that of uneven stamps is known no better */
@@ -97,7 +196,7 @@ read_stamps(struct sheet *t, struct timing *timing, double digit, double *own, s
 static int
 are_days(double first, double rate)
 {
-    if (!ss_is_day_now(first) || !(rate >= LEAST_IN_DAYS * SECONDS_A_DAY * (1 - 1e-9)))
+    if (!is_day_now(first) || !(rate >= LEAST_IN_DAYS * SECONDS_A_DAY * (1 - 1e-9)))
         return 0;
     int digits = ss_clock_digits(rate / SECONDS_A_DAY);
     return rate > MOST_IN_SECONDS || (digits <= ROUND && digits < ss_clock_digits(rate));
@@ -143,10 +242,10 @@ read_clock(struct sheet *t, size_t column, struct timing *timing, ss_error *err)
     for (uint64_t i = 0; isnan(first) && (row = ss_kept_row(&t->rows, i)) != NULL; i++)
         first = row[column];
     const struct time_unit *known = *own != '\0' ? ss_time_unit_find(own) : strcasecmp(name, "x_value") == 0
-        ? ss_time_unit_find("s") : ss_time_unit_in(name, &length);
+        ? ss_time_unit_find("s") : unit_in(name, &length);
     if (known == NULL && *own != '\0')
         return ss_fail(err, SS_EDATA, "%s: column %s: unit '%.40s' is not one of time", t->name, name, own);
-    if (known == NULL && (known = ss_time_unit_of_date(first)) != NULL)
+    if (known == NULL && (known = unit_of_date(first)) != NULL)
         ss_sheet_warn(t, SS_EUNIT, "%s: column %s has no unit and is read in %s since 1970", t->name, name,
                       known->name);
     const struct time_unit *unit = known != NULL ? known : ss_time_unit_find("s");
