@@ -5,6 +5,8 @@
 #include <string.h>
 #include <strings.h>
 #include <stickslip/number.h>
+#include "base/error.h"
+#include "base/number.h"
 #include "io/table/text.h"
 
 void
