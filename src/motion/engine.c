@@ -53,20 +53,17 @@ ss_engine_free(engine *e)
     free(e);
 }
 
-/* With the step caps of motion.h the next term is (2 pi / 40)^12 / 12! = 5e-19 of the amplitude. */
-enum { LINEAR_DEGREE = 11 };
-
 void
 ss_engine_expand(engine *e)
 {
     const state *m = &e->m->now;
-    double step[LINEAR_DEGREE + 1];
+    double step[MOST_SERIES + 1];
     if (e->series.degree > 0 || !m->model->linear)
         return;
-    for (int n = 0; n <= LINEAR_DEGREE; n++)
+    e->series.degree = e->type->degree;
+    for (int n = 0; n <= e->series.degree; n++)
         step[n] = e->h / (n + 1);
-    m->model->series(m, step, LINEAR_DEGREE, e->series.c);
-    e->series.degree = LINEAR_DEGREE;
+    m->model->series(m, step, e->series.degree, e->series.c);
     e->series.per_unit = 1 / e->h;
 }
 
@@ -119,9 +116,8 @@ ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err)
     const state *m = &e->m->now;
     int unresolved = 0, first = 0;
     *ends = 0;
-    if (!e->clear)
-        ss_engine_expand(e);
-    for (e->ended = 0; e->ended < m->n_bounds && !e->clear; e->ended++) {
+    ss_engine_expand(e);
+    for (e->ended = 0; e->ended < m->n_bounds; e->ended++) {
         const bound *b = &m->bound[e->ended];
         double s;
         int found = e->series.degree > 0 ? ends_by_series(e, b, &s, &unresolved) : ends_by_steps(e, b, &s);
@@ -177,7 +173,7 @@ ss_engine_next_mode(engine *e, int still, double s, ss_event *event)
 ss_status
 ss_engine_step(engine *e, double h_max, ss_error *err)
 {
-    e->clear = e->series.degree = 0;
+    e->series.degree = 0;
     ss_status st = e->type->step(e, h_max, err);
     if (st != SS_OK || 0 * e->dq1[0] + 0 * e->dq1[1] + 0 * e->dq1[2] == 0)
         return st;

@@ -23,12 +23,13 @@ typedef struct series {
 
 struct engine_type {
     size_t size;                                /* of the engine, which begins with a struct engine */
+    int degree;                                 /* of the series of its longest steps in a linear mode */
     /* Fill in what is its own.  May be NULL. */
     ss_status (*make)(engine *e, ss_error *err);
     /* The motion has entered a mode: discard what belongs to the one before. */
     void (*begin)(engine *e);
     /* Take one step from now and fill h, q1, dq1.  The step is at most h_max long, but may be
-     * longer if the guard cannot reach 0 within it. */
+     * longer if its series shows all events. */
     ss_status (*step)(engine *e, double h_max, ss_error *err);
     /* Search the end of the mode without steps, up to s_max from now.  Returns 1: it is at
      * *s_event; 0: it is later, and h, q1 and dq1 are those of s_max; -1: only steps can find it.
@@ -61,7 +62,6 @@ struct engine {
     double h;                               /* of the last step */
     double dq0[MAX_DIM];                    /* rate of change of the state at its start */
     double q1[MAX_DIM], dq1[MAX_DIM];       /* state and rate at its end */
-    int clear;                              /* 1: step() has proven that it contains no event */
     int ended;                              /* the number of the bound that ends the mode in this step */
     series series;                          /* of the last step */
     int lands_on_samples;                   /* 1: at() gives the state at the nearer end */

@@ -51,20 +51,6 @@ ss_walk_at(walk *w, double s, double q[], double dqdt[])
     memset(dqdt, 0, sizeof m->q);
 }
 
-static ss_status
-advance(walk *w, double longest, ss_error *err)
-{
-    ss_status st = ss_engine_step(w->e, fmin(w->cap, longest), err);
-    if (st != SS_OK)
-        return st;
-    if (w->e->h > longest) {            /* steps of an exact engine may be longer than asked for */
-        w->e->h = longest;
-        ss_walk_at(w, longest, w->e->q1, w->e->dq1);
-    }
-    w->h = w->e->h;
-    return ss_engine_ends_within(w->e, &w->ends, &w->h, err);
-}
-
 ss_status
 ss_walk_leg(walk *w, double longest, ss_error *err)
 {
@@ -84,8 +70,18 @@ ss_walk_leg(walk *w, double longest, ss_error *err)
         return SS_OK;
     }
     w->h = longest;
-    w->ends = e->type->ahead != NULL && !w->by_steps ? e->type->ahead(e, longest, &w->h) : -1;
-    return w->ends >= 0 ? SS_OK : advance(w, longest, err);
+    w->ends = e->type->ahead != NULL ? e->type->ahead(e, longest, &w->h) : -1;
+    if (w->ends >= 0)
+        return SS_OK;
+    ss_status st = ss_engine_step(e, fmin(w->cap, longest), err);
+    if (st != SS_OK)
+        return st;
+    if (e->h > longest) {               /* steps of an exact engine may be longer than asked for */
+        e->h = longest;
+        ss_walk_at(w, longest, e->q1, e->dq1);
+    }
+    w->h = e->h;
+    return ss_engine_ends_within(e, &w->ends, &w->h, err);
 }
 
 ss_status

@@ -16,7 +16,6 @@ typedef struct walk {
     engine *e;
     const struct method *how;
     int slips;                      /* 1: it started in slip */
-    int by_steps;                   /* 1: events are sought in steps, even if the engine can look ahead */
     double cap;                     /* the longest step in the present mode [s] */
     unsigned long max_steps;        /* 0: no limit */
     double lasted;                  /* duration of the present mode before the leg [s] */
