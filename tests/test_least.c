@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/least.h"
-#include "find/colour.h"
+#include "find/medians.h"
 #include "uniform.h"
 #include "unit.h"
 

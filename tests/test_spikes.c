@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stickslip.h>
 #include "find/drops.h"
-#include "find/extent.h"
 #include "find/fitter.h"
 #include "find/hum.h"
 #include "find/line.h"

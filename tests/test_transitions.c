@@ -9,7 +9,7 @@
 #include "rig.h"
 #include "shipped.h"
 #include "unit.h"
-#include "find/slope.h"
+#include "find/numbers.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 

@@ -4,7 +4,7 @@
  * the samples counts.  Noise of 1/f is correlated over longer times; the number is then the sum of
  * the correlations, up to the first that is not positive.  The larger of the two numbers is used.
  */
-#include "find/colour.h"
+#include "find/medians.h"
 
 #include <math.h>
 

@@ -51,7 +51,6 @@
 #include "base/gauss.h"
 #include "base/versions.h"
 #include "find/judgement.h"
-#include "find/period.h"
 
 #define POINTS 256.0            /* in a period while the lag is searched: more are averaged */
 #define WIDTH 0.2               /* relative difference of a cycle's period from the record's, at most */

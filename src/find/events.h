@@ -9,6 +9,12 @@
 
 #define EVENT_CLEAR 6.0         /* [dB] above threshold or the next weaker one: an event is no swell of noise */
 
+static inline int
+is_event(const ss_spike *spike)
+{
+    return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
+}
+
 /* Find all spikes of a source, whose memory is freed.  n = 0 if no |W| exceeds the noise. */
 ss_status ss_spikes_find(ss_spikes **out, row_source *source);
 void ss_spikes_free(ss_spikes *found);          /* NULL is allowed */
@@ -36,6 +42,11 @@ typedef struct ss_bursts {
  * length and shape.  They are the maxima of |W| at the scale where they exceed the noise most, at most range dB
  * below the strongest. */
 ss_status ss_bursts_find(ss_bursts *out, row_source *source, double range);
+/* Find the first and the last sample of the event about sample `at`: those farthest from it, within win,
+ * that are off a line through the quiet samples before and behind the event.  Both become `at` if too few
+ * samples are quiet.  period: of the oscillation that shows the event best, in samples. */
+ss_window ss_extent(const double *x, ss_window win, size_t at, double period);
+
 const char *ss_spike_kind_name(ss_spike_kind kind);     /* "glitch", "jump", "kink", "bend" */
 
 #endif

@@ -12,7 +12,6 @@
 #include "base/progress.h"
 #include "find/maxima.h"
 #include "find/numbers.h"
-#include "find/events.h"
 #include "find/hum.h"
 #include "find/search.h"
 #include "map/map.h"
@@ -107,8 +106,7 @@ find_repetition(search *s)
 static ss_status
 report_progress(const search *s, double part)
 {
-    part = s->is_second ? FITTED + (1 - FITTED) * part : part;
-    return ss_progress_at(&s->opts->progress, part);
+    return ss_progress_at(&s->opts->progress, s->is_second ? FITTED + (1 - FITTED) * part : part);
 }
 
 static int
@@ -156,7 +154,6 @@ find(search *s, double *x, size_t column, ss_error *err)
     /* what needs no map comes before the map takes its memory */
     st = find_repetition(s);
     ss_row_source_init(s->rows, s->x, s->n, s->rate, s->gap, s->n_gaps);
-    s->rows->keeps_heads = isnan(s->out->number[SS_REPETITION_FREQUENCY].value);  /* single events may be sought */
     if (st == SS_OK)
         st = ss_spikes_find(&s->out->spikes, s->rows);
     if (st == SS_OK)
@@ -181,18 +178,6 @@ find(search *s, double *x, size_t column, ss_error *err)
     for (size_t i = 0; i < s->n && s->is_cleaned; i++)
         x[i] = s->x[i] * s->largest;
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));
-}
-
-/* Make room for the features of a recording of which nothing is known yet. */
-static ss_features *
-new_features(void)
-{
-    ss_features *out = calloc(1, sizeof *out);
-    for (int k = 0; out != NULL && k < SS_FEATURE_NUMBERS; k++)
-        out->number[k] = no_number;
-    if (out != NULL)
-        out->number[SS_SLIPS].value = 0;
-    return out;
 }
 
 SS_OPTIONS(ss_features_opts, defaults)
@@ -241,26 +226,23 @@ ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, c
     memcpy(x, signal->values + column * n, n * sizeof *x);
     ss_features *found = NULL;
     for (int pass = 0, again = 1; again && st == SS_OK; pass++) {
-        search s = { .signal = signal, .opts = &opts, .n = n, .rate = signal->head->rate };
-        s.part = part;
-        s.x = x + n;
-        s.gap = gap;
-        s.n_gaps = n_gaps;
-        s.rows = &(row_source){ 0 };
-        s.is_second = s.is_cleaned = pass > 0;
-        s.quantity = ss_column_quantity(&signal->head->column[column]);
+        search s = { .signal = signal, .opts = &opts, .n = n, .rate = signal->head->rate, .part = part, .x = x + n,
+                     .gap = gap, .n_gaps = n_gaps, .rows = &(row_source){ 0 }, .is_second = pass > 0,
+                     .is_cleaned = pass > 0, .quantity = ss_column_quantity(&signal->head->column[column]) };
         ss_features_free(found);
-        s.out = found = new_features();
+        s.out = found = calloc(1, sizeof *found);
+        for (int k = 0; found != NULL && k < SS_FEATURE_NUMBERS; k++)
+            found->number[k] = no_number;
+        if (found != NULL)
+            found->number[SS_SLIPS].value = 0;
         st = found == NULL ? ss_fail_memory(err, NULL) : n > 0 ? find(&s, x, column, err) : SS_ESCALE;
         again = s.is_cleaned && !s.is_second;
         ss_coefficients_free(s.map);
         free(s.found);
     }
     if (st == SS_ESCALE && !(opts.fmin > 0)) {
-        static const char why[] = "the recording is too short";
-        say(found, SS_SLIPS, why);
-        say(found, SS_REPETITION_FREQUENCY, why);
-        say(found, SS_TRANSITION_FREQUENCY, why);
+        found->number[SS_SLIPS].why = found->number[SS_REPETITION_FREQUENCY].why
+            = found->number[SS_TRANSITION_FREQUENCY].why = "the recording is too short";
         st = SS_OK;
     }
     if (st == SS_OK && found->spikes == NULL && (found->spikes = calloc(1, sizeof *found->spikes)) == NULL)

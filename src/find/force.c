@@ -10,15 +10,14 @@
  * Falls need a height (drops.c) that separates them from the noise.  Reversals are counted with a
  * hysteresis of half the level at which the force stays, so that ramps in which nothing breaks away
  * are none. */
-#include "find/force.h"
+#include "find/search.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "find/drops.h"
-#include "find/loading.h"
-#include "find/reversals.h"
+#include "find/medians.h"
 #include "signal/gaps.h"
 
 #define SLOWER 1.05             /* factor: less may be made by the sampling of turning points */
@@ -75,19 +74,6 @@ is_clipped(const double *x, size_t n)
     return highs >= FEW || lows >= FEW;
 }
 
-/* Keep the falls that no gap cuts, of n.  Returns their number. */
-static size_t
-keep_whole(const search *s, ss_drop *drop, size_t n)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < n; i++) {
-        double t = (double)drop[i].high / s->rate, end = (double)drop[i].low / s->rate;
-        if (!ss_gaps_near(s->gap, s->n_gaps, 0.5 * (t + end), 0.5 * (end - t)))
-            drop[kept++] = drop[i];
-    }
-    return kept;
-}
-
 /* Find the falls of x, which is the signal or its negative: those by the height that is asked for, or else by the
  * height that falls have.  Where they are slower than the rises, x is upside down, as its sign is that of an
  * offset: then it is turned, once.  So is a force of both signs.  A column of unknown quantity
@@ -113,10 +99,15 @@ find_falls(search *s, double *x, int *decided)
         free(drop);
         drop = NULL;
         st = ss_drops_find(&drop, &n, x, s->n, typical.height, reload);
-        if (st == SS_OK) {
-            n = keep_whole(s, drop, n);
-            st = ss_drops_without_glitches(y, x, s->n, drop, n);
+        size_t kept = 0;
+        for (size_t i = 0; st == SS_OK && i < n; i++) {         /* those that no gap cuts */
+            double t = (double)drop[i].high / s->rate, end = (double)drop[i].low / s->rate;
+            if (!ss_gaps_near(s->gap, s->n_gaps, 0.5 * (t + end), 0.5 * (end - t)))
+                drop[kept++] = drop[i];
         }
+        n = kept;
+        if (st == SS_OK)
+            st = ss_drops_without_glitches(y, x, s->n, drop, n);
         if (st == SS_OK && asked == 0)
             quicker = compare_falls(y, drop, n, has_both ? QUICK : SLOWER);
         if (st != SS_OK || quicker >= 0 || !named || is_turned)
@@ -147,14 +138,6 @@ find_falls(search *s, double *x, int *decided)
     return st;
 }
 
-/* A quantile of n samples, which are copied. */
-static double
-quantile(const double *x, size_t n, double part, double *copy)
-{
-    memcpy(copy, x, n * sizeof *x);
-    return gsl_stats_select(copy, 1, n, (size_t)(part * (double)(n - 1)));
-}
-
 ss_status
 ss_force_find(search *s, int *decided)
 {
@@ -165,7 +148,8 @@ ss_force_find(search *s, int *decided)
     if (x == NULL)
         return SS_ENOMEM;
     /* the sign of nearly all samples; 0: both signs are there */
-    double low = quantile(s->x, s->n, OUTLIERS, x), high = quantile(s->x, s->n, 1 - OUTLIERS, x);
+    const ss_window all = { 0, s->n };
+    double low = ss_quantile(s->x, all, OUTLIERS, x), high = ss_quantile(s->x, all, 1 - OUTLIERS, x);
     double sign = s->opts->drop > 0 || low > 0 ? 1 : high < 0 ? -1 : 0;
     ss_status st = SS_OK;
     for (size_t i = 0; i < s->n; i++)

@@ -23,7 +23,7 @@
  * A filter's corner has no peak, and the spectrum ends there.  The rig's own spring rings with sqrt(k/m) while it
  * slips.
  */
-#include "find/identity.h"
+#include "find/search.h"
 
 #include <complex.h>
 #include <math.h>
@@ -53,18 +53,6 @@ enum { STICKS = 24, MORE = 5 }; /* most sticks that are looked behind; see CHANC
 #define ONE 0.5                 /* of what rings: with more in one sinusoid that runs through all sticks it is a hum */
 #define UNDAMPED 0.01           /* error of the damping re the frequency */
 enum { TRIALS = 200 };          /* most of its frequencies to either side */
-
-/* --- the rig's spring ------------------------------------------------------------------------ */
-
-/* Is the frequency that of the rig's own mass and spring, sqrt(k/m), within errors? */
-static int
-is_spring(const search *s, const ss_value all[2])
-{
-    double m = s->opts->mass, k = s->opts->stiffness, r = hypot(all[0].value, all[1].value);
-    double error = hypot(all[0].value * all[0].error, all[1].value * all[1].error) / r;
-    double w = r * s->rate, total = m * w * w;
-    return m > 0 && k > 0 && fabs(total - k) <= SIGMAS * 2 * total * error / r;
-}
 
 /* --- a filter --------------------------------------------------------------------------------- */
 
@@ -128,31 +116,17 @@ answer(const stretch *of, int k, double t)
     return steady[k] + exp(-of->s * t) * (-at_0[k] * cos(of->w * t) + sine * sin(of->w * t));
 }
 
-/* Make so many columns of n rows orthonormal. */
-static void
-orthonormalise(double *row, size_t n, int columns)
-{
-    for (int c = 0; c < columns; c++)
-        for (int k = 0; k < 2 * c + 1; k++) {   /* off those before twice, as rounding leaves a part of them */
-            int by = k < 2 * c ? k % c : c;
-            double dot = 0;
-            for (size_t i = 0; i < n * COLUMNS; i += COLUMNS)
-                dot += row[i + (size_t)by] * row[i + (size_t)c];
-            double scale = by == c && dot > 0 ? 1 / sqrt(dot) - 1 : -dot;
-            for (size_t i = 0; i < n * COLUMNS; i += COLUMNS)
-                row[i + (size_t)c] += scale * row[i + (size_t)by];
-        }
-}
-
 static double *
 basis_of(const stretch *of, size_t event, ringer who)
 {
     return of->basis + (event * RINGERS + who) * of->n * COLUMNS;
 }
 
+/* The columns, orthonormal. */
 static void
 fill_basis(const stretch *of, size_t event, ringer who)
 {
+    const size_t end = of->n * COLUMNS;
     double at = 0.5 * (double)of->n + 2 * M_PI / of->w * (2 * (double)event / (EVENTS - 1) - 1);
     double *row = basis_of(of, event, who);
     for (size_t i = 0; i < of->n; i++, row += COLUMNS) {
@@ -167,14 +141,17 @@ fill_basis(const stretch *of, size_t event, ringer who)
         for (int k = UNFILTERED; k < of->columns; k++)
             row[k] = t < 0 ? 0 : exp(-turn) * (k % 2 == 0 ? cos(turn) : sin(turn));
     }
-    orthonormalise(basis_of(of, event, who), of->n, of->columns);
-}
-
-/* So many stretches, half a period apart, lie in a gap. */
-static size_t
-places(const stretch *of, ss_window gap)
-{
-    return (ss_window_length(gap) - of->length) / of->hop + 1;
+    row -= end;
+    for (int c = 0; c < of->columns; c++)
+        for (int k = 0; k < 2 * c + 1; k++) {   /* off those before twice, as rounding leaves a part of them */
+            int by = k < 2 * c ? k % c : c;
+            double dot = 0;
+            for (size_t i = 0; i < end; i += COLUMNS)
+                dot += row[i + (size_t)by] * row[i + (size_t)c];
+            double scale = by == c && dot > 0 ? 1 / sqrt(dot) - 1 : -dot;
+            for (size_t i = 0; i < end; i += COLUMNS)
+                row[i + (size_t)c] += scale * row[i + (size_t)by];
+        }
 }
 
 /* The sum of squares that columns first ... end - 1 of a basis explain. */
@@ -191,18 +168,11 @@ explained(const stretch *of, size_t event, ringer who, int first, int end)
     return sum;
 }
 
-/* The least sums of squares that each leaves of the samples in x, whose own is `all`.  The cubic is the same at
- * all places, and so is what rings on. */
-static void
-seek_event(const stretch *of, double all, double left[RINGERS])
+/* So many stretches, half a period apart, lie in a gap. */
+static size_t
+places(const stretch *of, ss_window gap)
 {
-    for (ringer who = BY_SENSOR; who < of->ringers; who++) {
-        const int same = who == BY_CONTACT ? CUBIC : CUBIC + RINGING;
-        double most = 0;
-        for (size_t event = 0; event < EVENTS; event++)
-            most = fmax(most, explained(of, event, who, same, of->columns));
-        left[who] = fmax(all - explained(of, 0, who, 0, same) - most, 0) + of->noise;
-    }
+    return (ss_window_length(gap) - of->length) / of->hop + 1;
 }
 
 /* Sums over the stretches so far before the next stick. */
@@ -232,7 +202,14 @@ compare(const stretch *of, const double *x, ss_window gap, place *sum)
         sum[i].sticks++;
         if (all - whole * whole * (double)of->n < of->noise + FIT_MISFIT * FIT_MISFIT * (double)of->n)
             continue;
-        seek_event(of, all, left);
+        for (ringer who = BY_SENSOR; who < of->ringers; who++) {
+            /* columns that are the same at all places, and the others */
+            const int same = who == BY_CONTACT ? CUBIC : CUBIC + RINGING;
+            double explains = 0;
+            for (size_t event = 0; event < EVENTS; event++)
+                explains = fmax(explains, explained(of, event, who, same, of->columns));
+            left[who] = fmax(all - explained(of, 0, who, 0, same) - explains, 0) + of->noise;
+        }
         const double by_others = fmin(left[BY_SENSOR], left[BY_HUM]);
         sum[i].more += by_others - left[BY_CONTACT];
         sum[i].left += left[BY_CONTACT];
@@ -244,29 +221,23 @@ compare(const stretch *of, const double *x, ss_window gap, place *sum)
     return mean[1] - mean[0] > SLOW * (sample[1] - sample[0]);
 }
 
-/* What lies between the window of an anchor and the next; empty: there is too little. */
-static ss_window
-gap_behind(const search *s, const ringdown *r, size_t i, size_t length)
-{
-    ss_window win = r->window[i], gap = { 0, 0 };
-    gap.first = win.end > win.first + length ? win.end - length : win.first;
-    for (size_t k = i + 1; k < r->n_anchors && gap.end < gap.first + 2 * length; k++)
-        gap.end = (ss_window_length(r->window[k]) > 0 ? r->window[k].first : r->anchor[k]) + length / 2;
-    return gap.end < gap.first + length || gap.end > s->n ? (ss_window){ 0, 0 } : gap;
-}
-
-/* Up to STICKS gaps behind windows all over the record. */
+/* Up to STICKS gaps behind windows all over the record: what lies between the window of an anchor and the next, if
+ * it is long enough. */
 static size_t
 find_gaps(const search *s, const ringdown *r, size_t length, ss_window gap[STICKS])
 {
     size_t windows = 0, seen = 0, n = 0;
     for (size_t i = 0; i < r->n_anchors; i++)
         windows += ss_window_length(r->window[i]) > 0;
-    for (size_t i = 0; i < r->n_anchors && n < STICKS; i++)
-        if (ss_window_length(r->window[i]) > 0 && seen++ % (windows / STICKS + 1) == 0) {
-            gap[n] = gap_behind(s, r, i, length);
-            n += ss_window_length(gap[n]) > 0;
-        }
+    for (size_t i = 0; i < r->n_anchors && n < STICKS; i++) {
+        const ss_window win = r->window[i];
+        if (ss_window_length(win) == 0 || seen++ % (windows / STICKS + 1) != 0)
+            continue;
+        gap[n] = (ss_window){ win.end > win.first + length ? win.end - length : win.first, 0 };
+        for (size_t k = i + 1; k < r->n_anchors && gap[n].end < gap[n].first + 2 * length; k++)
+            gap[n].end = (ss_window_length(r->window[k]) > 0 ? r->window[k].first : r->anchor[k]) + length / 2;
+        n += gap[n].end >= gap[n].first + length && gap[n].end <= s->n;
+    }
     return n;
 }
 
@@ -368,24 +339,30 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     int at_edge = 0;
     double more = NAN;
     const int is_told = s->out->reverses || s->part->is_contact;
-    const double damping = r->all[1].value, error = is_told ? 0 : (s->must_show ? PRECISE : SIGMAS) * r->all[1].error;
+    const ss_value w = r->all[0], of = r->all[1];
+    /* sqrt(k/m) of the rig's own mass and spring */
+    const double stiffness = s->opts->mass * pow(s->rate, 2) * (w.value * w.value + of.value * of.value);
+    const double by = 2 * s->opts->mass * pow(s->rate, 2) * hypot(w.value * w.error, of.value * of.error);
+    const int is_spring = s->opts->mass > 0 && s->opts->stiffness > 0
+        && fabs(stiffness - s->opts->stiffness) <= SIGMAS * by;
+    const double damping = of.value, error = is_told ? 0 : (s->must_show ? PRECISE : SIGMAS) * of.error;
     /* a damping ratio above one half */
-    *why = 3 * pow(damping, 2) > pow(r->all[0].value, 2)
+    *why = 3 * pow(damping, 2) > pow(w.value, 2)
         ? "what recurs is damped so much that a filter may make it"
         : !(damping > -error) ? "what recurs does not decay"
-        : is_spring(s, r->all) ? "it rings as the given mass does on the given spring, while it slips" : NULL;
+        : is_spring ? "it rings as the given mass does on the given spring, while it slips" : NULL;
     s->rings_as = *why != NULL ? OF_NOTHING : OF_SOMETHING;
     if (*why != NULL || is_told)
         return SS_OK;
     const int is_sure = damping > error && !s->must_show;
     ss_status st = compare_all(s, r, is_sure, 0, 1, &more);
     if (st == SS_OK && !(more >= SHOWN))
-        st = is_edge(s->x, s->n, r->all[0].value / (2 * M_PI), &at_edge);
-    if (st == SS_OK && !(more >= SHOWN) && !at_edge && damping < LIGHT * r->all[0].value)
+        st = is_edge(s->x, s->n, w.value / (2 * M_PI), &at_edge);
+    if (st == SS_OK && !(more >= SHOWN) && !at_edge && damping < LIGHT * w.value)
         st = compare_all(s, r, is_sure, 1, CORNERS, &more);
     s->rings_as = more >= SHOWN ? OF_CONTACT : at_edge ? OF_FILTER : more < CONTACT ? OF_SENSOR : OF_SOMETHING;
     /* a contact may be undamped, if that is well known */
-    const int may_ring_on = s->rings_as == OF_CONTACT && !s->must_show && error < UNDAMPED * r->all[0].value;
+    const int may_ring_on = s->rings_as == OF_CONTACT && !s->must_show && error < UNDAMPED * w.value;
     if (!(damping > error) && !(may_ring_on && run_through(s, r) < ONE)) {
         *why = "what recurs is not shown to decay";
         s->rings_as = s->rings_as == OF_SENSOR ? OF_SENSOR : OF_SOMETHING;

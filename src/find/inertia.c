@@ -11,7 +11,7 @@
  *
  * where v goes from 0 to 1 between the corners and p is the part of the fall that is behind it.  The
  * relaxation has one parameter more, so that it wins where the samples cannot tell. */
-#include "find/inertia.h"
+#include "find/slip.h"
 
 #include <math.h>
 #include "base/least.h"

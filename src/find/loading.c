@@ -11,15 +11,13 @@
  *
  * The slope of the force over time is the stiffness times the speed of the drive.  Where there is a
  * column of displacement, the slope against it is the stiffness itself. */
-#include "find/loading.h"
+#include "find/search.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include "find/colour.h"
 #include "find/drops.h"
-#include "find/inertia.h"
 #include "find/line.h"
 #include "find/medians.h"
 #include "find/slip.h"

@@ -57,18 +57,6 @@ median_over(const ss_features *out, size_t offset, double common, ss_value *v, d
     return m;
 }
 
-/* Add to the error of k/m the part that all slips share.  k/m is a property of the rig.  If slips disagree on it
- * by more than their errors, at three standard deviations, they are not quite slips of the model: a misfit
- * may shift all of them alike, which their scatter does not show. */
-static void
-add_misfit(ss_number *k_over_m, double common, const ss_value *v, size_t n, double *scratch)
-{
-    size_t known;
-    double error = sqrt(1 - common) * median_error(&known, v, n, scratch), scatter = k_over_m->scatter;
-    if (known > 1 && scatter > error * (1 + SIGMAS * GAUSS_MEDIAN_ERROR / sqrt((double)known)))
-        k_over_m->error = hypot(k_over_m->error, sqrt(scatter * scatter - error * error));
-}
-
 void
 ss_loading_medians(ss_features *out, const ss_drop *drop, const double *shared, const ss_number *damping,
                    ss_value *v, double *scratch)
@@ -99,8 +87,23 @@ ss_loading_medians(ss_features *out, const ss_drop *drop, const double *shared, 
     };
     for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
         *of_slips[i].to = median_over(out, of_slips[i].offset, of_slips[i].common, v, scratch);
-    /* v still holds the errors of k/m */
-    add_misfit(&out->number[SS_K_OVER_M], shared[SLIP_K_OVER_M], v, out->n, scratch);
+    /* k/m, whose values v still holds, is a property of the rig.  If slips disagree on it by more than their errors, at
+     * three standard deviations, they are not quite slips of the model: a misfit may shift all of them alike, which
+     * their scatter does not show. */
+    size_t known;
+    ss_number *k_over_m = &out->number[SS_K_OVER_M];
+    double error = sqrt(1 - shared[SLIP_K_OVER_M]) * median_error(&known, v, out->n, scratch);
+    double scatter = k_over_m->scatter;
+    if (known > 1 && scatter > error * (1 + SIGMAS * GAUSS_MEDIAN_ERROR / sqrt((double)known)))
+        k_over_m->error = hypot(k_over_m->error, sqrt(scatter * scatter - error * error));
+}
+
+double
+ss_quantile(const double *x, ss_window w, double part, double *copy)
+{
+    size_t n = ss_window_length(w);
+    memmove(copy, x + w.first, n * sizeof *copy);
+    return gsl_stats_select(copy, 1, n, (size_t)(part * (double)(n - 1)));
 }
 
 double

@@ -28,4 +28,10 @@ unsigned ss_features_have(const ss_features *f, const ss_features_opts *opts);
 /* Find the numbers that follow from the others, in the order of the list. */
 ss_status ss_numbers_find(search *s);
 
+/* |df/dx| over the n windows, each from first to end in samples, with its standard error; y is the
+ * signal that the windows were found in.  All hold finite numbers, else the slope is NaN; it is,
+ * too, where it is not known within a third. */
+ss_status ss_slope_find(const double *f, const double *x, const double *y, const ss_window *span,
+                        size_t n, ss_value *slope);
+
 #endif

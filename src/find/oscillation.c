@@ -2,10 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/list.h"
-#include "find/identity.h"
 #include "find/hum.h"
 #include "find/ringdown.h"
-#include "find/events.h"
 #include "find/search.h"
 #include "signal/gaps.h"
 

@@ -6,7 +6,7 @@
  * square (Tolonen and Karjalainen 2000, "compressed"): else one strong line makes peaks of its own
  * and a slow drift hides them all. Peaks at the multiples of the lag then refine it, and their
  * scatter is its error. */
-#include "find/period.h"
+#include "find/cycles.h"
 
 #include <math.h>
 #include "base/fft.h"

@@ -52,16 +52,6 @@ find_level(const double *x, size_t n, double *level, double *deviation)
     return SS_OK;
 }
 
-/* Do more samples of a rest lie beyond RARE deviations than noise, and a few wrong samples, put there? */
-static int
-is_no_noise(const double *x, ss_window rest, double level, double deviation)
-{
-    size_t beyond = 0;
-    for (size_t i = rest.first; i < rest.end; i++)
-        beyond += fabs(x[i] - level) > RARE * deviation;
-    return (double)beyond > FEW + 2 * OUTLIERS * (double)ss_window_length(rest);
-}
-
 /* Does the signal not go beyond its level, on one side, and is this no level of 0?  So a converter clips. */
 static int
 is_end_of_range(const double *x, size_t n, const ss_rests *r)
@@ -95,8 +85,12 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
         else
             out->is_doubtful |= length >= beside + 2;
     }
-    for (size_t i = 0; i < out->n; i++)
-        out->is_doubtful |= is_no_noise(x, out->rest[i], level, deviation);
+    for (size_t i = 0; i < out->n; i++) {
+        size_t beyond = 0;      /* more than noise, and a few wrong samples, put there? */
+        for (size_t k = out->rest[i].first; k < out->rest[i].end; k++)
+            beyond += fabs(x[k] - level) > RARE * deviation;
+        out->is_doubtful |= (double)beyond > FEW + 2 * OUTLIERS * (double)ss_window_length(out->rest[i]);
+    }
     out->level = level;
     out->band = BAND * deviation;
     out->is_doubtful |= is_end_of_range(x, n, out);

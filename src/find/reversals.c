@@ -9,7 +9,7 @@
  * The force goes from level to level while friction holds.  The stiffness is the secant of this step
  * without a small part at either end, because levels are noisy and break-aways ring.  It includes what
  * gives way only in a part of the step, as backlash does. */
-#include "find/reversals.h"
+#include "find/search.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <stdlib.h>
@@ -22,41 +22,23 @@
 
 /* --- reversals ------------------------------------------------------------------------------- */
 
-/* The level at which the force stays: the median of the samples above half of the largest. */
-static double
-level_of(const double *x, size_t n, double *copy)
-{
-    size_t high = 0;
-    for (size_t i = 0; i < n; i++)
-        copy[i] = fabs(x[i]);
-    double half = 0.5 * gsl_stats_select(copy, 1, n, (size_t)((1 - OUTLIERS) * (double)(n - 1)));
-    for (size_t i = 0; i < n; i++)
-        if (fabs(x[i]) > half)
-            copy[high++] = fabs(x[i]);
-    return high > 0 ? gsl_stats_select(copy, 1, high, high / 2) : 0;
-}
-
-/* From sample i on, the first maximum of x, or minimum where sign is -1, that x leaves by retreat,
- * before end. */
-static size_t
-break_away(const double *x, int sign, size_t i, size_t end, double retreat)
-{
-    size_t top = i;
-    for (; i < end && sign * x[i] > sign * x[top] - retreat; i++)
-        top = sign * x[i] > sign * x[top] ? i : top;
-    return top;
-}
-
 /* A half-cycle that the record begins in has broken away before.  A half-cycle reaches from where x
  * passes half of the level, to either side of the middle, to where it does so for the last time
  * before the other side: ringing may go farther. */
 static ss_status
-find_reversals(search *s, const double *x, double level)
+find_reversals(search *s, const double *x, double *copy)
 {
     ss_features *out = s->out;
     ss_status st = ss_transitions_new(out, s->n / 2 + 1);
     int sign = 0, open = 0;
-    size_t last = 0;
+    size_t last = 0, high = 0;
+    for (size_t i = 0; i < s->n; i++)
+        copy[i] = fabs(x[i]);
+    const double half = HALF * ss_quantile(copy, (ss_window){ 0, s->n }, 1 - OUTLIERS, copy);
+    for (size_t i = 0; i < s->n; i++)   /* the level is the median of what is above half of the largest */
+        if (fabs(x[i]) > half)
+            copy[high++] = fabs(x[i]);
+    const double level = high > 0 ? gsl_stats_select(copy, 1, high, high / 2) : 0;
     out->n = 0;
     out->reverses = 1;
     for (size_t i = 0; st == SS_OK && i < s->n; i++) {
@@ -67,7 +49,9 @@ find_reversals(search *s, const double *x, double level)
             continue;
         if (open)
             out->transition[out->n++].end = (double)last / s->rate;
-        size_t at = break_away(x, side, i, s->n, SLIGHT * level);
+        size_t at = i;          /* the first extreme that x leaves by a slight part of the level */
+        for (size_t k = i; k < s->n && side * x[k] > side * x[at] - SLIGHT * level; k++)
+            at = side * x[k] > side * x[at] ? k : at;
         open = i > 0 && !ss_gaps_near(s->gap, s->n_gaps, (double)at / s->rate, 1 / s->rate);
         out->transition[out->n].onset = (double)at / s->rate;
         sign = side;
@@ -86,14 +70,6 @@ typedef struct plateau {
     int stays;
 } plateau;
 
-static double
-select(const double *x, ss_window w, double part, double *copy)
-{
-    size_t n = ss_window_length(w);
-    memcpy(copy, x + w.first, n * sizeof *copy);
-    return gsl_stats_select(copy, 1, n, (size_t)(part * (double)(n - 1)));
-}
-
 /* Find the passes.  Break-aways and ends of half-cycles are found at half of the level; what only loads the
  * force is cut off by the median of all. */
 static plateau
@@ -102,7 +78,7 @@ find_plateau(const search *s, const ss_transition *t, int is_last, const double 
     plateau p = { { (size_t)(t->onset * s->rate + 0.5), (size_t)(t->end * s->rate + 0.5) + 1 }, 0, 0, 0 };
     double time = (is_last ? t->end : t[1].onset) - t->onset, there = 0;
     int sign = x[p.slip.first] > 0 ? 1 : -1;
-    double least = (1 - SLIGHT) * sign * select(x, p.slip, 0.5, copy);
+    double least = (1 - SLIGHT) * sign * ss_quantile(x, p.slip, 0.5, copy);
     while (p.slip.first > 0 && sign * x[p.slip.first - 1] >= least)     /* a level that rises breaks away late */
         p.slip.first--;
     while (sign * x[p.slip.first] < least)
@@ -112,8 +88,8 @@ find_plateau(const search *s, const ss_transition *t, int is_last, const double 
     for (size_t i = p.slip.first; i < p.slip.end; i++)
         there += sign * x[i] >= least;
     p.stays = there > HALF * time * s->rate;
-    p.level = select(x, p.slip, 0.5, copy);
-    p.spread = fabs(p.level - select(x, p.slip, sign > 0 ? 0.25 : 0.75, copy));
+    p.level = ss_quantile(x, p.slip, 0.5, copy);
+    p.spread = fabs(p.level - ss_quantile(x, p.slip, sign > 0 ? 0.25 : 0.75, copy));
     return p;
 }
 
@@ -145,18 +121,9 @@ find_slope(const double *x, const double *z, double least, const plateau *a, con
     return (ss_value){ slope, slope * error / fabs(way) };
 }
 
-/* The slope from a to b without a small part of the step at either end.  By how much it moves, if that part grows
- * by how far the levels spread, is in its error: where a level is not flat, the step has no clear end. */
-static ss_value
-find_stiffness(const double *x, const double *z, double least, const plateau *a, const plateau *b)
-{
-    double part = SLIGHT * fabs(b->level - a->level);
-    ss_value slope = find_slope(x, z, least, a, b, (double[]){ part, part });
-    ss_value inner = find_slope(x, z, least, a, b, (double[]){ part + a->spread, part + b->spread });
-    return (ss_value){ slope.value, hypot(slope.error, inner.value - slope.value) };
-}
-
-/* Friction and stiffness by the step from one plateau to the next; they stay as they are if there is none. */
+/* Friction and stiffness by the step from one plateau to the next; they stay as they are if there is none.  The stiffness
+ * is the slope without a small part of the step at either end.  By how much it moves, if that part grows by how far the
+ * levels spread, is in its error: where a level is not flat, the step has no clear end. */
 static void
 measure(const search *s, const double *x, const double least[2], size_t i, const plateau *p, ss_value *friction,
         ss_value *stiffness)
@@ -171,17 +138,11 @@ measure(const search *s, const double *x, const double least[2], size_t i, const
     *friction = (ss_value){ s->largest * size, s->largest * off };
     if (s->opts->displacement < 0)
         return;
-    *stiffness = find_stiffness(x, s->signal->values + (size_t)s->opts->displacement * s->n, least[1], a, b);
-    stiffness->value *= s->largest;
-    stiffness->error *= s->largest;
-}
-
-/* The median, if it is known within a third. */
-static ss_number
-known_median(const ss_value *v, size_t n, double *scratch)
-{
-    ss_number m = ss_median_of(v, n, scratch);
-    return SIGMAS * m.error < m.value ? m : no_number;
+    const double part = 2 * SLIGHT * size, *z = s->signal->values + (size_t)s->opts->displacement * s->n;
+    const ss_value slope = find_slope(x, z, least[1], a, b, (double[]){ part, part });
+    const ss_value inner = find_slope(x, z, least[1], a, b, (double[]){ part + a->spread, part + b->spread });
+    *stiffness = (ss_value){ s->largest * slope.value,
+                             s->largest * hypot(slope.error, inner.value - slope.value) };
 }
 
 ss_status
@@ -189,7 +150,7 @@ ss_reversals_find(search *s, const double *x)
 {
     ss_features *out = s->out;
     double *copy = malloc((s->n + 1) * sizeof *copy);
-    ss_status st = copy != NULL ? find_reversals(s, x, level_of(x, s->n, copy)) : SS_ENOMEM;
+    ss_status st = copy != NULL ? find_reversals(s, x, copy) : SS_ENOMEM;
     size_t stay = 0, n = out->n;
     const double least[2] = { ss_smallest_change(x, s->n), s->opts->displacement < 0 ? 0
         : ss_smallest_change(s->signal->values + (size_t)s->opts->displacement * s->n, s->n) };
@@ -205,8 +166,9 @@ ss_reversals_find(search *s, const double *x)
             measure(s, x, least, i, p, &friction[i], &stiffness[i]);
     }
     if (st == SS_OK && 2 * stay > n) {
-        out->number[SS_FRICTION] = known_median(friction, n, copy);
-        out->number[SS_LOADING_STIFFNESS] = known_median(stiffness, n, copy);
+        const ss_number f = ss_median_of(friction, n, copy), k = ss_median_of(stiffness, n, copy);
+        out->number[SS_FRICTION] = SIGMAS * f.error < f.value ? f : no_number;
+        out->number[SS_LOADING_STIFFNESS] = SIGMAS * k.error < k.value ? k : no_number;
     }
     if (st == SS_OK && isnan(out->number[SS_FRICTION].value))
         say(out, SS_SLIPS, "between its reversals the force does not stay at a level, as friction does");

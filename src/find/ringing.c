@@ -196,17 +196,6 @@ refine(search *s, const ss_maximum *swell, double f)
     return st;
 }
 
-/* The scale whose label is nearest to f. */
-static size_t
-scale_nearest(const search *s, double f)
-{
-    size_t nearest = 0;
-    for (size_t i = 1; i < s->map->n_scales; i++)
-        if (fabs(log(s->map->scale[i].f / f)) < fabs(log(s->map->scale[nearest].f / f)))
-            nearest = i;
-    return nearest;
-}
-
 ss_status
 ss_ringing_find(search *s, double prominence)
 {
@@ -219,7 +208,11 @@ ss_ringing_find(search *s, double prominence)
     if (st != SS_OK || label == 0)
         return st;
     const maxima_kind kind = { s->opts->threshold, STRONG, 0 };
-    st = ss_maxima_of_row(&swell, &n, s->map, scale_nearest(s, label), &kind, s->top);
+    size_t nearest = 0;
+    for (size_t i = 1; i < s->map->n_scales; i++)
+        if (fabs(log(s->map->scale[i].f / label)) < fabs(log(s->map->scale[nearest].f / label)))
+            nearest = i;
+    st = ss_maxima_of_row(&swell, &n, s->map, nearest, &kind, s->top);
     if (st == SS_OK)
         st = ss_transitions_new(out, n);
     size_t ringing = st == SS_OK ? match_maxima(s, swell, label) : 0;

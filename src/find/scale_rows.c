@@ -98,22 +98,6 @@ continued(const double *x, size_t n, size_t margin)
     return y;
 }
 
-/* The maximum of the parabola through three levels, the middle one the largest. */
-static peak
-summit(const double *level, double t, double step)
-{
-    double bend = level[0] - 2 * level[1] + level[2];
-    double off = bend < 0 ? 0.5 * (level[0] - level[2]) / bend : 0;
-    return (peak){ t + off * step, level[1] - 0.25 * (level[0] - level[2]) * off };
-}
-
-/* The rms of the part of |W| that is noise, from its median. */
-static double
-rms_of(const row_source *source, double middle)
-{
-    return hypot(middle / sqrt(M_LN2), source->rounding);
-}
-
 /* The rms of |W| in the n levels, of which one comes every step from t on, and which change places.  It is
  * found from the median of the levels that are farther than half a wavelet's reach from all spikes found so far and
  * out of the reach of gaps, or of all levels if there are none. */
@@ -137,24 +121,7 @@ noise_of(const row_source *source, const ss_spikes *loud, double *level, size_t 
     }
     if (all || left == 0)
         left = n;
-    return rms_of(source, gsl_stats_select(level, 1, left, left / 2));
-}
-
-/* The scale is 2^(this / ROW_VOICES) s. */
-static double
-number_of(double f)
-{
-    return round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f)));
-}
-
-/* The translations of a scale outside the cone of influence. */
-static ss_window
-translations(const row_source *source, const ss_scale *scale)
-{
-    double step = scale->b_num / scale->b_den, margin = (double)source->margin / source->rate;
-    double from = sqrt(2) * scale->a, to = (double)(source->n - 1) / source->rate - from;
-    double first = ceil((margin + from) / step), end = floor((margin + to) / step) + 1;
-    return (ss_window){ (size_t)first, (size_t)fmax(first, end) };
+    return hypot(gsl_stats_select(level, 1, left, left / 2) / sqrt(M_LN2), source->rounding);
 }
 
 /* Find the peaks of a row and its noise.  Levels before t = 0 and behind the record are not the record's own. */
@@ -162,32 +129,28 @@ static ss_status
 fill_row(scale_row *r, row_source *source, const ss_spikes *loud, size_t index)
 {
     const ss_scale *scale = &source->rows->scale[index];
-    const ss_window all = translations(source, scale);
-    const size_t n = ss_window_length(all);
     const double margin = (double)source->margin / source->rate, step = scale->b_num / scale->b_den;
+    const double from = sqrt(2) * scale->a, to = (double)(source->n - 1) / source->rate - from;
+    const size_t first = (size_t)ceil((margin + from) / step);  /* of those outside the cone of influence */
+    const size_t n = (size_t)fmax(floor((margin + to) / step) + 1 - (double)first, 0);
     double *more = malloc((n + 2) * sizeof *more), *level = more + 1;   /* more: one on either side */
     r->peak = malloc((n / 2 + 1) * sizeof *r->peak);
     ss_status st = more == NULL || r->peak == NULL ? SS_ENOMEM
-        : ss_map_read(source->rows, &(ss_map_part){ index, all.first - 1, n + 2, NULL, more }, 1, NULL);
+        : ss_map_read(source->rows, &(ss_map_part){ index, first - 1, n + 2, NULL, more }, 1, NULL);
     for (size_t k = 0; st == SS_OK && k < n; k++) {
         if (!((level[k] > more[k]) & (level[k] >= level[k + 1])))       /* one branch, which is seldom taken */
             continue;
-        double t = ss_scale_b(scale, all.first + k) - margin;
+        double t = ss_scale_b(scale, first + k) - margin;
         if (ss_gaps_near(source->gap, source->n_gaps, t, ROW_REACH * r->a))
             continue;
-        r->peak[r->n] = summit(more + k, t, step);
+        /* the vertex of the parabola through it and its neighbours */
+        const double bend = more[k] - 2 * level[k] + level[k + 1], lean = more[k] - level[k + 1];
+        const double off = bend < 0 ? 0.5 * lean / bend : 0;
+        r->peak[r->n] = (peak){ t + off * step, level[k] - 0.25 * lean * off };
         r->top = fmax(r->top, r->peak[r->n++].level);
     }
     if (st == SS_OK)
-        r->rms = noise_of(source, loud, level, n, ss_scale_b(scale, all.first) - margin, step, r->a);
-    if (st == SS_OK && source->keeps_heads && source->n_gaps == 0 && source->n_heads < ROW_HEADS) {
-        scale_row *head = &source->head[source->n_heads++];
-        *head = *r;
-        head->peak = NULL;
-        head->rms_of_all = r->rms;
-        if (loud != NULL && loud->n > 0)
-            head->rms_of_all = rms_of(source, gsl_stats_select(level, 1, n, n / 2));
-    }
+        r->rms = noise_of(source, loud, level, n, ss_scale_b(scale, first) - margin, step, r->a);
     if (st != SS_OK)
         free(r->peak);
     free(more);
@@ -218,7 +181,7 @@ open_octaves(row_source *source, double octave)
 ss_status
 ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud)
 {
-    double j = number_of(f), octave = floor(j / ROW_VOICES);
+    double j = round(ROW_VOICES * log2(ROW_CENTER / (2 * M_PI * f))), octave = floor(j / ROW_VOICES);
     ss_status st = SS_OK;
     if (source->rows == NULL || octave < source->octave || octave >= source->end)
         st = open_octaves(source, octave);
@@ -227,15 +190,6 @@ ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud)
     size_t index = (size_t)(source->end * ROW_VOICES - 1 - j);          /* long to short */
     *r = (scale_row){ .a = source->rows->scale[index].a, .f = source->rows->scale[index].f };
     return fill_row(r, source, loud, index);
-}
-
-const scale_row *
-ss_row_head(const row_source *source, double f)
-{
-    for (size_t i = 0; i < source->n_heads; i++)
-        if (number_of(source->head[i].f) == number_of(f))
-            return &source->head[i];
-    return NULL;
 }
 
 void

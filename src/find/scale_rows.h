@@ -20,13 +20,10 @@ typedef struct peak {
 typedef struct scale_row {
     double a, f;
     double rms, top;            /* rms of the noise; level of the largest peak */
-    double rms_of_all;          /* with what is near spikes */
     size_t n;
     peak *peak;                 /* all maxima outside the cone of influence and out of the
                                    reach of gaps, in time order */
 } scale_row;
-
-enum { ROW_HEADS = 32 };
 
 typedef struct row_source {
     const double *x;
@@ -41,23 +38,17 @@ typedef struct row_source {
     ss_coefficients *rows;
     double octave, end;
     size_t margin;
-    int keeps_heads;            /* 1: ss_row_head has the first rows */
-    scale_row head[ROW_HEADS];  /* these rows, without their peaks */
-    size_t n_heads;
 } row_source;
 
 /* Prepare a source of n > 0 samples, whose differences are finite. */
 void ss_row_source_init(row_source *source, const double *x, size_t n, double rate, const ss_span *gap, size_t n_gaps);
-/* Free its memory.  It can be used again, and its heads stay. */
+/* Free its memory.  It can be used again. */
 void ss_row_source_free(row_source *source);
 
 /* Compute the row of the scale 2^(j / ROW_VOICES) s that is nearest to the label f.  Rows should be asked
  * for from short to long scales, as some octaves share spectra.  The noise is found where no spike of loud
  * is near; NULL: everywhere.  r->peak is to be freed with free(). */
 ss_status ss_row_new(scale_row *r, row_source *source, double f, const ss_spikes *loud);
-
-/* The head of the row nearest to f; NULL: it is not known. */
-const scale_row *ss_row_head(const row_source *source, double f);
 
 /* The level, in units of the noise's rms, that Gaussian noise is expected to reach FALSE_ALARMS
  * times in so many rows, the first of scale shortest, of a record of that length [s]. */

@@ -3,9 +3,11 @@
 #define SEARCH_H
 
 #include <math.h>
-#include <stddef.h>
+#include <stdlib.h>
 #include <stickslip/features.h>
 #include "find/cycles.h"
+#include "find/drops.h"
+#include "find/events.h"
 #include "find/judgement.h"
 #include "find/quantity.h"
 #include "find/ringdown.h"
@@ -76,12 +78,6 @@ say(ss_features *out, ss_feature which, const char *why)
     out->number[which].why = why;
 }
 
-static inline int
-is_event(const ss_spike *spike)
-{
-    return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
-}
-
 /* The frequency of the cycles [Hz]. */
 static inline ss_value
 cycle_rate(const search *s)
@@ -120,7 +116,20 @@ ss_status ss_slip_rate_find(search *s);
 void ss_loadings_forget(ss_features *out);
 
 /* Make room for n transitions of which nothing is known, in place of those before. */
-ss_status ss_transitions_new(ss_features *out, size_t n);
+static inline ss_status
+ss_transitions_new(ss_features *out, size_t n)
+{
+    free(out->transition);
+    out->n = 0;
+    out->transition = calloc(n + 1, sizeof *out->transition);
+    if (out->transition == NULL)
+        return SS_ENOMEM;
+    out->n = n;
+    for (size_t i = 0; i < n; i++)
+        out->transition[i] = (ss_transition){ .maximum = no_maximum, .frequency = unknown,
+                                              .damping_ratio = unknown, .from = NAN, .to = NAN };
+    return SS_OK;
+}
 
 /* Find the transitions, in time order, and the frequency and damping of their ringing, if they ring, into
  * s->out, which has spikes and repetition_frequency.  If there are none, s->out->n is 0. */
@@ -136,5 +145,22 @@ ss_status ss_ringing_behind(search *s);
 /* Fit an oscillation of about f to every transition in s->out, each about a sample, its anchor, and judge
  * the fit.  singly: fit each by itself, as they need not be alike. */
 ss_status ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly);
+
+/* Find the transitions of the signal in s, into s->out, if it is a force whose slips are its falls or its
+ * reversals.  *decided becomes 1 if no other search is needed: they are found, or s->out->why says why they
+ * cannot be. */
+ss_status ss_force_find(search *s, int *decided);
+
+/* Write n transitions, the drops of y, into s->out, and the loadings before them, with their medians.  y is the
+ * signal in s or its negative, without wrong samples. */
+ss_status ss_loading_find(search *s, const double *y, const ss_drop *drop, size_t n);
+
+/* Find the transitions of x, which is the signal in s less a constant, and the medians over them: friction, and
+ * stiffness if there is a column of displacement. */
+ss_status ss_reversals_find(search *s, const double *x);
+
+/* The tests that one damped oscillation, fitted to windows, passes before its numbers are printed.  *why becomes
+ * the reason why it is not the contact's, or NULL. */
+ss_status ss_identity_of(search *s, const ringdown *r, const char **why);
 
 #endif

@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/least.h"
-#include "find/colour.h"
+#include "find/medians.h"
 #include "find/judgement.h"
 
 enum { ONSET, TOP, MIDDLE, SPEED, DAMPING, FITTED };    /* onset behind the first sample used; SPEED: w */

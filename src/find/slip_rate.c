@@ -131,17 +131,6 @@ forget_slips(ss_features *out, const char *why)
     out->number[SS_SLIPS].why = why;
 }
 
-static void
-forget_ringing(ss_features *out)
-{
-    for (size_t i = 0; i < out->n; i++)
-        out->transition[i].frequency = out->transition[i].damping_ratio = unknown;
-    know(out, SS_TRANSITION_FREQUENCY_RAW, unknown);
-    know(out, SS_TRANSITION_FREQUENCY, unknown);
-    know(out, SS_DAMPING_RATIO, unknown);
-    say(out, SS_TRANSITION_FREQUENCY, "the slips are not known");
-}
-
 /* Count a slip in each cycle, as sharp events do not repeat with the cycle.  A cycle of dry friction has a
  * slip nevertheless.  It has one, unless its second half mirrors the first: then it has as many in either
  * direction, or none, as a sinusoid. */
@@ -150,8 +139,14 @@ count_cycles(search *s)
 {
     ss_features *out = s->out;
     int more = (double)out->n > (double)s->cycles.n;
-    if (s->rings_as != OF_CONTACT)
-        forget_ringing(out);
+    if (s->rings_as != OF_CONTACT) {
+        for (size_t i = 0; i < out->n; i++)
+            out->transition[i].frequency = out->transition[i].damping_ratio = unknown;
+        know(out, SS_TRANSITION_FREQUENCY_RAW, unknown);
+        know(out, SS_TRANSITION_FREQUENCY, unknown);
+        know(out, SS_DAMPING_RATIO, unknown);
+        say(out, SS_TRANSITION_FREQUENCY, "the slips are not known");
+    }
     if (s->quantity == QUANTITY_UNKNOWN && s->cycles.symmetry > -CYCLES_ALIKE) {
         out->n = out->recurring = 0;
         out->number[SS_SLIPS].value = (double)s->cycles.n;
@@ -162,56 +157,35 @@ count_cycles(search *s)
             : "there are fewer sharp events than cycles");
 }
 
-/* Each fall of a force ends a cycle.  So a period that is the time between falls needs no other proof. */
-static void
-confirm_repetition(search *s)
-{
-    ss_features *out = s->out;
-    if (isnan(out->number[SS_REPETITION_FREQUENCY].value)
-        && fabs(out->number[SS_SLIP_RATE].value / cycle_rate(s).value - 1) <= JITTER) {
-        know(out, SS_REPETITION_FREQUENCY, cycle_rate(s));
-        out->number[SS_REPETITION_FREQUENCY].why = NULL;
-    }
-}
-
-/* Falls that are alike and evenly spaced repeat with each.  A period of several of them is that of what
- * disturbs them, such as glitches. */
-static void
-doubt_repetition(search *s, times fall)
-{
-    ss_features *out = s->out;
-    if (slips_in_cycle(s, fall) < 2 || !recur(s, fall, 1, 1 / out->number[SS_SLIP_RATE].value, JITTER)
-        || !(out->number[SS_DROP].scatter <= SLIGHT * out->number[SS_DROP].value))
-        return;
-    know(out, SS_REPETITION_FREQUENCY, unknown);
-    say(out, SS_REPETITION_FREQUENCY,
-        "each fall is like the next one, but the signal repeats only after several");
-}
-
-/* Is the signal no force of one sign, but one with an offset?  It is if it repeats with several falls in a
- * cycle, or with none, unless someone says that it is such a force. */
-static int
-has_offset(const search *s)
-{
-    return s->quantity == QUANTITY_UNKNOWN && s->opts->drop == 0
-        && !isnan(s->out->number[SS_REPETITION_FREQUENCY].value)
-        && !(fabs(s->out->number[SS_SLIP_RATE].value / cycle_rate(s).value - 1) <= JITTER);
-}
-
-/* Count the falls of a force, which are slips by themselves. */
+/* Count the falls of a force, which are slips by themselves.  A signal of unknown quantity that repeats with several
+ * falls in a cycle, or with none, is no force of one sign, but one with an offset, unless someone says that it is
+ * such a force.  Each fall ends a cycle: so a period that is the time between falls needs no other proof.  Falls that
+ * are alike and evenly spaced repeat with each: a period of several of them is that of what disturbs them, such as
+ * glitches. */
 static void
 count_falls(search *s, times fall)
 {
     ss_features *out = s->out;
-    if (has_offset(s)) {
+    ss_number *repetition = &out->number[SS_REPETITION_FREQUENCY];
+    const ss_number *drop = &out->number[SS_DROP];
+    const double rate = out->number[SS_SLIP_RATE].value;
+    const int is_each = fabs(rate / cycle_rate(s).value - 1) <= JITTER;
+    if (s->quantity == QUANTITY_UNKNOWN && s->opts->drop == 0 && !isnan(repetition->value) && !is_each) {
         ss_loadings_forget(out);
         out->n = 0;
         forget_slips(out, "it repeats, but not as falls of a force of one sign: it may have an offset");
         return;
     }
-    confirm_repetition(s);
-    doubt_repetition(s, fall);
-    if (out->n > 0 && isnan(out->number[SS_DROP].value))
+    if (isnan(repetition->value) && is_each) {
+        know(out, SS_REPETITION_FREQUENCY, cycle_rate(s));
+        repetition->why = NULL;
+    }
+    if (slips_in_cycle(s, fall) >= 2 && recur(s, fall, 1, 1 / rate, JITTER)
+        && drop->scatter <= SLIGHT * drop->value) {
+        know(out, SS_REPETITION_FREQUENCY, unknown);
+        repetition->why = "each fall is like the next one, but the signal repeats only after several";
+    }
+    if (out->n > 0 && isnan(drop->value))
         say(out, SS_SLIPS, "most falls of the force are no slips of an evenly pulled slider");
     else if (out->n > 0 && isnan(out->number[SS_LOADING_SLOPE].value))
         say(out, SS_SLIPS, "the force rises along no lines: it has no slope, and its sticks no length");

@@ -8,7 +8,7 @@
  * damping ratio squared, .4 % at a ratio of .056.)  v and the slope of y are differences over four
  * samples; by how much K_y moves with differences over two is an error.  So is by how much it moves when the
  * windows are cut at both ends, where a slip may reach into all of them. */
-#include "find/slope.h"
+#include "find/numbers.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -28,25 +28,17 @@ typedef struct spike_search {
     ss_spikes *found;
 } spike_search;
 
-static int
-is_smooth(const ss_spikes *found)
-{
-    for (size_t i = 0; i < found->n; i++)
-        if (found->spike[i].kind != SS_SPIKE_BEND)
-            return 0;
-    return 1;
-}
-
 /* If spikes are there but none is sharp, this is not because of noise. */
 const char *
 ss_spikes_verdict(const ss_spikes *found)
 {
     if (found == NULL)
         return NULL;
-    if (found->conclusive)
-        return "counted";
-    return found->n > 0 && is_smooth(found) ? "none to count, the signal is smooth"
-        : "too much noise to count them";
+    size_t bends = 0;
+    for (size_t i = 0; i < found->n; i++)
+        bends += found->spike[i].kind == SS_SPIKE_BEND;
+    return found->conclusive ? "counted"
+        : found->n > 0 && bends == found->n ? "none to count, the signal is smooth" : "too much noise to count them";
 }
 
 const char *
@@ -70,12 +62,6 @@ nearest(const scale_row *r, double t, double within)
         && (best == NULL || t - r->peak[lo - 1].t < best->t - t))
         best = &r->peak[lo - 1];
     return best;
-}
-
-static int
-stands_out(const spike_search *s, const scale_row *r, const peak *p)
-{
-    return p != NULL && p->level > s->threshold * r->rms;
 }
 
 /* The slope [dB/octave] along the line of maxima that begins at peak p of row i, over an octave at most.
@@ -104,30 +90,6 @@ slope_of(const spike_search *s, size_t i, const peak *p, double *clearest)
     return weight > 0 ? sum / weight * ROW_VOICES : 0;
 }
 
-/* Is it smooth?  A pulse of some length falls towards longer scales, but does not stand out at the shortest
- * ones. */
-static ss_spike_kind
-kind_of(double slope, size_t i)
-{
-    if (slope < -1.5)
-        return i < ROW_VOICES ? SS_SPIKE_GLITCH : SS_SPIKE_BEND;
-    return slope < 4 ? SS_SPIKE_JUMP : slope < 22 ? SS_SPIKE_KINK : SS_SPIKE_BEND;
-}
-
-static ss_status
-add_spike(spike_search *s, size_t i, const peak *p)
-{
-    ss_spikes *found = s->found;
-    const scale_row *r = &s->row[i];
-    ss_spike *spike = ss_list_room(found->spike, &s->room, found->n, sizeof *spike);
-    if (spike == NULL)
-        return SS_ENOMEM;
-    found->spike = spike;
-    found->spike[found->n++] = (ss_spike){
-        .t = p->t, .f = r->f, .level = 20 * log10(p->level / r->top), .snr = p->level / r->rms };
-    return SS_OK;
-}
-
 static void
 sort(ss_spikes *found)
 {
@@ -135,39 +97,30 @@ sort(ss_spikes *found)
         qsort(found->spike, found->n, sizeof *found->spike, ss_ascending);
 }
 
-/* Is t away from the n spikes found at shorter scales, which are in time order? */
-static int
-is_clear(const ss_spikes *found, size_t n, double t, double distance)
-{
-    size_t lo = ss_list_from(found->spike, n, sizeof *found->spike, t);
-    return !(lo < n && found->spike[lo].t - t < distance)
-        && !(lo > 0 && t - found->spike[lo - 1].t < distance);
-}
-
-/* Does a gap reach the row, or the rows from which its slope is found? */
-static int
-sees_gap(const spike_search *s, const scale_row *r, double t)
-{
-    const row_source *source = s->source;
-    return ss_gaps_near(source->gap, source->n_gaps, t, 2 * ROW_REACH * r->a);
-}
-
-/* Add the spikes that no row shorter than row i shows. */
+/* Add the spikes that no row shorter than row i shows: they are clear of those found so far, and of gaps that reach the
+ * rows from which their slopes are found. */
 static ss_status
 add_row_spikes(spike_search *s, size_t i)
 {
     const scale_row *r = &s->row[i], *next = &s->row[i + 1];
-    size_t before = s->found->n;
+    ss_spikes *found = s->found;
+    const size_t before = found->n;
     for (size_t k = 0; k < r->n; k++) {
-        const peak *p = &r->peak[k];
-        if (!stands_out(s, r, p) || sees_gap(s, r, p->t) || !is_clear(s->found, before, p->t, NEAR * r->a)
-            || !stands_out(s, next, nearest(next, p->t, DRIFT * next->a)))
+        const peak *p = &r->peak[k], *beside = nearest(next, p->t, DRIFT * next->a);
+        const size_t near = ss_list_from(found->spike, before, sizeof *found->spike, p->t);
+        if (!(p->level > s->threshold * r->rms) || beside == NULL || !(beside->level > s->threshold * next->rms)
+            || ss_gaps_near(s->source->gap, s->source->n_gaps, p->t, 2 * ROW_REACH * r->a)
+            || (near < before && found->spike[near].t - p->t < NEAR * r->a)
+            || (near > 0 && p->t - found->spike[near - 1].t < NEAR * r->a))
             continue;
-        ss_status st = add_spike(s, i, p);
-        if (st != SS_OK)
-            return st;
+        ss_spike *spike = ss_list_room(found->spike, &s->room, found->n, sizeof *spike);
+        if (spike == NULL)
+            return SS_ENOMEM;
+        found->spike = spike;
+        found->spike[found->n++] = (ss_spike){
+            .t = p->t, .f = r->f, .level = 20 * log10(p->level / r->top), .snr = p->level / r->rms };
     }
-    sort(s->found);
+    sort(found);
     return SS_OK;
 }
 
@@ -210,7 +163,7 @@ refined(const spike_search *s, size_t i)
     double rate = s->source->rate;
     double a = ROW_CENTER / (2 * M_PI * spike->f) * rate, at = spike->t * rate;
     double lo = fmax(at - NEAR * a, 0), hi = fmin(at + NEAR * a, (double)(s->source->n - 1));
-    if (spike->kind == SS_SPIKE_BEND || spike->kind == SS_SPIKE_GLITCH)
+    if (!is_event(spike))
         return spike->t;
     if (i > 0)
         lo = fmax(lo, found->spike[i - 1].t * rate + 1);
@@ -219,31 +172,29 @@ refined(const spike_search *s, size_t i)
     return ss_breakpoint(s->source->x, (size_t)ceil(lo), (size_t)floor(hi), at, 0.75 * a) / rate;
 }
 
-static void
-classify(spike_search *s, ss_spike *spike)
-{
-    double clearest;
-    size_t i = 0;
-    while (s->row[i].f != spike->f)
-        i++;
-    spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY), &clearest);
-    spike->kind = kind_of(spike->slope, i);
-    if (spike->kind != SS_SPIKE_BEND || i == 0)
-        s->found->floor = fmin(s->found->floor, 20 * log10(s->threshold / clearest));
-}
-
+/* Their kinds by their slopes, and then their times.  A pulse of some length falls towards longer scales, but does not
+ * stand out at the shortest ones: it is smooth. */
 static void
 finish(spike_search *s)
 {
     ss_spikes *found = s->found;
     found->threshold = s->threshold;
-    for (size_t i = 0; i < found->n; i++)
-        classify(s, &found->spike[i]);
+    for (size_t k = 0; k < found->n; k++) {
+        ss_spike *spike = &found->spike[k];
+        double clearest;
+        size_t i = 0;
+        while (s->row[i].f != spike->f)
+            i++;
+        const double slope = spike->slope = slope_of(s, i, nearest(&s->row[i], spike->t, INFINITY), &clearest);
+        spike->kind = slope < -1.5 && i < ROW_VOICES ? SS_SPIKE_GLITCH
+            : slope < -1.5 || slope >= 22 ? SS_SPIKE_BEND : slope < 4 ? SS_SPIKE_JUMP : SS_SPIKE_KINK;
+        if (spike->kind != SS_SPIKE_BEND || i == 0)
+            found->floor = fmin(found->floor, 20 * log10(s->threshold / clearest));
+        found->f = fmax(found->f, spike->f);
+    }
     for (size_t i = 0; i < found->n; i++)
         found->spike[i].t = refined(s, i);
     sort(found);
-    for (size_t i = 0; i < found->n; i++)
-        found->f = fmax(found->f, found->spike[i].f);
     found->conclusive = found->floor <= -EVENT_CLEAR;
 }
 
@@ -283,8 +234,7 @@ ss_spikes_within(const ss_spikes *found, double onset, double end, double range)
     for (; i < found->n && found->spike[i].t <= end + reach; i++) {
         const ss_spike *spike = &found->spike[i];
         double a = ROW_CENTER / (2 * M_PI * spike->f);
-        if (spike->kind == SS_SPIKE_GLITCH || spike->kind == SS_SPIKE_BEND
-            || spike->level < -range || spike->t < onset - a || spike->t > end + a)
+        if (!is_event(spike) || spike->level < -range || spike->t < onset - a || spike->t > end + a)
             continue;
         group.n++;
         group.inside += spike->t > onset + a && spike->t < end - a;

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include "find/numbers.h"
 #include "find/search.h"
-#include "find/slope.h"
 
 ss_status
 ss_find_stiffness_raw(search *s)

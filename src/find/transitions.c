@@ -2,21 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include "find/events.h"
-#include "find/extent.h"
-#include "find/force.h"
 #include "find/search.h"
 #include "signal/gaps.h"
 
 #define SPIKES 60.0             /* [dB] range of the spikes that are counted in a transition */
-
-static int
-has_strong_event(const ss_spikes *found)
-{
-    for (size_t i = 0; i < found->n; i++)
-        if (is_event(&found->spike[i]) && found->spike[i].level >= -STRONG)
-            return 1;
-    return 0;
-}
 
 /* Find transitions that do not ring.  Each strong spike begins one; the weaker spikes up to the next strong
  * one belong to it.  Strong spikes nearer than an eighth of the cycle are one. */
@@ -66,18 +55,8 @@ room_about(const search *s, const ss_bursts *found, size_t i)
     return (ss_window){ (size_t)ceil(from * s->rate), (size_t)floor(to * s->rate) };
 }
 
-/* Do several events stand apart from the next weaker one, or from the noise?  Swells of noise have all
- * strengths. */
-static int
-stand_apart(const ss_bursts *found)
-{
-    double weakest = 0;
-    for (size_t i = 0; i < found->n; i++)
-        weakest = fmin(weakest, found->burst[i].level);
-    return found->n < 2 || weakest - fmax(found->next, found->floor) >= EVENT_CLEAR;
-}
-
-/* Find single events in a record that is quiet elsewhere.  The map is not needed any more. */
+/* Find single events in a record that is quiet elsewhere.  Several stand apart from the next weaker one, or from the
+ * noise: swells of noise have all strengths.  The map is not needed any more. */
 static ss_status
 find_single(search *s)
 {
@@ -85,7 +64,11 @@ find_single(search *s)
     ss_coefficients_free(s->map);
     s->map = NULL;
     ss_status st = ss_bursts_find(&found, s->rows, STRONG);
-    if (st == SS_OK && stand_apart(&found) && (st = ss_transitions_new(s->out, found.n)) == SS_OK)
+    double weakest = 0;
+    for (size_t i = 0; i < found.n; i++)
+        weakest = fmin(weakest, found.burst[i].level);
+    const int apart = found.n < 2 || weakest - fmax(found.next, found.floor) >= EVENT_CLEAR;
+    if (st == SS_OK && apart && (st = ss_transitions_new(s->out, found.n)) == SS_OK)
         for (size_t i = 0; i < found.n; i++) {
             ss_transition *tr = &s->out->transition[i];
             size_t at = (size_t)round(found.burst[i].t * s->rate);
@@ -103,16 +86,6 @@ find_single(search *s)
     return st;
 }
 
-/* The reach of gaps for spikes as blunt as those found. */
-static double
-spike_reach(const ss_spikes *found)
-{
-    double f = INFINITY;
-    for (size_t i = 0; i < found->n; i++)
-        f = is_event(&found->spike[i]) ? fmin(f, found->spike[i].f) : f;
-    return 2 * ROW_REACH * ROW_CENTER / (2 * M_PI * f);
-}
-
 /* The first spike of a transition may lie half a period before the fitted window, and the last one a
  * period behind it. */
 static void
@@ -121,7 +94,10 @@ count_spikes(const search *s)
     ss_features *out = s->out;
     double period = isnan(out->number[SS_TRANSITION_FREQUENCY].value) ? 0 : 1
         / out->number[SS_TRANSITION_FREQUENCY].value;
-    double reach = spike_reach(out->spikes);
+    double f = INFINITY;
+    for (size_t i = 0; i < out->spikes->n; i++)
+        f = is_event(&out->spikes->spike[i]) ? fmin(f, out->spikes->spike[i].f) : f;
+    const double reach = 2 * ROW_REACH * ROW_CENTER / (2 * M_PI * f);     /* of gaps, for spikes as blunt */
     for (size_t i = 0; i < out->n; i++) {
         ss_transition *tr = &out->transition[i];
         double next = i + 1 < out->n ? tr[1].onset : (double)s->n / s->rate;
@@ -138,8 +114,10 @@ static ss_status
 find_transitions(search *s)
 {
     ss_features *out = s->out;
-    int spiked = out->spikes->conclusive && !isnan(out->number[SS_REPETITION_FREQUENCY].value)
-        && has_strong_event(out->spikes);
+    size_t strong = 0;
+    for (size_t i = 0; i < out->spikes->n; i++)
+        strong += is_event(&out->spikes->spike[i]) && out->spikes->spike[i].level >= -STRONG;
+    int spiked = out->spikes->conclusive && !isnan(out->number[SS_REPETITION_FREQUENCY].value) && strong > 0;
     ss_status st = SS_OK;
     for (int slight = 0; slight < 2 && st == SS_OK && out->n == 0; slight++) {
         st = ss_ringing_find(s, slight ? 0 : s->opts->threshold);

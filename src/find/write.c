@@ -8,7 +8,6 @@
 #include "find/numbers.h"
 #include "find/search.h"
 #include "io/table.h"
-#include "find/events.h"
 #include "find/write.h"
 
 /* --- one recording --------------------------------------------------------------------------- */

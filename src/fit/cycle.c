@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "base/number.h"
-#include "find/period.h"
+#include "find/cycles.h"
 
 enum { GRID = 64 };             /* steps to either side in the search of the period */
 

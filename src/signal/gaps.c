@@ -5,6 +5,7 @@
 #include "base/columns.h"
 #include "base/error.h"
 #include "base/list.h"
+#include "base/sort.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
 
@@ -184,27 +185,6 @@ read_span(ss_span *span, char **p)
     return isfinite(span->from) && isfinite(span->to) && span->from < span->to;
 }
 
-static int
-is_earlier(const void *a, const void *b)
-{
-    const ss_span *p = a, *q = b;
-    return (p->from > q->from) - (p->from < q->from);
-}
-
-/* Put spans into the order of time, and join those that overlap. */
-static size_t
-order(ss_span *span, size_t n)
-{
-    size_t kept = 0;
-    qsort(span, n, sizeof *span, is_earlier);
-    for (size_t i = 0; i < n; i++)
-        if (kept > 0 && span[i].from < span[kept - 1].to)
-            span[kept - 1].to = fmax(span[kept - 1].to, span[i].to);
-        else
-            span[kept++] = span[i];
-    return kept;
-}
-
 ss_status
 ss_header_gaps(ss_span **out, size_t *n, const ss_header *head, ss_error *err)
 {
@@ -225,7 +205,12 @@ ss_header_gaps(ss_span **out, size_t *n, const ss_header *head, ss_error *err)
             free(span);
             return ss_fail(err, SS_EDATA, WRONG_GAPS);
         }
-    *n = order(span, read);
+    qsort(span, read, sizeof *span, ss_ascending);
+    for (size_t i = 0; i < read; i++)           /* join those that overlap */
+        if (*n > 0 && span[i].from < span[*n - 1].to)
+            span[*n - 1].to = fmax(span[*n - 1].to, span[i].to);
+        else
+            span[(*n)++] = span[i];
     *out = span;
     return SS_OK;
 }
