@@ -130,21 +130,6 @@ find_slopes(descent *d)
     return st;
 }
 
-/* Has the last step gained more than half of what the slopes predicted? */
-static int
-are_slopes_good(const descent *d)
-{
-    const size_t rows = d->fit->rows, m = d->fit->unknowns;
-    double predicted = 0;
-    for (size_t i = 0; i < rows; i++) {
-        double by = d->left[i];
-        for (size_t j = 0; j < d->n; j++)
-            by += d->slopes[i * m + d->free[j]] * (d->u[d->free[j]] - d->at[d->free[j]]);
-        predicted += by * by;
-    }
-    return d->squares - squares_of(d->residual, rows) > 0.5 * (d->squares - predicted);
-}
-
 /* Add up J'J, its lower half, and J'r, in one pass over the rows. */
 static void
 add_products(const descent *d, gsl_vector *by, gsl_matrix *products)
@@ -173,7 +158,17 @@ slopes(CBLAS_TRANSPOSE_t transposed, const gsl_vector *w, const gsl_vector *r, v
     int is_first = isnan(d->squares) || d->refresh;
     (void)transposed;
     (void)r;
-    d->is_old = fit->costly && !is_first && are_slopes_good(d);
+    d->is_old = fit->costly && !is_first;
+    if (d->is_old) {            /* has the last step gained more than half of what the slopes predicted? */
+        double predicted = 0;
+        for (size_t i = 0; i < fit->rows; i++) {
+            double left = d->left[i];
+            for (size_t j = 0; j < d->n; j++)
+                left += d->slopes[i * fit->unknowns + d->free[j]] * (d->u[d->free[j]] - d->at[d->free[j]]);
+            predicted += left * left;
+        }
+        d->is_old = d->squares - squares_of(d->residual, fit->rows) > 0.5 * (d->squares - predicted);
+    }
     if (!d->is_old)
         d->status = find_slopes(d);
     if (d->status != SS_OK)
@@ -228,17 +223,6 @@ predicted_gain(const descent *d, const gsl_multilarge_nlinear_workspace *space, 
     return gain;
 }
 
-/* Does a step from `before` that gained so much end the fit? */
-static int
-is_little(const descent *d, const double *before, double gain)
-{
-    const least *fit = d->fit;
-    int is_short = 1;
-    for (size_t k = 0; k < fit->unknowns; k++)
-        is_short = is_short && fabs(d->at[k] - before[k]) <= fit->tol * (fabs(d->at[k]) + fit->tol);
-    return is_short || is_little_gain(d, gain);
-}
-
 static void
 iterate(descent *d, gsl_multilarge_nlinear_workspace *space, gsl_multilarge_nlinear_fdf *of, gsl_vector *w,
         least_end *end)
@@ -257,7 +241,10 @@ iterate(descent *d, gsl_multilarge_nlinear_workspace *space, gsl_multilarge_nlin
             memcpy(before, d->at, d->fit->unknowns * sizeof *before);
             ended = gsl_multilarge_nlinear_iterate(space);
             end->steps++;
-            is_still = ended != GSL_SUCCESS || is_little(d, before, squares - d->squares);
+            is_still = 1;       /* the step was short, or gained little */
+            for (size_t k = 0; k < d->fit->unknowns && ended == GSL_SUCCESS; k++)
+                is_still &= fabs(d->at[k] - before[k]) <= d->fit->tol * (fabs(d->at[k]) + d->fit->tol);
+            is_still |= is_little_gain(d, squares - d->squares);
         }
         if (d->status != SS_OK && d->status != SS_EDATA)
             return;

@@ -308,15 +308,6 @@ ss_print_to(char *text, size_t size, const char *format, ...)
     return n;
 }
 
-static double
-strtod_in_c(const char *text)
-{
-    struct locales used = begin_c();
-    double x = strtod(text, NULL);
-    end_c(used);
-    return x;
-}
-
 double
 ss_number_parse(const char *text, char **end)
 {
@@ -335,18 +326,20 @@ ss_number_parse(const char *text, char **end)
         *end = (char *)(p != NULL ? p : text);
     if (p == NULL)
         return 0;
-    if (d.is_long)
-        return strtod_in_c(start);
-    while (d.w >> 53 && d.w % 10 == 0) {        /* 1.000000000000000000e+00, as NumPy writes it */
+    while (!d.is_long && d.w >> 53 && d.w % 10 == 0) {        /* 1.000000000000000000e+00, as NumPy writes it */
         d.w /= 10;
         d.e++;
     }
-    int exact = FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD <= 1 && !(d.w >> 53);     /* then one rounding */
+    int exact = !d.is_long && FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD <= 1 && !(d.w >> 53);     /* then one rounding */
     if (exact && d.e >= 0 && d.e <= 22)
         x = (double)d.w * pow10[d.e];
     else if (exact && d.e < 0 && d.e >= -22)
         x = (double)d.w / pow10[-d.e];
-    else if (d.w != 0 && !multiply(d, &x))
-        return strtod_in_c(start);
+    else if (d.is_long || (d.w != 0 && !multiply(d, &x))) {
+        struct locales used = begin_c();
+        x = strtod(start, NULL);
+        end_c(used);
+        return x;
+    }
     return negative ? -x : x;
 }

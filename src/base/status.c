@@ -50,28 +50,22 @@ ss_printable(char *text)
     return text;
 }
 
-/* Text that is too long loses its middle: it begins with the name of a file and ends with the error. */
-static void
-format_text(char *text, size_t size, const char *format, va_list args)
-{
-    char whole[8192] = "";
-    ss_print_text(whole, sizeof whole, format, args);
-    size_t length = strlen(whole), first = size / 4;
-    if (length < size)
-        memcpy(text, whole, length + 1);
-    else
-        snprintf(text, size, "%.*s ... %s", (int)first, whole, whole + length - (size - first - 6));
-}
-
-/* These texts contain names of files and parts of input. */
+/* These texts contain names of files and parts of input.  One that is too long loses its middle: it begins with the
+ * name of a file and ends with the error. */
 ss_status
 ss_fail(ss_error *err, ss_status status, const char *format, ...)
 {
     if (err != NULL) {
+        char whole[8192] = "";
         va_list args;
         va_start(args, format);
-        format_text(err->text, sizeof err->text, format, args);
+        ss_print_text(whole, sizeof whole, format, args);
         va_end(args);
+        const size_t length = strlen(whole), size = sizeof err->text, first = size / 4;
+        if (length < size)
+            memcpy(err->text, whole, length + 1);
+        else
+            snprintf(err->text, size, "%.*s ... %s", (int)first, whole, whole + length - (size - first - 6));
         ss_printable(err->text);
         err->found = err->wanted = SS_KIND_UNKNOWN;
     }

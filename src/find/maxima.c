@@ -80,18 +80,6 @@ typedef struct flood {
     int failed;                 /* 1: no memory for hills, peaks or borders */
 } flood;
 
-static void
-free_all(flood *f)
-{
-    free(f->line);
-    free(f->level);
-    free(f->label);
-    free(f->hill);
-    free(f->peak);
-    free(f->border);
-    free(f);
-}
-
 /* The list, possibly moved, with room for one entry more; NULL, and failed: there is no memory. */
 static void *
 longer(flood *f, void *list, size_t *room, size_t n, size_t size)
@@ -257,14 +245,8 @@ cut(flood *f, line *l)
     }
 }
 
-/* Of equals, the one in the first row is the higher, and in it the first. */
-static inline int
-is_higher(const double *level, size_t p, size_t q)
-{
-    return level[p] > level[q] || (p < q && level[p] == level[q]);
-}
-
-/* Let the hills of a row lead to the highest neighbours of their tops, if these are higher. */
+/* Let the hills of a row lead to the highest neighbours of their tops, if these are higher.  Of equals, the one in
+ * the first row is the higher, and in it the first. */
 static void
 lead(flood *f, size_t row)
 {
@@ -283,9 +265,12 @@ lead(flood *f, size_t row)
             const pair *p = &beside[side];
             const line *to = l == p->fine ? p->coarse : p->fine;
             size_t j = l == p->fine ? nearest(p, k) : first_beside(p, to->lo, k);
-            for (size_t first = j; j < to->end && (l == p->fine ? j == first : nearest(p, j) == k); j++)
-                if (j >= to->lo && is_higher(f->level, to->at + j - to->lo, highest))
-                    highest = to->at + j - to->lo;
+            for (size_t first = j; j < to->end && (l == p->fine ? j == first : nearest(p, j) == k); j++) {
+                const size_t point = to->at + j - to->lo;
+                if (j >= to->lo && (f->level[point] > f->level[highest]
+                                    || (point < highest && f->level[point] == f->level[highest])))
+                    highest = point;
+            }
         }
         h->next = f->label[highest];
     }
@@ -436,15 +421,6 @@ find_saddles(flood *f)
 /* --- maxima -------------------------------------------------------------------------------- */
 
 static int
-on_border(const flood *f, size_t row, size_t k)
-{
-    if (f->rows > 1 && (row == f->first || row + 1 == f->first + f->rows))
-        return 1;
-    return k == 0 || k + 1 == f->map->scale[row].n || ss_coefficients_edge(f->map, row, k)
-        || ss_coefficients_edge(f->map, row, k - 1) || ss_coefficients_edge(f->map, row, k + 1);
-}
-
-static int
 earlier_first(const void *a, const void *b)
 {
     const ss_maximum *p = a, *q = b;
@@ -481,7 +457,11 @@ search_rows(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t firs
         /* the highest alone has no saddle */
         double below = p->saddle > 0 || p->level == highest ? p->saddle : kind->floor;
         double fall = below > 0 ? 20 * log10(p->level / below) : INFINITY;
-        if (!(fall > 0 && fall >= kind->prominence) || on_border(f, p->row, p->k))
+        const size_t k = p->k, row = p->row;
+        if (!(fall > 0 && fall >= kind->prominence)     /* or it is on the border */
+            || (rows > 1 && (row == first || row + 1 == first + rows)) || k == 0 || k + 1 == scale->n
+            || ss_coefficients_edge(map, row, k) || ss_coefficients_edge(map, row, k - 1)
+            || ss_coefficients_edge(map, row, k + 1))
             continue;
         list[count] = (ss_maximum){ ss_scale_b(scale, p->k), scale->f, 20 * log10(p->level / *top), fall };
         highest_kept = fmax(highest_kept, list[count++].level);
@@ -498,7 +478,13 @@ search_rows(ss_maximum **out, size_t *n, const ss_coefficients *map, size_t firs
         st = st == SS_OK ? SS_ENOMEM : st;
         free(list);
     }
-    free_all(f);
+    free(f->line);
+    free(f->level);
+    free(f->label);
+    free(f->hill);
+    free(f->peak);
+    free(f->border);
+    free(f);
     return st;
 }
 

@@ -16,25 +16,20 @@
 /* The least correlation that counts, unless white noise, of standard deviation n^-1/2, reaches more at some of n
  * lags. Irregular slips reach 0.05, drifting ones that still repeat 0.3. */
 #define LEAST 0.15
-
-/* Has n no prime factor above 5, so that its FFT is fast? */
-static int
-is_smooth(size_t n)
-{
-    for (size_t prime = 2; prime <= 5; prime++)
-        while (n % prime == 0)
-            n /= prime;
-    return n == 1;
-}
+enum { MULTIPLES = 32 };        /* of a lag, at which a signal must still be like itself */
 
 /* The autocorrelation of n samples, compressed, at lags 0 ... n - 1, 1 at 0: r->x, to be freed with r. */
 static ss_status
 autocorrelation(real_fft *r, const double *x, size_t n)
 {
     double mean = 0, largest = 0;
-    size_t size = 2 * (n + n / 8);      /* the compressed samples are a circle, whose ends do not meet */
-    while (!is_smooth(size))
-        size += 2;
+    size_t rest = 0, size = 2 * (n + n / 8) - 2;    /* a circle, whose ends do not meet */
+    while (rest != 1) {                 /* without a prime factor above 5 the FFT is fast */
+        rest = size += 2;
+        for (size_t prime = 2; prime <= 5; prime++)
+            while (rest % prime == 0)
+                rest /= prime;
+    }
     if (ss_real_fft_new(r, size, 0) != SS_OK)
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++) {
@@ -63,18 +58,6 @@ is_peak(const double *r, size_t i)
     return r[i] >= r[i - 1] && r[i] > r[i + 1];
 }
 
-/* The top of the parabola through the highest of the lags within reach of `at`, and its neighbours. */
-static double
-peak_near(const double *r, double at, double reach)
-{
-    size_t best = (size_t)ceil(at - reach);
-    for (size_t i = best; (double)i <= at + reach; i++)
-        best = r[i] > r[best] ? i : best;
-    double bend = r[best - 1] - 2 * r[best] + r[best + 1];
-    double shift = bend < 0 ? 0.5 * (r[best - 1] - r[best + 1]) / bend : 0;
-    return (double)best + fmax(-0.5, fmin(0.5, shift));
-}
-
 /* The period that the peaks at the multiples of a lag have in common, up to last and as many as
  * most, and the height of the last of them. In *error its standard error: alone, a peak is known to
  * the sample. */
@@ -83,7 +66,14 @@ follow(const double *r, size_t lag, double last, double most, double *height, do
 {
     double period = (double)lag, mm = 0, ml = 0, ll = 0, count = 0;
     for (double m = 1; m <= most && (m + 0.25) * period < last; m++) {
-        double at = peak_near(r, m * period, fmax(1, JITTER * period / sqrt(m)));
+        const double reach = fmax(1, JITTER * period / sqrt(m));
+        size_t best = (size_t)ceil(m * period - reach);
+        for (size_t i = best; (double)i <= m * period + reach; i++)
+            best = r[i] > r[best] ? i : best;
+        /* the vertex of the parabola through the highest there and its neighbours */
+        double bend = r[best - 1] - 2 * r[best] + r[best + 1];
+        double shift = bend < 0 ? 0.5 * (r[best - 1] - r[best + 1]) / bend : 0;
+        double at = (double)best + fmax(-0.5, fmin(0.5, shift));
         mm += m * m, ml += m * at, ll += at * at, count++;
         period = ml / mm;
         *height = r[(size_t)(at + 0.5)];
@@ -93,18 +83,8 @@ follow(const double *r, size_t lag, double last, double most, double *height, do
     return period;
 }
 
-/* Does it last?  An oscillation that decays repeats itself, too, but not for long. */
-static int
-lasts(const double *r, size_t lag, size_t last)
-{
-    enum { MULTIPLES = 32 };
-    double height = r[lag], error;
-    follow(r, lag, (double)last, MULTIPLES, &height, &error);
-    return height >= 0.5 * r[lag];
-}
-
-/* The first peak behind the main one that is nearly the highest up to last and, if any peak lasts, lasts; 0:
- * none. */
+/* The first peak behind the main one that is nearly the highest up to last and, if any peak lasts, lasts: an
+ * oscillation that decays repeats itself, too, but not for long.  0: none. */
 static size_t
 first_peak(const double *r, size_t last, double least)
 {
@@ -119,7 +99,9 @@ first_peak(const double *r, size_t last, double least)
     size_t first = 0;
     for (size_t i = from; i < last; i++)
         if (is_peak(r, i) && r[i] >= NEARLY * highest) {
-            if (lasts(r, i, last))
+            double height = r[i], error;
+            follow(r, i, (double)last, MULTIPLES, &height, &error);
+            if (height >= 0.5 * r[i])
                 return i;
             first = first > 0 ? first : i;
         }
@@ -135,9 +117,10 @@ ss_period_find(const double *x, size_t n, ss_value *period)
     if (n < 8)
         return SS_OK;
     ss_status st = autocorrelation(&r, x, n);
-    size_t peak = st != SS_OK ? 0 : first_peak(r.x, n / 2, fmax(LEAST, sqrt(2 * log((double)n / FALSE_ALARMS) / (double)n)));
+    const double least = fmax(LEAST, sqrt(2 * log((double)n / FALSE_ALARMS) / (double)n));
+    size_t peak = st == SS_OK ? first_peak(r.x, n / 2, least) : 0;
     if (peak > 0)
-        period->value = follow(r.x, peak, 0.75 * (double)n, INFINITY, &height, &period->error);
+        period->value = follow(r.x, peak, MOSTLY * (double)n, INFINITY, &height, &period->error);
     ss_real_fft_free(&r);
     return st;
 }

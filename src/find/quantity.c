@@ -8,25 +8,13 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include "signal/header.h"
 
 static const char *const displacement_words[] = { "displacement", "position", "stroke", "disp", "pos", "x", NULL };
 static const char *const motion_words[] = { "velocity", "acceleration", "slip", "speed", "vel", "acc", "v", "a", NULL };
 static const char *const force_words[] = { "force", "torque", "friction", "load", "traction", "f", "fx", "fy",
                                            "fz", "fn", "ft", NULL };
-
-static int
-is_one_of(const char *const *list, const char *text, size_t length)
-{
-    for (; *list != NULL; list++) {
-        size_t i = 0;
-        while (i < length && (*list)[i] == tolower((unsigned char)text[i]))
-            i++;
-        if (i == length && (*list)[i] == '\0')
-            return 1;
-    }
-    return 0;
-}
 
 /* Does one of the words stand in the name, apart from other letters? */
 static int
@@ -36,8 +24,9 @@ has_word(const char *name, const char *const *list)
         size_t length = 0;
         while (isalpha((unsigned char)name[length]))
             length++;
-        if (length > 0 && is_one_of(list, name, length))
-            return 1;
+        for (size_t k = 0; length > 0 && list[k] != NULL; k++)
+            if (strlen(list[k]) == length && strncasecmp(list[k], name, length) == 0)
+                return 1;
         name += length > 0 ? length : 1;
     }
     return 0;

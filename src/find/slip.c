@@ -122,7 +122,7 @@ start(double p[FITTED], const double *x, ss_window room, size_t high, size_t low
     double to = (double)walk(x, at, low, middle - DEEP * half), centre = 0.5 * (from + to);
     if (!(half > 0 && to > from))
         return (ss_window){ 0, 0 };
-    double w = (acos(-DEEP) - acos(DEEP)) / (to - from), reach = 1.5 * M_PI / w;
+    double w = (acos(-DEEP) - acos(DEEP)) / (to - from), reach = 3 * M_PI / 2 / w;
     ss_window used = { (size_t)fmax((double)room.first, centre - reach),
                        (size_t)fmin((double)room.end, centre + reach + 1) };
     memcpy(p, (double[FITTED]){ centre - M_PI / 2 / w - (double)used.first, middle + half, middle, w, p[DAMPING] },
@@ -178,22 +178,6 @@ fill(ss_slip *s, const fall *f, const double p[FITTED], const double step[FITTED
     s->damping = (ss_value){ p[DAMPING], sqrt(s->variance * of_damping) };
 }
 
-/* left: model less sample. */
-static void
-fill_residual(ss_slip *s, const double *left, size_t n)
-{
-    double length = s->end.value - s->onset.value, samples[SLIP_PARTS] = { 0 };
-    for (size_t i = 0; i < n; i++) {
-        double part = SLIP_PARTS * (((double)i - s->onset.value) / length + 1) / 3;
-        if (!(part >= 0 && part < SLIP_PARTS))
-            continue;
-        s->residual[(size_t)part] -= left[i];
-        samples[(size_t)part]++;
-    }
-    for (size_t k = 0; k < SLIP_PARTS; k++)
-        s->residual[k] /= samples[k] * s->drop.value;
-}
-
 ss_status
 ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t low, double loading,
             ss_range damping)
@@ -222,7 +206,16 @@ ss_slip_fit(ss_slip *out, const double *x, ss_window room, size_t high, size_t l
         s.left = end.squares;
         s.variance = end.squares / (double)(f.n - FITTED) * ss_colour(left, NULL, f.n, 0);
         fill(&s, &f, p, step, covariance);
-        fill_residual(&s, left, f.n);
+        double samples[SLIP_PARTS] = { 0 };
+        for (size_t i = 0; i < f.n; i++) {      /* left: model less sample */
+            double part = SLIP_PARTS * (((double)i - s.onset.value) / (s.end.value - s.onset.value) + 1) / 3;
+            if (!(part >= 0 && part < SLIP_PARTS))
+                continue;
+            s.residual[(size_t)part] -= left[i];
+            samples[(size_t)part]++;
+        }
+        for (size_t k = 0; k < SLIP_PARTS; k++)
+            s.residual[k] /= samples[k] * s.drop.value;
         if (s.onset.value >= 0 && s.end.value > s.onset.value && s.end.value <= (double)f.n
             && SIGMAS * s.drop.error <= s.drop.value && SIGMAS * s.k_over_m.error <= s.k_over_m.value) {
             s.onset.value += (double)used.first;

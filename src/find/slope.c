@@ -21,21 +21,6 @@ typedef struct sums {
 } sums;
 
 static double
-mean_of(const double *v, ss_window s)
-{
-    double sum = 0;
-    for (size_t i = s.first; i < s.end; i++)
-        sum += v[i];
-    return sum / (double)(s.end - s.first);
-}
-
-static double
-rough_slope(const double *v)
-{
-    return (v[1] - v[-1]) / 2;
-}
-
-static double
 slope_at(const double *v)
 {
     return (8 * (v[1] - v[-1]) - (v[2] - v[-2])) / 12;
@@ -50,26 +35,21 @@ sums_over(const double *f, const double *x, const double *y, ss_window span)
     ss_window inner = { span.first + 2, span.end - 2 };
     if (span.end < span.first + 5)
         return s;
-    double f0 = mean_of(f, inner), x0 = mean_of(x, inner), y0 = mean_of(y, inner), d0 = 0;
-    for (size_t i = inner.first; i < inner.end; i++)
-        d0 += slope_at(y + i) / (double)ss_window_length(inner);
+    const double n = (double)ss_window_length(inner);
+    double f0 = 0, x0 = 0, y0 = 0, d0 = 0;
     for (size_t i = inner.first; i < inner.end; i++) {
-        const double of[OF] = { f[i] - f0, x[i] - x0, slope_at(x + i), rough_slope(x + i) };
+        f0 += f[i], x0 += x[i], y0 += y[i];
+        d0 += slope_at(y + i) / n;
+    }
+    f0 /= n, x0 /= n, y0 /= n;
+    for (size_t i = inner.first; i < inner.end; i++) {
+        const double of[OF] = { f[i] - f0, x[i] - x0, slope_at(x + i), (x[i + 1] - x[i - 1]) / 2 };
         for (int k = 0; k < OF; k++) {
             s.by_y[k] += (y[i] - y0) * of[k];
             s.by_slope[k] += (slope_at(y + i) - d0) * of[k];
         }
     }
     return s;
-}
-
-static void
-add(sums *to, sums more)
-{
-    for (int k = 0; k < OF; k++) {
-        to->by_y[k] += more.by_y[k];
-        to->by_slope[k] += more.by_slope[k];
-    }
 }
 
 /* K_y by all sums less those of one window; v: which differences. */
@@ -96,17 +76,20 @@ ss_slope_find(const double *f, const double *x, const double *y, const ss_window
         return SS_ENOMEM;
     for (size_t i = 0; i < n; i++) {
         size_t off = ss_window_length(span[i]) / CUT;
+        const sums cut = sums_over(f, x, y, (ss_window){ span[i].first + off, span[i].end - off });
         each[i] = sums_over(f, x, y, span[i]);
-        add(&all, each[i]);
-        add(&inner, sums_over(f, x, y, (ss_window){ span[i].first + off, span[i].end - off }));
+        for (int k = 0; k < OF; k++) {
+            all.by_y[k] += each[i].by_y[k], all.by_slope[k] += each[i].by_slope[k];
+            inner.by_y[k] += cut.by_y[k], inner.by_slope[k] += cut.by_slope[k];
+        }
     }
     for (size_t i = 0; i < n; i++)
         mean += stiffness_of(&all, &each[i], V) / m;
     for (size_t i = 0; i < n; i++)
         scatter += pow(stiffness_of(&all, &each[i], V) - mean, 2);
     double value = stiffness_of(&all, &none, V), rough = stiffness_of(&all, &none, ROUGH_V);
-    double cut = stiffness_of(&inner, &none, V) - value;
-    double error = hypot(hypot(sqrt(scatter * (m - 1) / m), rough - value), cut);
+    double moved = stiffness_of(&inner, &none, V) - value;
+    double error = hypot(hypot(sqrt(scatter * (m - 1) / m), rough - value), moved);
     if (n >= 2 && isfinite(value) && SIGMAS * error < fabs(value))
         *slope = (ss_value){ fabs(value), error };
     free(each);

@@ -125,16 +125,6 @@ add_numbers(ss_features_stream *s, const ss_features *f)
     }
 }
 
-/* Write what comes before the rows. */
-static void
-begin(ss_features_stream *s, const ss_features *f)
-{
-    s->has = ss_features_have(f, &s->opts);
-    ss_features_notes(&s->rows, s->head, s->column, &s->opts);
-    ss_features_row(&s->rows, f, f->n, 0, s->has);      /* the names */
-    s->begun = 1;
-}
-
 /* Is it a lone maximum, whose extent is not known yet? */
 static int
 is_lone(const ss_transition *tr)
@@ -196,17 +186,6 @@ find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features 
     return st;
 }
 
-/* Is what is known not enough for these features of the last n samples? */
-static int
-is_new(const ss_features_stream *s, const ss_features *f, size_t n)
-{
-    const double *x = s->x[s->column] + s->n - n;
-    for (size_t i = 0; i < n; i++)
-        if (fabs(x[i]) > LOUDER * s->lesson.largest)
-            return 1;
-    return f != NULL && f->n == 0;
-}
-
 /* Write the transitions that are known now, or all at the end. */
 static ss_status
 write_known(ss_features_stream *s, int last, ss_error *err)
@@ -221,7 +200,10 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     int finds_all = whole || s->known.period == 0;
     const stream_part afresh = { .learnt = whole ? &s->lesson : NULL };
     ss_status st = find_last(s, n, whole ? &afresh : &s->known, &f, &start, err);
-    if (st == SS_OK && !whole && s->known.known != NULL && is_new(s, f, n)) {
+    int is_new = st == SS_OK && f->n == 0;      /* what is known is not enough for the last n samples */
+    for (size_t i = s->n - n; i < s->n; i++)
+        is_new |= fabs(s->x[s->column][i]) > LOUDER * s->lesson.largest;
+    if (st == SS_OK && !whole && s->known.known != NULL && is_new) {
         stream_part part = s->known;
         part.known = NULL;
         s->is_changed = 1;
@@ -242,8 +224,12 @@ write_known(ss_features_stream *s, int last, ss_error *err)
             s->shown[k] = f->number[k];
         else if (isnan(f->number[k].value) || k == SS_SLIPS)
             f->number[k] = s->shown[k];
-    if (!s->begun && (last || count_due(s, f, 0, start, until) > 0))
-        begin(s, f);
+    if (!s->begun && (last || count_due(s, f, 0, start, until) > 0)) {
+        s->has = ss_features_have(f, &s->opts);
+        ss_features_notes(&s->rows, s->head, s->column, &s->opts);
+        ss_features_row(&s->rows, f, f->n, 0, s->has);  /* the names */
+        s->begun = 1;
+    }
     for (size_t i = 0; i < f->n; i++)
         if (!is_lone(&f->transition[i]) && is_due(s, &f->transition[i], start, until)) {
             ss_features_row(&s->rows, f, i, start, s->has);

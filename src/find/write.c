@@ -12,33 +12,6 @@
 
 /* --- one recording --------------------------------------------------------------------------- */
 
-static void
-write_transition(struct rows *rows, const ss_transition *tr, double start, int conclusive)
-{
-    ss_rows_number(rows, "onset", "s", start + tr->onset);
-    ss_rows_number(rows, "end", "s", start + tr->end);
-    ss_rows_number(rows, "spikes", "", conclusive && !tr->gap ? (double)tr->spikes : NAN);
-    ss_rows_number(rows, "time", "s", start + tr->maximum.t);
-    ss_rows_number(rows, "frequency", "Hz", tr->maximum.f);
-    ss_rows_number(rows, "prominence", "dB", tr->maximum.prominence);
-    ss_rows_value(rows, "transition_frequency", "Hz", tr->frequency);
-    ss_rows_value(rows, "damping_ratio", "", tr->damping_ratio);
-}
-
-static void
-write_loading(struct rows *rows, const ss_loading *l)
-{
-    ss_rows_value(rows, "slope", "", l->slope);
-    ss_rows_value(rows, "stiffness", "", l->stiffness);
-    ss_rows_value(rows, "drop", "", l->drop);
-    ss_rows_value(rows, "duration", "s", l->duration);
-    ss_rows_value(rows, "recurrence", "s", l->recurrence);
-    ss_rows_value(rows, "stick", "s", l->stick);
-    ss_rows_value(rows, "static_friction", "", l->static_friction);
-    ss_rows_value(rows, "friction", "", l->friction);
-    ss_rows_value(rows, "k_over_m", "1/s^2", l->k_over_m);
-}
-
 /* In a format without notes each row ends with the numbers of the whole recording, and a recording without
  * transitions has one row, for these. */
 void
@@ -47,9 +20,24 @@ ss_features_row(struct rows *rows, const ss_features *f, size_t i, double start,
     const ss_transition no_transition = { NAN, NAN, 1, 0, no_maximum, unknown, unknown, NAN, NAN };
     const ss_loading no_loading = { NAN, unknown, unknown, unknown, unknown, unknown, unknown, unknown,
                                     unknown, unknown, NAN, NAN, NAN };
-    write_transition(rows, i < f->n ? &f->transition[i] : &no_transition, start, f->spikes->conclusive);
-    if (has & LOADING)
-        write_loading(rows, i < f->n && f->loading != NULL ? &f->loading[i] : &no_loading);
+    const ss_transition *tr = i < f->n ? &f->transition[i] : &no_transition;
+    const ss_loading *l = i < f->n && f->loading != NULL ? &f->loading[i] : &no_loading;
+    ss_rows_number(rows, "onset", "s", start + tr->onset);
+    ss_rows_number(rows, "end", "s", start + tr->end);
+    ss_rows_number(rows, "spikes", "", f->spikes->conclusive && !tr->gap ? (double)tr->spikes : NAN);
+    ss_rows_number(rows, "time", "s", start + tr->maximum.t);
+    ss_rows_number(rows, "frequency", "Hz", tr->maximum.f);
+    ss_rows_number(rows, "prominence", "dB", tr->maximum.prominence);
+    ss_rows_value(rows, "transition_frequency", "Hz", tr->frequency);
+    ss_rows_value(rows, "damping_ratio", "", tr->damping_ratio);
+    const struct { const char *name, *unit; ss_value value; } of_falls[] = {
+        { "slope", "", l->slope }, { "stiffness", "", l->stiffness }, { "drop", "", l->drop },
+        { "duration", "s", l->duration }, { "recurrence", "s", l->recurrence }, { "stick", "s", l->stick },
+        { "static_friction", "", l->static_friction }, { "friction", "", l->friction },
+        { "k_over_m", "1/s^2", l->k_over_m },
+    };
+    for (size_t k = 0; has & LOADING && k < sizeof of_falls / sizeof *of_falls; k++)
+        ss_rows_value(rows, of_falls[k].name, of_falls[k].unit, of_falls[k].value);
     for (size_t k = SS_TRANSITIONS + 1; k < SS_FEATURE_NUMBERS && !rows->format->has_notes; k++)
         if ((ss_feature_numbers[k].needs & ~has) == 0)
             ss_rows_whole_value(rows, ss_feature_numbers[k].label.name,
@@ -94,18 +82,6 @@ ss_features_notes(struct rows *rows, const ss_header *head, size_t column, const
                      "within 6, no local maximum within sqrt(2), no fit over one");
 }
 
-static void
-write_spikes(struct rows *rows, const ss_spikes *found, double start)
-{
-    char t[SS_NUMBER_MAX], level[SS_NUMBER_MAX], slope[SS_NUMBER_MAX];
-    for (size_t i = 0; i < found->n; i++) {
-        const ss_spike *spike = &found->spike[i];
-        ss_rows_note(rows, "spike: %s %s %s %s", ss_number_text(t, start + spike->t),
-                     ss_spike_kind_name(spike->kind), ss_number_rounded(level, spike->level, 3),
-                     ss_number_rounded(slope, spike->slope, 3));
-    }
-}
-
 ss_status
 ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
                   const ss_features_opts *given, FILE *out, ss_format format, ss_error *err)
@@ -129,7 +105,13 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
     ss_features_row(&rows, f, f->n, head->start, has);  /* the names */
     for (size_t i = 0; i < f->n + (f->n == 0 && !rows.format->has_notes); i++)
         ss_features_row(&rows, f, i, head->start, has);
-    write_spikes(&rows, f->spikes, head->start);
+    for (size_t i = 0; i < f->spikes->n; i++) {
+        const ss_spike *spike = &f->spikes->spike[i];
+        char t[SS_NUMBER_MAX], level[SS_NUMBER_MAX], slope[SS_NUMBER_MAX];
+        ss_rows_note(&rows, "spike: %s %s %s %s", ss_number_text(t, head->start + spike->t),
+                     ss_spike_kind_name(spike->kind), ss_number_rounded(level, spike->level, 3),
+                     ss_number_rounded(slope, spike->slope, 3));
+    }
     return ss_rows_finish(&rows, err);
 }
 

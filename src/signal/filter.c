@@ -207,27 +207,6 @@ change_unit(const char *unit, int order)
     return made;
 }
 
-/* Widen the gaps by the reach of the filter, as what lies beside them is not known either. */
-static ss_status
-widen_gaps(ss_header *head, double reach)
-{
-    ss_span *gap = NULL;
-    size_t n = 0, size;
-    char *text = NULL, at[2][SS_NUMBER_MAX];
-    ss_status st = ss_header_gaps(&gap, &n, head, NULL);
-    FILE *out = st == SS_OK && n > 0 ? open_memstream(&text, &size) : NULL;
-    for (size_t i = 0; out != NULL && i < n; i++) {
-        ss_number_format(at[0], gap[i].from - reach);
-        ss_number_format(at[1], gap[i].to + reach);
-        fprintf(out, "%s%s:%s", i > 0 ? " " : "", at[0], at[1]);
-    }
-    if (st == SS_OK && n > 0)
-        st = out != NULL && fclose(out) == 0 ? ss_header_note(head, "gaps", text, NULL) : SS_ENOMEM;
-    free(text);
-    free(gap);
-    return st;
-}
-
 static ss_status
 change_header(ss_header *head, const struct design *d, double stop)
 {
@@ -247,9 +226,16 @@ change_header(ss_header *head, const struct design *d, double stop)
         free(head->column[c].unit);
         head->column[c].unit = unit;
     }
-    if (st == SS_OK)
-        st = widen_gaps(head, (double)(d->n / 2) / d->rate);
-    head->start += (double)(d->n / 2) / d->rate;
+    /* the gaps grow by the reach of the filter, as what lies beside them is not known either */
+    const double reach = (double)(d->n / 2) / d->rate;
+    ss_span *gap = NULL;
+    size_t n = 0;
+    st = st == SS_OK ? ss_header_gaps(&gap, &n, head, NULL) : st;
+    for (size_t i = 0; i < n; i++)
+        gap[i] = (ss_span){ gap[i].from - reach, gap[i].to + reach };
+    st = st == SS_OK ? ss_header_note_gaps(head, gap, n) : st;
+    free(gap);
+    head->start += reach;
     return st == SS_EDATA ? SS_OK : st;
 }
 

@@ -68,23 +68,14 @@ add_value(struct runs *r, size_t row, double value)
 /* Note the gaps as "from:to from:to ...".  Each goes from the time of its first missing sample to that of the
  * next sample with a value. */
 static ss_status
-note_spans(const struct runs *r, ss_header *head)
+note_runs(const struct runs *r, ss_header *head)
 {
-    size_t length = 0;
-    char *text = malloc(r->n * (2 * SS_NUMBER_MAX + 2) + 1);
-    if (r->n == 0 || text == NULL) {
-        free(text);
-        return r->n == 0 ? SS_OK : SS_ENOMEM;
-    }
-    for (size_t i = 0; i < r->n; i++) {
-        if (length > 0)
-            text[length++] = ' ';
-        length += ss_number_format(text + length, head->start + (double)r->run[i].first / head->rate);
-        text[length++] = ':';
-        length += ss_number_format(text + length, head->start + (double)r->run[i].end / head->rate);
-    }
-    ss_status st = ss_header_note(head, key, text, NULL);
-    free(text);
+    ss_span *span = malloc((r->n + 1) * sizeof *span);
+    for (size_t i = 0; span != NULL && i < r->n; i++)
+        span[i] = (ss_span){ head->start + (double)r->run[i].first / head->rate,
+                             head->start + (double)r->run[i].end / head->rate };
+    ss_status st = span != NULL ? ss_header_note_gaps(head, span, r->n) : SS_ENOMEM;
+    free(span);
     return st;
 }
 
@@ -163,12 +154,29 @@ ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err)
     for (size_t c = 0; st == SS_OK && c < columns; c++)
         if (g->base.row > 0 && g->column[c].there == 0)
             st = ss_fail(err, SS_EDATA, "%s: column %s: no numbers", g->base.name, g->base.head->column[c].name);
-    if (st == SS_OK && note_spans(&g->rows, g->base.head) != SS_OK)
+    if (st == SS_OK && note_runs(&g->rows, g->base.head) != SS_OK)
         st = ss_fail_memory(err, g->base.name);
     return st == SS_OK ? ss_source_rewind(&g->base, err) : st;
 }
 
 /* --- the note ------------------------------------------------------------------------------ */
+
+ss_status
+ss_header_note_gaps(ss_header *head, const ss_span *span, size_t n)
+{
+    char from[SS_NUMBER_MAX], to[SS_NUMBER_MAX], *text = NULL;
+    size_t size;
+    FILE *out = n > 0 ? open_memstream(&text, &size) : NULL;
+    for (size_t i = 0; out != NULL && i < n; i++) {
+        ss_number_format(from, span[i].from);
+        ss_number_format(to, span[i].to);
+        fprintf(out, "%s%s:%s", i > 0 ? " " : "", from, to);
+    }
+    ss_status st = n == 0 ? SS_OK
+        : out != NULL && fclose(out) == 0 ? ss_header_note(head, key, text, NULL) : SS_ENOMEM;
+    free(text);
+    return st;
+}
 
 /* Read "from:to" and the blanks behind it; 0: it is no span. */
 static int

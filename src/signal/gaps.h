@@ -11,6 +11,8 @@
  * SS_EDATA: a column has no numbers, or, later, a value is missing that was there. */
 ss_status ss_source_fill_gaps(ss_source **s, ss_gaps how, ss_error *err);
 
+/* Note n gaps as text that ss_header_gaps reads; without gaps the header stays as it is. */
+ss_status ss_header_note_gaps(ss_header *head, const ss_span *span, size_t n);
 /* SS_EDATA: the note of the gaps is not what ss_header_gaps reads. */
 ss_status ss_header_check_gaps(const ss_header *head);
 

@@ -21,19 +21,6 @@ struct ss_welch {
     ss_spectrum *sum;
 };
 
-/* The length of the segments, a power of 2; 0 if n samples cannot have this resolution. */
-static size_t
-length_of(size_t n, double rate, double resolution)
-{
-    double most = resolution > 0 ? BANDWIDTH * rate / resolution * (1 + 1e-9) : fmin((double)(n / 4), LONGEST);
-    size_t length = LEAST;
-    if (resolution > 0 && (most > (double)n + 0.5 || most < LEAST - 0.5))
-        return 0;
-    while ((double)length * 2 <= most)
-        length *= 2;
-    return length;
-}
-
 static double
 hann(size_t i, size_t length)
 {
@@ -67,10 +54,13 @@ ss_welch_new(ss_welch **out, size_t n, double rate, double resolution, ss_error 
     *out = NULL;
     if (n < LEAST)
         return ss_fail(err, SS_EINVAL, "a spectrum needs at least %d samples, not %zu", LEAST, n);
-    size_t length = rate > 0 && resolution >= 0 ? length_of(n, rate, resolution) : 0;
-    if (length == 0)
+    const double most = resolution > 0 ? BANDWIDTH * rate / resolution * (1 + 1e-9) : fmin((double)(n / 4), LONGEST);
+    if (!(rate > 0 && resolution >= 0) || (resolution > 0 && (most > (double)n + 0.5 || most < LEAST - 0.5)))
         return ss_fail(err, SS_EINVAL, "%zu samples at %g Hz have no spectrum of resolution %g Hz: it is %g to "
                        "%g Hz", n, rate, resolution, BANDWIDTH * rate / (double)n, BANDWIDTH * rate / LEAST);
+    size_t length = LEAST;
+    while ((double)length * 2 <= most)
+        length *= 2;
     ss_welch *w = calloc(1, sizeof *w);
     ss_spectrum *s = w != NULL ? w->sum = calloc(1, sizeof *s) : NULL;
     if (s == NULL || ss_real_fft_new(&w->segment, length, 0) != SS_OK

@@ -59,35 +59,22 @@ cosine(struct twofold cycles)
     return cos(2 * M_PI * rest);
 }
 
-static double
-ringdown(const ss_wave_opts *o, struct twofold t)
-{
-    double w = 2 * M_PI * o->frequency, s = w * o->damping / sqrt(1 - o->damping * o->damping);
-    return o->amplitude * exp(-s * t.hi) * cosine(multiply(t, single(o->frequency)));
-}
-
-/* The cycles until t: the mean frequency since the start, times t. */
-static struct twofold
-chirp_cycles(const ss_wave_opts *o, struct twofold t)
-{
-    struct twofold slope = add(single(o->frequency_end), -o->frequency);
-    struct twofold mean = multiply(divide(slope, 2 * o->duration), t);
-    struct twofold sum = add(mean, o->frequency);
-    return multiply(sum, t);
-}
-
 /* Sample i of a signal without noise. */
 static double
 sample(ss_wave wave, const ss_wave_opts *o, size_t i)
 {
     struct twofold t = divide(single((double)i), o->rate), since = add(t, -o->at);
+    struct twofold turned = multiply(since, single(o->frequency));
     int begun = t.hi >= o->at;                  /* t.hi is the time that is printed */
+    double decay = 2 * M_PI * o->frequency * o->damping / sqrt(1 - o->damping * o->damping);
+    struct twofold slope = add(single(o->frequency_end), -o->frequency);
+    struct twofold mean = add(multiply(divide(slope, 2 * o->duration), t), o->frequency);      /* since the start */
     switch (wave) {
-    case SS_SINE:     return o->amplitude * cosine(multiply(since, single(o->frequency)));
+    case SS_SINE:     return o->amplitude * cosine(turned);
     case SS_IMPULSE:  return (double)i == round(o->at * o->rate) ? o->amplitude : 0;
     case SS_STEP:     return begun ? o->amplitude : 0;
-    case SS_CHIRP:    return o->amplitude * cosine(chirp_cycles(o, t));
-    case SS_RINGDOWN: return begun ? ringdown(o, since) : 0;
+    case SS_CHIRP:    return o->amplitude * cosine(multiply(mean, t));
+    case SS_RINGDOWN: return begun ? o->amplitude * exp(-decay * since.hi) * cosine(turned) : 0;
     case SS_NOISE:    break;
     }
     return 0;
