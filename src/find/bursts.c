@@ -13,11 +13,11 @@
 #include <stdlib.h>
 #include "base/sort.h"
 #include "find/events.h"
+#include "find/judgement.h"
 #include "find/line.h"
 
 #define LONGEST 20.0            /* fewest scales in the record: some of them must be quiet */
 #define AWAY 4.0                /* periods: a wavelet's reach, and the fewest periods of quiet for a line */
-#define FAINT 0.01              /* of the event's height: so little counts as noise */
 
 static int
 stronger_first(const void *a, const void *b)

@@ -23,10 +23,10 @@
  *
  * A signal does not repeat itself
  * - if the median cycle explains less of the variance of the next than is asked for;
- * - if more than PART of the cycles have no best lag within WIDTH of the period, or are not like the
+ * - if more than a quarter of the cycles have no best lag within WIDTH of the period, or are not like the
  *   next cycle at that lag.  Such is a signal that rings anew behind each slip;
  * - if it rings once: the effective number of cycles, (sum E)^2 / sum E^2 of their energies E, is less
- *   than PART of them, or the energy decays or grows exponentially, by more than FADE in all and
+ *   than a quarter of them, or the energy decays or grows exponentially, by more than FADE in all and
  *   by more than e in MANY cycles;
  * - if the energies of the cycles repeat: the signal is modulated, and more than a cycle repeats; or if
  *   their means repeat: the cycle is that of a hum or a ringing.
@@ -35,8 +35,9 @@
  * cycles.  Then a part of that length is the period, if the signal repeats after the part as well as after the whole.
  *
  * Cycles may differ in turn: then several of them repeat far better than one, and these are the period.  How well,
- * is judged between samples of a smoothed signal, and a jump that lies between two is no difference.  Samples are compared
- * with the mean of those as many cycles before and behind, as a waveform that drifts differs from both, but not from that.
+ * is judged between samples of a smoothed signal, and a jump that lies between two is no difference.  Samples are
+ * compared with the mean of those as many cycles before and behind, as a waveform that drifts differs from both, but not
+ * from that.
  *
  * A hum may make several cycles more alike than one.  What differs after a part of them is then its line alone.
  * It may also keep all lags at multiples of its own period: the rate of what is slow tells. */
@@ -55,10 +56,7 @@
 #define POINTS 256.0            /* in a period while the lag is searched: more are averaged */
 #define WIDTH 0.2               /* relative difference of a cycle's period from the record's, at most */
 #define SPOILT 2                /* cycles that one gap may make unlike the next (gaps in test_transitions) */
-#define PART 0.25               /* of the cycles: more may not be unlike the next, or without energy: see above */
-#define ACTIVE 0.01             /* part of the mean energy: weaker cycles do not count */
 #define FADE 10.0               /* factor of the energy from the first cycle to the last */
-#define STRAIGHT 0.95           /* the least r^2 of log energy on time in a decay */
 #define DEPTH 0.1               /* the least relative scatter of energies or means that is modulation */
 #define SLOWEST 512             /* the most cycles in a swell */
 #define ROBUST 8                /* the fewest cycles whose scatter is found from the median deviation */
@@ -68,7 +66,6 @@
 #define ROUGH 4.0               /* times: see least_unlike */
 #define ALIKE 2e-4              /* of the variance: cycles that differ by less are alike */
 #define CLEARER 4.0             /* by chance, cycles with noise or a clock that wanders differ by a factor of 2 */
-#define ONE 0.5                 /* of what differs: more is one line */
 #define LOW 3.0                 /* times the frequency: the lines of a motion itself may be strong up to there */
 #define SEEN 0.6                /* of the cycles: what repeats after more is seen by too few */
 #define MOST 64.0               /* periods that are looked at for that */
@@ -292,7 +289,7 @@ fades(const cycle *c, size_t n, double least)
     }
     double vt = tt - t * t / m, vy = yy - y * y / m, cov = ty - t * y / m;
     double rate = vt > 0 ? fabs(cov / vt) : 0;
-    return m >= 4 && rate * MANY > 1 && rate * m > log(FADE) && cov * cov > STRAIGHT * vt * vy;
+    return m >= 4 && rate * MANY > 1 && rate * m > log(FADE) && cov * cov > (1 - SLIGHT) * vt * vy;
 }
 
 /* Does a member of the cycles repeat itself some cycles later with a correlation of more than like, after
@@ -336,7 +333,7 @@ summarise(const cycle *c, size_t n, double *v, ss_cycles *out)
         bend += c[i].bend / (double)n;
     }
     double variance = gsl_stats_variance(v, 1, n);
-    double rho = n < 5 || !(variance > 0) ? 0 : fmax(0, fmin(0.9, gsl_stats_lag1_autocorrelation(v, 1, n)));
+    double rho = n < 5 || !(variance > 0) ? 0 : fmax(0, fmin(NEARLY, gsl_stats_lag1_autocorrelation(v, 1, n)));
     double free_ones = fmax(1, (double)n * (1 - rho) / (1 + rho));
     double student = gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(1), fmax(1, fmin((double)n - 1, free_ones)));
     if (n >= ROBUST) {
@@ -364,7 +361,7 @@ describe(const cycle *c, size_t n, cycle *known, double *v, ss_cycles *out)
         squares += c[i].energy * c[i].energy / (double)n;
     }
     for (size_t i = 0; i < n; i++) {
-        if (!(c[i].energy > ACTIVE * energy))
+        if (!(c[i].energy > FAINT * energy))
             continue;
         out->n++;
         if (isnan(c[i].rate))
@@ -376,10 +373,10 @@ describe(const cycle *c, size_t n, cycle *known, double *v, ss_cycles *out)
     out->likeness = n_known > 0 ? median_of(known, n_known, &known->likeness, v) : 0;
     if (out->n < 2)
         out->why = "under three cycles of what may repeat are in the record";
-    else if ((double)(out->n - alike) > fmax(SPOILT, PART * (double)out->n) || n_known < 2
+    else if ((double)(out->n - alike) > fmax(SPOILT, (1 - MOSTLY) * (double)out->n) || n_known < 2
              || !(out->likeness >= CYCLES_ALIKE))
         out->why = "no cycle resembles the next one";
-    else if (energy * energy < PART * squares || fades(c, n, ACTIVE * energy))
+    else if (energy * energy < (1 - MOSTLY) * squares || fades(c, n, FAINT * energy))
         out->why = "it rings once, or sounds in a small part of the record only";
     else if (repeats(c, n, &c->mean, sqrt(energy), CYCLES_ALIKE, v))
         out->why = "what hums or rings repeats sooner than the rest";
@@ -423,29 +420,21 @@ find_at(const double *x, size_t n, double period, ss_cycles *out)
 
 /* --- what differs ---------------------------------------------------------------------------- */
 
-/* Means over m samples of n, one after the other: n - m + 1 of them. */
-static void
-average(double *x, size_t n, size_t m)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) {
-        sum += x[i];
-        if (i + 1 >= m) {
-            const double oldest = x[i + 1 - m];
-            x[i + 1 - m] = sum / (double)m;
-            sum -= oldest;
-        }
-    }
-}
-
 /* Means over m of means over m of the n means of q samples each; NULL: no memory. */
 static double *
 smoothed(const double *x, size_t n, size_t q, size_t m)
 {
     double *out = block_means(x, n, q);
-    if (out != NULL) {
-        average(out, n, m);
-        average(out, n - m + 1, m);
+    for (size_t pass = 0; out != NULL && pass < 2; pass++) {
+        double sum = 0;
+        for (size_t i = 0; i < n - pass * (m - 1); i++) {
+            sum += out[i];
+            if (i + 1 < m)
+                continue;
+            const double oldest = out[i + 1 - m];
+            out[i + 1 - m] = sum / (double)m;
+            sum -= oldest;
+        }
     }
     return out;
 }
@@ -472,8 +461,8 @@ later_by(const view *v, double lag, double period)
     return by;
 }
 
-/* What a sample differs by from what is there later, or from the mean of that and what is there earlier, which stays the
- * same while a waveform drifts.  A jump between two samples there is no difference.  As large in white noise. */
+/* What a sample differs by from what is there later, or from the mean of that and what is there earlier, which stays
+ * the same while a waveform drifts.  A jump between two samples there is no difference.  As large in white noise. */
 static double
 off(const double *x, const later *by)
 {
@@ -509,7 +498,7 @@ line_between(const view *v, double lag, double period, double *f)
     }
     for (size_t k = top - 1; k <= top + 1; k++)
         line += r.x[k], at += (double)k * r.x[k];
-    *f = line > ONE * all ? at / line / (double)m : 0;
+    *f = line > 0.5 * all ? at / line / (double)m : 0;
     ss_real_fft_free(&r);
     return SS_OK;
 }
@@ -522,7 +511,7 @@ least_unlike(const view *v)
     double sum = 0;
     for (size_t i = 3; i + 3 < v->n; i++) {
         const double *x = v->x + i;
-        sum += pow(beyond(x[0], x[-1], x[1], 0.5625 * (x[-1] + x[1]) - 0.0625 * (x[-3] + x[3])), 2);
+        sum += pow(beyond(x[0], x[-1], x[1], (9 * (x[-1] + x[1]) - (x[-3] + x[3])) / 16), 2);
     }
     return fmax(ROUGH * sum / (double)v->n, ALIKE * moments_of(v, 0, 0, v->n).a);
 }
@@ -561,12 +550,16 @@ lag_near(const view *v, double about, double period)
 
 /* --- in turn, or beside a hum ---------------------------------------------------------------- */
 
-/* How unlike it is to itself after so many cycles, whose lag is near one and becomes *lag. */
-static double
-after(const view *v, double period, double about, double *lag)
+/* How a signal is like itself after one period: the lag, how unlike it is to itself then, and what is the least. */
+typedef struct once {
+    double period, lag, unlike, least;
+} once;
+
+static once
+compare_once(const view *v, double period)
 {
-    *lag = lag_near(v, about, period);
-    return unlikeness(v, *lag, period);
+    const double lag = lag_near(v, period, period);
+    return (once){ period, lag, unlikeness(v, lag, period), least_unlike(v) };
 }
 
 /* After how many cycles of this period does it repeat itself CLEARER times better than after one?  After twice as many,
@@ -574,19 +567,19 @@ after(const view *v, double period, double about, double *lag)
  * 0: cycles may differ in turn, or beside a hum or by chance: the line is not so far above, the record shows so many
  * once, or more differs the longer one waits. */
 static ss_status
-cycles_in_turn(const view *v, double period, size_t *in_turn)
+cycles_in_turn(const view *v, const once *one, size_t *in_turn)
 {
     enum { LOOKED_AT = 2 * MULTIPLES + 2 };
-    const double most = (double)v->n / period, least = least_unlike(v);
-    double unlike[LOOKED_AT] = { 0 }, f = 0, lag, each = period;
+    const double period = one->period, most = (double)v->n / period;
+    double unlike[LOOKED_AT] = { 0, one->unlike }, f = 0, each = period;
     size_t known = 2, best = 1;
     *in_turn = 1;
-    unlike[1] = after(v, period, period, &lag);
-    if (!(unlike[1] > least))
+    if (!(one->unlike > one->least))
         return SS_OK;
-    ss_status st = line_between(v, lag, period, &f);
+    ss_status st = line_between(v, one->lag, period, &f);
     for (; known < LOOKED_AT && (double)known < SEEN * most; known++) {
-        unlike[known] = after(v, period, (double)known * each, &lag);
+        const double lag = lag_near(v, (double)known * each, period);
+        unlike[known] = unlikeness(v, lag, period);
         if (unlike[known] < unlike[best]) {     /* it tells best how long the cycles are */
             best = known;
             each = lag / (double)known;
@@ -594,13 +587,13 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
     }
     for (size_t p = 2; p <= MULTIPLES && p + 1 < known && *in_turn == 1; p++) {
         double bound = unlike[1] / CLEARER, many = fmax(1, floor(0.4 * most / (double)p)) * (double)p;
-        double last = after(v, period, many * each, &lag);
+        double last = unlikeness(v, lag_near(v, many * each, period), period);
         int agree = f * period < LOW;
         for (size_t q = 2; agree && q <= 2 * p + 1 && q < known; q++)
             agree = q % p == 0 ? unlike[q] < unlike[q - 1] / CLEARER : unlike[q] >= bound;
         if (agree)
             *in_turn = f * period < 1 && 2 * p < known && last < bound
-                       && unlike[2 * p] < fmax(pow(CLEARER, 2) * unlike[p], least) ? p : 0;
+                       && unlike[2 * p] < fmax(pow(CLEARER, 2) * unlike[p], one->least) ? p : 0;
     }
     return st;
 }
@@ -608,16 +601,15 @@ cycles_in_turn(const view *v, double period, size_t *in_turn)
 /* The largest number of parts of the period after which the signal repeats itself as well as after all of it; else 1.
  * *some: 1 if it is at least alike after some part. */
 static size_t
-parts_of(const view *v, double period, int *some)
+parts_of(const view *v, const once *one, int *some)
 {
-    double near, as_well = fmax(least_unlike(v), 1.5 * after(v, period, period, &near));
+    const double as_well = fmax(one->least, LARGER * one->unlike);
     *some = 0;
     for (size_t p = PARTS; p > 1; p--) {
-        const double lag = period / (double)p;
-        near = lag < SHORTEST ? lag : lag_near(v, lag, lag);
+        const double lag = one->period / (double)p, near = lag < SHORTEST ? lag : lag_near(v, lag, lag);
         if (near == lag)                        /* it is no more alike there than sooner or later */
             continue;
-        if (unlikeness(v, near, period) <= as_well)
+        if (unlikeness(v, near, one->period) <= as_well)
             return p;
         *some |= relative(v, 0, (size_t)(near + 0.5), v->n - (size_t)(near + 0.5)) < 1 - CYCLES_ALIKE;
     }
@@ -674,14 +666,17 @@ compare_cycles(const double *x, size_t n, double period, ss_cycles *out)
     double *smooth = smoothed(x, m, held, 2), hum = 0;
     const view v = { smooth, m - 2 };
     int some = 0;
-    ss_status st = smooth != NULL ? SS_OK : SS_ENOMEM;
-    size_t parts = st == SS_OK ? parts_of(&v, period / (double)held, &some) : 1;
-    if (parts > 1)
-        st = find_at(x, n, period / (double)parts, out);
+    if (smooth == NULL)
+        return SS_ENOMEM;
+    once one = compare_once(&v, period / (double)held);
+    size_t parts = parts_of(&v, &one, &some);
+    ss_status st = parts > 1 ? find_at(x, n, period / (double)parts, out) : SS_OK;
+    if (st == SS_OK && parts > 1 && isfinite(out->period.value))
+        one = compare_once(&v, out->period.value / (double)held);
     if (st == SS_OK && some && parts == 1 && out->n <= FEW && isfinite(out->period.value))
         *out = repeats_not("what repeats may repeat sooner: in so few cycles, several may be alike by chance");
     if (st == SS_OK && isfinite(out->period.value))
-        st = cycles_in_turn(&v, out->period.value / (double)held, &in_turn);
+        st = cycles_in_turn(&v, &one, &in_turn);
     if (st == SS_OK && in_turn > 1)
         st = find_at(x, n, out->period.value * (double)in_turn, out);
     if (in_turn == 0)

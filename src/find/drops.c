@@ -28,8 +28,6 @@
 
 #define TYPICAL 4.0             /* M / h, see above */
 #define NARROWEST 5             /* samples: two wrong ones in a row do no harm */
-#define STANDS_OUT 5.0          /* standard deviations of the noise, and a SLIGHT part of the median drop: by these
-                                   a wrong sample differs from its neighbours */
 
 /* The standard deviation of white noise whose second differences are those of x, by their median;
  * scratch holds n. */
@@ -142,7 +140,7 @@ ss_drops_without_glitches(double *y, const double *x, size_t n, const ss_drop *d
     for (size_t i = 0; i < n_drops; i++)
         scratch[i] = x[drop[i].high] - x[drop[i].low];
     double height = n_drops > 0 ? gsl_stats_median(scratch, 1, n_drops) : 0;
-    double most = STANDS_OUT * noise_rms(x, n, scratch) + SLIGHT * height;
+    double most = SURELY * noise_rms(x, n, scratch) + SLIGHT * height;
     running_median(y, x, n, NARROWEST / 2, scratch);
     for (size_t i = 0; i < n; i++)
         y[i] = fabs(x[i] - y[i]) > most ? y[i] : x[i];

@@ -21,7 +21,7 @@
 static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement = -1, .force = -1,
                                            .threads = 1 };
 
-#define FAINT 0.5               /* [dB] the least prominence of a maximum that shows an oscillation */
+#define FLAT 0.5                /* [dB] the least prominence of a maximum that shows an oscillation */
 
 /* Parts of the work that are done after each step, roughly. */
 #define TRANSFORMED 0.35
@@ -31,7 +31,7 @@ static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement 
 /* Find the maxima of |W| that noise does not make.
  *
  * noise: the rms of a white noise that would make the median of |W| at the shortest scale: |W|^2 is then
- * exponential with mean rms^2 / rate (a^-1/2 norm).  Noise exceeds 1.5 times its rms in a tenth of the places: a
+ * exponential with mean rms^2 / rate (a^-1/2 norm).  Noise exceeds LARGER times its rms in a tenth of the places: a
  * saddle below that is made by noise.  Maxima that fall to their saddle by less than SIGMAS of the noise are left
  * out, as noise moves |W| by about its rms; so are maxima that no contour shows. */
 static ss_status
@@ -52,7 +52,7 @@ find_maxima(search *s)
         : n == 0 ? 0 : gsl_stats_select(level, 1, n, n / 2) * sqrt((l1 ? last->a : 1) / M_LN2);
     out->noise = rms * sqrt(s->rate);
     free(level);
-    const maxima_kind kind = { fmin(FAINT, s->opts->threshold), INFINITY, 1.5 * rms / (l1 ? sqrt(last->a) : 1) };
+    const maxima_kind kind = { fmin(FLAT, s->opts->threshold), INFINITY, LARGER * rms / (l1 ? sqrt(last->a) : 1) };
     if (st == SS_OK)
         st = ss_maxima_of(&s->found, &s->n_found, s->map, &kind, &s->top);
     if (st != SS_OK)

@@ -21,7 +21,6 @@
 #include "signal/gaps.h"
 
 #define SLOWER 1.05             /* factor: less may be made by the sampling of turning points */
-#define QUICK 2.0               /* factor by which all rises are slower than falls if there are few */
 
 /* The time, in samples, that x spends between a quarter and three quarters of the way from one turning point
  * to the next, along lines from sample to sample.  It is the same for a signal that is reversed in time, or
@@ -42,7 +41,7 @@ passage(const double *x, size_t from, size_t to)
 }
 
 /* 1: falls are quicker than the rises between them by a factor, so they are slips; -1: slower; 0: neither.
- * The sign test decides at three standard deviations; if there are few, all must be quicker by QUICK. */
+ * The sign test decides at three standard deviations; if there are few, all must be quicker by TWICE. */
 static int
 compare_falls(const double *x, const ss_drop *drop, size_t n, double factor)
 {
@@ -50,7 +49,7 @@ compare_falls(const double *x, const ss_drop *drop, size_t n, double factor)
     for (size_t i = 1; i < n; i++, all++) {
         double fall = passage(x, drop[i].high, drop[i].low), rise = passage(x, drop[i - 1].low, drop[i].high);
         signs += (factor * fall < rise) - (fall > factor * rise);
-        clear += (QUICK * fall < rise) - (fall > QUICK * rise);
+        clear += (TWICE * fall < rise) - (fall > TWICE * rise);
     }
     if (all <= SIGMAS * SIGMAS)         /* the test cannot decide */
         return (clear == all) - (clear == -all);
@@ -109,7 +108,7 @@ find_falls(search *s, double *x, int *decided)
         if (st == SS_OK)
             st = ss_drops_without_glitches(y, x, s->n, drop, n);
         if (st == SS_OK && asked == 0)
-            quicker = compare_falls(y, drop, n, has_both ? QUICK : SLOWER);
+            quicker = compare_falls(y, drop, n, has_both ? TWICE : SLOWER);
         if (st != SS_OK || quicker >= 0 || !named || is_turned)
             break;
         is_turned = 1;

@@ -35,12 +35,10 @@
 #define AROUND 1.5              /* periods on either side of the middle of a stretch: more may hold two events */
 #define CONTACT 0.3             /* what the sensor leaves more than the contact, in parts: less is the sensor */
 #define SHOWN 1.0               /* the same: so it is the contact, whatever else may be */
-#define FILTERED 2.0            /* the same behind a filter, noise included */
 #define LIGHT 0.1               /* damping re the frequency: a sensor that is damped more answers as a filter does */
 #define CHANCE 2.8              /* variances of a sample: noise makes so much behind each stick, as the place of the
                                    event is chosen, and of some more sticks by chance */
 #define HIDDEN 2e-4             /* noise re what an event makes: more may hide where a slip begins */
-#define SLOW 0.05               /* range of means re that of samples: with less nothing moves but what rings */
 #define ROUNDING 1e-15          /* variance of a sample: less is none */
 #define FLAT 1.3                /* power re the power law: with more there is a peak */
 #define STEEP 3.2               /* power law re the power beyond: with more there is a corner */
@@ -50,8 +48,6 @@
 enum { RATE = 24 };             /* most samples of a period that are used */
 enum { EVENTS = 33 };           /* places of an event that are tried, within a period of the middle */
 enum { STICKS = 24, MORE = 5 }; /* most sticks that are looked behind; see CHANCE */
-#define ONE 0.5                 /* of what rings: with more in one sinusoid that runs through all sticks it is a hum */
-#define UNDAMPED 0.01           /* error of the damping re the frequency */
 enum { TRIALS = 200 };          /* most of its frequencies to either side */
 
 /* --- a filter --------------------------------------------------------------------------------- */
@@ -218,7 +214,7 @@ compare(const stretch *of, const double *x, ss_window gap, place *sum)
     }
     for (size_t i = 0; i < n; i++)
         sum[i].most += most;
-    return mean[1] - mean[0] > SLOW * (sample[1] - sample[0]);
+    return mean[1] - mean[0] > SLIGHT * (sample[1] - sample[0]);
 }
 
 /* Up to STICKS gaps behind windows all over the record: what lies between the window of an anchor and the next, if
@@ -263,7 +259,7 @@ most_in_gaps(const stretch *of, const double *x, const ss_window *gap, size_t n,
 
 /* Does what rings in the windows ring on through the slips, or end where they begin?  *more becomes what a sensor
  * leaves more than a contact, in parts, where that is most; it stays NaN where that cannot be told.  Behind a filter,
- * which has one of the corners first ... end - 1, it becomes that only if it is FILTERED. */
+ * which has one of the corners first ... end - 1, it becomes that, noise included, only if it is TWICE as much. */
 static ss_status
 compare_all(const search *s, const ringdown *r, int is_sure, size_t first, size_t end, double *more)
 {
@@ -293,7 +289,7 @@ compare_all(const search *s, const ringdown *r, int is_sure, size_t first, size_
             for (ringer who = BY_SENSOR; who < of.ringers; who++)
                 fill_basis(&of, event, who);
         const double here = most_in_gaps(&of, s->x, gap, used, sum, most);
-        if (isinf(of.corner) || here >= FILTERED)
+        if (isinf(of.corner) || here >= TWICE)
             *more = here;
     }
     free(sum);
@@ -362,8 +358,8 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
         st = compare_all(s, r, is_sure, 1, CORNERS, &more);
     s->rings_as = more >= SHOWN ? OF_CONTACT : at_edge ? OF_FILTER : more < CONTACT ? OF_SENSOR : OF_SOMETHING;
     /* a contact may be undamped, if that is well known */
-    const int may_ring_on = s->rings_as == OF_CONTACT && !s->must_show && error < UNDAMPED * w.value;
-    if (!(damping > error) && !(may_ring_on && run_through(s, r) < ONE)) {
+    const int may_ring_on = s->rings_as == OF_CONTACT && !s->must_show && error < FAINT * w.value;
+    if (!(damping > error) && !(may_ring_on && run_through(s, r) < 0.5)) {
         *why = "what recurs is not shown to decay";
         s->rings_as = s->rings_as == OF_SENSOR ? OF_SENSOR : OF_SOMETHING;
     } else if (s->rings_as == OF_FILTER)

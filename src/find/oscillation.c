@@ -8,7 +8,6 @@
 #include "signal/gaps.h"
 
 #define NEAR 1.0                /* [octaves] the largest distance of a fit from the frequency that recurs */
-#define SHARPER 1.5             /* times the frequency of the oscillation: an event so sharp lies within it */
 
 /* Convert omega and s, per sample, to Hz and damping ratio. */
 static void
@@ -26,7 +25,7 @@ set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_valu
 static int
 cuts(const ss_spike *spike, double f)
 {
-    return is_event(spike) && spike->level >= -STRONG && spike->f > SHARPER * f;
+    return is_event(spike) && spike->level >= -STRONG && spike->f > LARGER * f;
 }
 
 static int

@@ -15,8 +15,7 @@
 #include "find/judgement.h"
 #include "find/medians.h"
 
-#define BAND 5.0                /* standard deviations of the samples of a rest, either side of its level */
-#define AWAY (SIGMAS * BAND)    /* what leaves the band by less is no motion */
+#define AWAY (SIGMAS * SURELY)  /* standard deviations: what leaves the band of a rest by less is no motion */
 #define RARE 2.5                /* standard deviations: few samples of a rest lie beyond */
 #define PART 0.1                /* of the samples are at rest */
 
@@ -42,7 +41,7 @@ find_level(const double *x, size_t n, double *level, double *deviation)
     for (int pass = 0; pass < PASSES; pass++) {
         double sum = 0, squares = 0, m = 0;
         for (size_t i = 0; i < n; i++)
-            if (fabs(x[i] - *level) <= BAND * *deviation) {
+            if (fabs(x[i] - *level) <= SURELY * *deviation) {
                 sum += x[i] - *level, squares += (x[i] - *level) * (x[i] - *level);
                 m++;
             }
@@ -74,7 +73,7 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
         ss_window in = { n, n };
         size_t from = i;
         for (; i < n && fabs(x[i] - level) <= AWAY * deviation; i++)
-            if (fabs(x[i] - level) <= BAND * deviation)
+            if (fabs(x[i] - level) <= SURELY * deviation)
                 in = (ss_window){ in.first < i ? in.first : i, i + 1 };
         size_t length = ss_window_length(in), beside = i - from - length;
         ss_window *last = out->n > 0 ? &out->rest[out->n - 1] : NULL;
@@ -92,7 +91,7 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
         out->is_doubtful |= (double)beyond > FEW + 2 * OUTLIERS * (double)ss_window_length(out->rest[i]);
     }
     out->level = level;
-    out->band = BAND * deviation;
+    out->band = SURELY * deviation;
     out->is_doubtful |= is_end_of_range(x, n, out);
     out->is_doubtful |= out->band > SLIGHT;     /* of the largest sample */
     return st;

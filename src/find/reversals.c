@@ -17,9 +17,6 @@
 #include "find/medians.h"
 #include "signal/gaps.h"
 
-#define HALF 0.5                /* part of the level that a half-cycle passes; the least part of the time from one
-                                   break-away to the next at or above the level */
-
 /* --- reversals ------------------------------------------------------------------------------- */
 
 /* A half-cycle that the record begins in has broken away before.  A half-cycle reaches from where x
@@ -34,7 +31,7 @@ find_reversals(search *s, const double *x, double *copy)
     size_t last = 0, high = 0;
     for (size_t i = 0; i < s->n; i++)
         copy[i] = fabs(x[i]);
-    const double half = HALF * ss_quantile(copy, (ss_window){ 0, s->n }, 1 - OUTLIERS, copy);
+    const double half = 0.5 * ss_quantile(copy, (ss_window){ 0, s->n }, 1 - OUTLIERS, copy);
     for (size_t i = 0; i < s->n; i++)   /* the level is the median of what is above half of the largest */
         if (fabs(x[i]) > half)
             copy[high++] = fabs(x[i]);
@@ -42,7 +39,7 @@ find_reversals(search *s, const double *x, double *copy)
     out->n = 0;
     out->reverses = 1;
     for (size_t i = 0; st == SS_OK && i < s->n; i++) {
-        int side = x[i] > HALF * level ? 1 : x[i] < -HALF * level ? -1 : 0;
+        int side = x[i] > 0.5 * level ? 1 : x[i] < -0.5 * level ? -1 : 0;
         if (side != 0 && side == sign)
             last = i;
         if (side == 0 || side == sign)
@@ -87,9 +84,9 @@ find_plateau(const search *s, const ss_transition *t, int is_last, const double 
         p.slip.end--;
     for (size_t i = p.slip.first; i < p.slip.end; i++)
         there += sign * x[i] >= least;
-    p.stays = there > HALF * time * s->rate;
+    p.stays = there > 0.5 * time * s->rate;
     p.level = ss_quantile(x, p.slip, 0.5, copy);
-    p.spread = fabs(p.level - ss_quantile(x, p.slip, sign > 0 ? 0.25 : 0.75, copy));
+    p.spread = fabs(p.level - ss_quantile(x, p.slip, 0.5 - 0.25 * sign, copy));
     return p;
 }
 
@@ -121,9 +118,9 @@ find_slope(const double *x, const double *z, double least, const plateau *a, con
     return (ss_value){ slope, slope * error / fabs(way) };
 }
 
-/* Friction and stiffness by the step from one plateau to the next; they stay as they are if there is none.  The stiffness
- * is the slope without a small part of the step at either end.  By how much it moves, if that part grows by how far the
- * levels spread, is in its error: where a level is not flat, the step has no clear end. */
+/* Friction and stiffness by the step from one plateau to the next; they stay as they are if there is none.  The
+ * stiffness is the slope without a small part of the step at either end.  By how much it moves, if that part grows by
+ * how far the levels spread, is in its error: where a level is not flat, the step has no clear end. */
 static void
 measure(const search *s, const double *x, const double least[2], size_t i, const plateau *p, ss_value *friction,
         ss_value *stiffness)

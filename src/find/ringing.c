@@ -245,7 +245,6 @@ static const span behind_spikes = { 0.5, 2.5, 0.5 };
 static const span behind_reversals = { 1, 5, 2 }, before_reversals = { -5, -1, 2 };
 
 enum { HEARD = 1024 };          /* transitions, the first, behind which the band is sought */
-#define LOUDER 2.0              /* times the power before the reversals: ringing is so strong behind them */
 
 /* The end of a transition that is known by its spikes, or the onset of a reversal. */
 static double
@@ -315,7 +314,7 @@ strongest_band(const search *s, double *f)
     }
     if (st == SS_OK && top > 0 && !s->spiked)
         st = power_behind(s, before_reversals, top, level, &calm);
-    *f = top > 0 && best > LOUDER * calm ? grid->scale[top].f : 0;
+    *f = top > 0 && best > TWICE * calm ? grid->scale[top].f : 0;
     free(level);
     free(power);
     return st;

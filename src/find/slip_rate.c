@@ -11,7 +11,6 @@
 #include "signal/gaps.h"
 
 #define EVEN 0.03               /* the same between events of one kind: begins and ends may be nearly even */
-#define ALONE 0.75              /* part of the time between slips: events closer together stand beside */
 #define BARE 0.999              /* likeness of cycles in which noise and hum hide no slip */
 
 typedef struct times {          /* at which slips, or what may be slips, begin [s] */
@@ -80,12 +79,13 @@ least_in_cycle(const search *s)
 }
 
 /* Keep the transitions that ring, and those that stand alone.  A contact rings while it sticks: an event that
- * does not ring and stands beside one that does is an end of this stick, or a micro-slip. */
+ * does not ring and stands beside one that does, nearer than most of the time between slips, is an end of this stick,
+ * or a micro-slip. */
 static void
 keep_ringing(search *s)
 {
     ss_features *out = s->out;
-    double apart = ALONE / (out->number[SS_REPETITION_FREQUENCY].value * (double)least_in_cycle(s));
+    double apart = MOSTLY / (out->number[SS_REPETITION_FREQUENCY].value * (double)least_in_cycle(s));
     size_t kept = 0;
     for (size_t i = 0; i < out->n; i++) {
         const ss_transition *tr = &out->transition[i], *last = &out->transition[kept - (kept > 0)];

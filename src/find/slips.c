@@ -9,7 +9,6 @@
 #define BREAK 0.05              /* probability of cutting all windows although there is no micro-slip; it is
                                    FIT_CHANCE if neither part has the least length, as then all are refused */
 #define LATEST 32.0             /* periods behind a window, see ss_slips_ring_on */
-#define LOUDER 1.5              /* times the residual: an oscillation that is louder rings on */
 
 /* --- micro-slips too weak for any one window ----------------------------------------------- */
 
@@ -216,7 +215,7 @@ find_tails(fitter *k, double late_by, tail *behind)
     }
 }
 
-/* Is there an oscillation with the w and s of k->fit, of more than LOUDER times the residual's amplitude? */
+/* Is there an oscillation with the w and s of k->fit, of more than LARGER times the residual's amplitude? */
 static int
 rings_there(fitter *k, tail behind)
 {
@@ -224,7 +223,7 @@ rings_there(fitter *k, tail behind)
     size_t m = ss_window_length(behind.at);
     int is_one = fitted.ring > NEARLY * (fitted.ring + fitted.rss)
         || ss_sticks_belong(k, fitted.rss, m - ss_varpro_columns(&k->fit));
-    return is_one && fitted.ring > LOUDER * LOUDER * (double)m * behind.left + k->noise * ss_chisq2(FIT_CHANCE);
+    return is_one && fitted.ring > LARGER * LARGER * (double)m * behind.left + k->noise * ss_chisq2(FIT_CHANCE);
 }
 
 /* Does the oscillation go on behind more than half of the windows, at growing distances?  A train of micro-slips looks

@@ -23,7 +23,6 @@ enum { PERIODS = 64, FIRST = 16, LEAST = 8 };   /* in a whole window, before row
 #define DELAY 0.18              /* [s] after two periods a row is written at the latest, but for the work */
 #define BEHIND 1.25             /* periods behind the end of a transition after which it is known: a wavelet's reach */
 #define SAME 2.                 /* samples between times that are the same */
-#define LOUDER 2.               /* times the largest sample of a window: it taught nothing about those */
 enum { MANY = 16 };             /* windows are searched as they come, and of the others one in so many */
 
 struct mean {
@@ -202,7 +201,7 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     ss_status st = find_last(s, n, whole ? &afresh : &s->known, &f, &start, err);
     int is_new = st == SS_OK && f->n == 0;      /* what is known is not enough for the last n samples */
     for (size_t i = s->n - n; i < s->n; i++)
-        is_new |= fabs(s->x[s->column][i]) > LOUDER * s->lesson.largest;
+        is_new |= fabs(s->x[s->column][i]) > TWICE * s->lesson.largest;
     if (st == SS_OK && !whole && s->known.known != NULL && is_new) {
         stream_part part = s->known;
         part.known = NULL;
