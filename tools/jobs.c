@@ -16,31 +16,6 @@ typedef struct job {
     int done, status;
 } job;
 
-static void
-start(job *j, const char *input, int at_once)
-{
-    j->result = tmpfile();
-    j->words = tmpfile();
-    if (j->result == NULL || j->words == NULL || (j->pid = fork()) < 0)
-        tool_die("%s: no process could be started for it: %s%s", input, strerror(errno),
-                 at_once > 1 ? "; a smaller --jobs may do" : "");
-}
-
-/* Wait until any of the jobs that have begun ends. */
-static void
-wait_for_one(job *jobs, size_t begun)
-{
-    int status;
-    pid_t pid = wait(&status);
-    if (pid < 0)
-        tool_die("%s", strerror(errno));
-    for (size_t i = 0; i < begun; i++)
-        if (jobs[i].pid == pid && !jobs[i].done) {
-            jobs[i].done = 1;
-            jobs[i].status = status;
-        }
-}
-
 /* Pass on the messages of a job.  why becomes the last of them, without the tool's name. */
 static void
 pass_words(job *j, char why[LONGEST])
@@ -78,14 +53,26 @@ tool_jobs(char *const input[], size_t n, int at_once, tool_work *work, tool_done
     for (size_t first = 0; first < n;) {
         for (; begun < n && begun - ended < most && begun - first < 2 * most; begun++) {
             job *j = &jobs[begun];
-            start(j, input[begun], at_once);
+            j->result = tmpfile();
+            j->words = tmpfile();
+            if (j->result == NULL || j->words == NULL || (j->pid = fork()) < 0)
+                tool_die("%s: no process could be started for it: %s%s", input[begun], strerror(errno),
+                         at_once > 1 ? "; a smaller --jobs may do" : "");
             if (j->pid > 0)
                 continue;
             dup2(fileno(j->words), STDERR_FILENO);
             work(begun, j->result, user);
             _exit(fflush(j->result) != 0 || ferror(j->result));
         }
-        wait_for_one(jobs, begun);
+        int status;
+        pid_t pid = wait(&status);              /* any of those that have begun */
+        if (pid < 0)
+            tool_die("%s", strerror(errno));
+        for (size_t i = first; i < begun; i++)
+            if (jobs[i].pid == pid && !jobs[i].done) {
+                jobs[i].done = 1;
+                jobs[i].status = status;
+            }
         for (ended++; first < begun && jobs[first].done; first++)
             collect(&jobs[first], first, done, user);
         tool_progress((double)ended / (double)n, NULL);

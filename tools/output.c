@@ -174,19 +174,6 @@ tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const t
 
 /* --- gnuplot ------------------------------------------------------------------------------- */
 
-/* The last line that gnuplot has written is the reason; the lines above it quote the script. */
-static void
-last_line(FILE *words, char *line, int size)
-{
-    char text[256];
-    rewind(words);
-    while (fgets(text, sizeof text, words) != NULL) {
-        text[strcspn(text, "\n")] = '\0';
-        if (text[strspn(text, " \t^")] != '\0')
-            snprintf(line, (size_t)size, "%s", text + strspn(text, " \t"));
-    }
-}
-
 /* gnuplot runs the commands in GNUTERM, and takes folders, fonts and programs from other variables.  So it
  * gets only the variables that it needs to start and to find the fonts of the machine. */
 static void
@@ -266,7 +253,7 @@ read_all(FILE *in, size_t *n)
 static void
 run_gnuplot(FILE *script, FILE *out)
 {
-    char reason[256] = "gnuplot failed";
+    char reason[256] = "gnuplot failed", text[256];
     FILE *words = tmpfile(), *picture;
     size_t n;
     int status;
@@ -279,10 +266,14 @@ run_gnuplot(FILE *script, FILE *out)
         tool_die("%s", strerror(errno));
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
         tool_die("gnuplot not found; install it, or write a script with -o FILE.gp");
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || n == 0) {
-        last_line(words, reason, sizeof reason);
-        tool_die("%s", reason);
+    rewind(words);                  /* the last line is the reason; the lines above it quote the script */
+    while (fgets(text, sizeof text, words) != NULL) {
+        text[strcspn(text, "\n")] = '\0';
+        if (text[strspn(text, " \t^")] != '\0')
+            strcpy(reason, text + strspn(text, " \t"));
     }
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || n == 0)
+        tool_die("%s", reason);
     fclose(words);
     fix_date(drawn, n);
     fwrite(drawn, 1, n, out);       /* tool_end checks for errors */

@@ -280,20 +280,12 @@ parse(drawing *d, ss_plot_opts *plot, int argc, char *argv[])
     tool_one_stdin((const char *const[]){ d->path, d->signal_path, d->events, d->features }, 4);
 }
 
-static void
-note_contents(const drawing *d)
-{
-    static const ss_overlay none;
-    const ss_overlay *o = d->overlay != NULL ? d->overlay : &none;
-    tool_note("%s: %zu scale%s of %zu samples; events: %zu, transitions: %zu, maxima: %zu, spikes: %zu",
-              tool_input_name(d->path), d->coefficients->n_scales, tool_s(d->coefficients->n_scales),
-              d->coefficients->n, d->opts.n_events, o->n_spans, o->n_maxima, o->n_spikes);
-}
-
 /* Draw what there is, or write its ridges. */
 static void
 draw(drawing *d, ss_plot_opts *opts)
 {
+    static const ss_overlay none;
+    const ss_overlay *o = d->overlay != NULL ? d->overlay : &none;
     open_input(d);
     if (d->overview != NULL && d->signal_path != NULL)
         tool_usage("--signal is for coefficients; %s is a signal", d->path);
@@ -305,7 +297,9 @@ draw(drawing *d, ss_plot_opts *opts)
     ss_signal *signal = d->overview == NULL ? find_signal(d) : NULL;
     if (d->column != NULL && d->opts.signal == NULL)
         tool_usage("--column needs a signal; give one with --signal");
-    note_contents(d);
+    tool_note("%s: %zu scale%s of %zu samples; events: %zu, transitions: %zu, maxima: %zu, spikes: %zu",
+              tool_input_name(d->path), d->coefficients->n_scales, tool_s(d->coefficients->n_scales),
+              d->coefficients->n, d->opts.n_events, o->n_spans, o->n_maxima, o->n_spikes);
     if (d->kind < TOOL_STREAM)
         draw_contours(d, d->output, opts);
     else

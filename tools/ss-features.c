@@ -95,16 +95,6 @@ find_features(const request *req, const char *path)
     return f;
 }
 
-static void
-write_one(const request *req, const char *path, tool_kind kind)
-{
-    found f = find_features(req, path);
-    tool_check(ss_features_write(f.features, f.signal, f.column, &f.opts, tool_output(req->output),
-                                 tool_stream(kind), &tool_error));
-    ss_features_free(f.features);
-    ss_signal_free(f.signal);
-}
-
 /* Write each row when nothing behind it can change it, and the numbers at the end or when the user stops. */
 static void
 follow(const request *req, const char *path, tool_kind kind)
@@ -217,8 +207,13 @@ main(int argc, char *argv[])
         follow(&req, tool_input(argc, argv, first), kind);
     else if (n > 1 || req.summary)
         good = write_table(&req, file, n, kind);
-    else
-        write_one(&req, tool_input(argc, argv, first), kind);
+    else {
+        found f = find_features(&req, tool_input(argc, argv, first));
+        tool_check(ss_features_write(f.features, f.signal, f.column, &f.opts, tool_output(req.output),
+                                     tool_stream(kind), &tool_error));
+        ss_features_free(f.features);
+        ss_signal_free(f.signal);
+    }
     tool_end();
     return good == 0;
 }

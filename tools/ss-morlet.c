@@ -158,16 +158,6 @@ check_flow(const flow *f, ss_status status, const char *path)
 /* --- a record that is there --------------------------------------------------------------------- */
 
 static void
-compare(const ss_morlet *plan, const double *x, const double *w, const char *path)
-{
-    enum { EACH = 20 };                 /* coefficients of a scale */
-    double difference;
-    tool_check_input(ss_morlet_compare(plan, x, w, EACH, &difference, &tool_error), path);
-    tool_warn("differs from the sum in full by at most %.2g of the largest |W| of a scale, "
-              "at %d coefficients of each", difference, (int)EACH);
-}
-
-static void
 say_what_was_done(const ss_morlet *plan, size_t n, double seconds)
 {
     size_t scales = ss_morlet_grid(plan)->n_scales, by_fft = 0;
@@ -203,8 +193,13 @@ transform_whole(const request *req, const char *path)
     free(all);
     check_flow(&f, ss_morlet_each(plan, x, write_coefficients, &f, &tool_error), path);
     say_what_was_done(plan, signal->n, tool_seconds() - begin - f.seconds);
-    if (req->check)
-        compare(plan, x, f.w, path);
+    if (req->check) {
+        enum { EACH = 20 };             /* coefficients of a scale */
+        double difference;
+        tool_check_input(ss_morlet_compare(plan, x, f.w, EACH, &difference, &tool_error), path);
+        tool_warn("differs from the sum in full by at most %.2g of the largest |W| of a scale, "
+                  "at %d coefficients of each", difference, (int)EACH);
+    }
     tool_write_end(f.writer, signal->n);
     free(f.w);
     ss_morlet_free(plan);
@@ -258,18 +253,6 @@ follow(flow *f, ss_reader *reader, size_t column, const request *req, const char
 }
 
 static void
-close_flow(flow *f, const char *path)
-{
-    size_t scales = ss_stream_grid(f->stream)->n_scales;
-    check_flow(f, ss_stream_end(f->stream, &tool_error), path);
-    tool_write_end(f->writer, f->samples);
-    tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f->coefficients,
-              f->samples, scales, ss_stream_grid(f->stream)->scale[0].f,
-              ss_stream_grid(f->stream)->scale[scales - 1].f);
-    ss_stream_free(f->stream);
-}
-
-static void
 transform_stream(const request *req, const char *path)
 {
     flow f = { .writer = NULL };
@@ -284,7 +267,11 @@ transform_stream(const request *req, const char *path)
               (double)(ss_stream_window(f.stream, last) - 1) / head->rate, scale[last].f,
               (double)(ss_stream_window(f.stream, 0) - 1) / head->rate, scale[0].f);
     follow(&f, reader, column, req, path);
-    close_flow(&f, path);
+    check_flow(&f, ss_stream_end(f.stream, &tool_error), path);
+    tool_write_end(f.writer, f.samples);
+    tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz", f.coefficients, f.samples, last + 1,
+              scale[0].f, scale[last].f);
+    ss_stream_free(f.stream);
     ss_reader_free(reader);
 }
 

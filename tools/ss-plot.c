@@ -51,15 +51,6 @@ draw(const drawing *d, const char *output, ss_plot_opts *opts)
         tool_drawn(out, ss_plot_signal(out, d->reader, d->column, d->n, opts, &tool_error));
 }
 
-static size_t
-find_signal_column(int xy, const ss_header *head, const char *path, const char *name)
-{
-    if ((strcmp(name, "t") == 0 || strcmp(name, "time") == 0) && ss_header_column(head, name) < 0)
-        tool_die("%s: time is the clock, not a column%s", tool_input_name(path), xy
-                 ? "; --column Y draws Y over it" : ", which every panel has as its axis");
-    return tool_column(head, path, name);
-}
-
 /* Read the two columns of --xy X,Y. */
 static void
 set_xy(const tool_option *o, char *pair)
@@ -108,17 +99,6 @@ find_columns(const ss_table *t, const char *path, const char *names, size_t colu
     return n;
 }
 
-/* 1 if the same single parameter was varied in every part of the table. */
-static int
-is_diagram(const ss_table *t)
-{
-    const char *first = ss_table_note(t, "vary");
-    for (size_t i = 0; i < t->n_notes && first != NULL; i++)
-        if (strncmp(t->note[i], "vary: ", 6) == 0 && strcmp(t->note[i] + 6, first) != 0)
-            return 0;
-    return first != NULL;
-}
-
 /* Read a curve: rows of x and y.  Any other row breaks the line. */
 static double *
 read_line(const char *path, size_t *n)
@@ -160,7 +140,10 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
     if (in != stdin)
         fclose(in);
     size_t n = find_columns(table, path, names, column, COLUMNS);
-    int diagram = is_diagram(table);
+    const char *vary = ss_table_note(table, "vary");
+    int diagram = vary != NULL;                 /* was the same single parameter varied in every part of the table? */
+    for (size_t i = 0; diagram && i < table->n_notes; i++)
+        diagram = strncmp(table->note[i], "vary: ", 6) != 0 || strcmp(table->note[i] + 6, vary) == 0;
     if (n < 2 || (!diagram && (n < 3 || n > 4)))
         tool_usage("--map: '%s' is not %s", names, diagram ? "X,Y[,Y...]: one key was varied"
                    : "X,Y,Z or X,Y,Z,Z: two keys were varied");
@@ -183,8 +166,13 @@ choose_columns(drawing *d, const char *path, const tool_texts *name)
     const ss_header *head = ss_reader_header(d->reader);
     d->n = name->n > 0 ? name->n : head->n_columns;
     d->column = tool_room(NULL, d->n + 1, sizeof *d->column);
-    for (size_t i = 0; i < d->n; i++)
-        d->column[i] = name->n > 0 ? find_signal_column(d->xy, head, path, name->text[i]) : i;
+    for (size_t i = 0; i < d->n; i++) {
+        const char *wanted = name->n > 0 ? name->text[i] : "";
+        if ((strcmp(wanted, "t") == 0 || strcmp(wanted, "time") == 0) && ss_header_column(head, wanted) < 0)
+            tool_die("%s: time is the clock, not a column%s", tool_input_name(path), d->xy
+                     ? "; --column Y draws Y over it" : ", which every panel has as its axis");
+        d->column[i] = name->n > 0 ? tool_column(head, path, wanted) : i;
+    }
 }
 
 /* Warn if a column is drawn over one of another unit. */

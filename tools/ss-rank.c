@@ -114,17 +114,6 @@ quantity_of(const ss_column *column, int as, const char **by)
     return SS_ACCELERATION;
 }
 
-/* Find the other columns whose names show their quantity: the first of each quantity. */
-static void
-find_others(int also[SS_QUANTITIES], const ss_header *head, size_t column)
-{
-    for (size_t i = head->n_columns; i-- > 0;) {
-        int of = i != column ? quantity_of_name(head->column[i].name) : -1;
-        if (of >= 0)
-            also[of] = (int)i;
-    }
-}
-
 /* --- work ---------------------------------------------------------------------------------- */
 
 /* Note the result, even if it is not conclusive. */
@@ -308,13 +297,6 @@ fit_pull(const job *j, const ss_signal *signal, size_t column, const ss_scene *s
     ss_pull_free(p);
 }
 
-static void
-fit(const job *j, const ss_signal *signal, size_t column)
-{
-    ss_scene start = tool_read_scene(j->scenes[0], &j->settings, "--set");
-    (ss_scene_is_pulled(&start) ? fit_pull : fit_contact)(j, signal, column, &start);
-}
-
 /* --- a motion and a force ------------------------------------------------------------------- */
 
 /* Say what the motion is. */
@@ -433,25 +415,18 @@ rank_motion(job *j)
 
 /* --- a load point whose speed steps --------------------------------------------------------- */
 
-static double
-given_stiffness(const tool_texts *settings)
-{
-    static const char key[] = "stiffness=";
-    double stiffness = 0;
-    for (size_t i = 0; i < settings->n; i++) {
-        if (strncmp(settings->text[i], key, sizeof key - 1) != 0)
-            tool_usage("--set %s: with --load only stiffness can be given", settings->text[i]);
-        stiffness = tool_number("--set stiffness", settings->text[i] + sizeof key - 1, 1e-12, 1e12);
-    }
-    return stiffness;
-}
-
 static void
 fit_load(job *j)
 {
-    const double stiffness = given_stiffness(&j->settings);
+    static const char key[] = "stiffness=";
+    double stiffness = 0;
     ss_steps *steps = NULL;
     ss_plot_opts plot;
+    for (size_t i = 0; i < j->settings.n; i++) {
+        if (strncmp(j->settings.text[i], key, sizeof key - 1) != 0)
+            tool_usage("--set %s: with --load only stiffness can be given", j->settings.text[i]);
+        stiffness = tool_number("--set stiffness", j->settings.text[i] + sizeof key - 1, 1e-12, 1e12);
+    }
     ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
     const size_t load = tool_column(signal->head, j->signal_path, j->load);
     const size_t friction = tool_column(signal->head, j->signal_path, j->column_name);
@@ -573,11 +548,16 @@ rank_signal(job *j)
     tool_note("%s: %zu samples, column %s taken as %s, by %s", tool_input_name(j->signal_path),
               signal->n, signal->head->column[column].name, ss_quantity_names[j->opts.quantity],
               j->known_by);
-    find_others(j->opts.also, signal->head, column);
+    for (size_t i = signal->head->n_columns; i-- > 0;) {        /* others: the first whose name shows a quantity */
+        int of = i != column ? quantity_of_name(signal->head->column[i].name) : -1;
+        if (of >= 0)
+            j->opts.also[of] = (int)i;
+    }
     j->opts.progress = (ss_progress){ tool_progress, j };
-    if (j->fits)
-        fit(j, signal, column);
-    else
+    if (j->fits) {
+        ss_scene start = tool_read_scene(j->scenes[0], &j->settings, "--set");
+        (ss_scene_is_pulled(&start) ? fit_pull : fit_contact)(j, signal, column, &start);
+    } else
         rank(j, signal, column);
     ss_signal_free(signal);
 }

@@ -111,17 +111,6 @@ list(void)
     exit(0);
 }
 
-/* Write the scene as it would be simulated. */
-static void
-write_scene(const request *req, const ss_scene *scene)
-{
-    char *name = tool_name_scene(req->scene_path, &req->settings);
-    FILE *out = tool_output(req->path);
-    fprintf(out, "# %s\n", name);
-    free(name);
-    tool_check(ss_scene_write(scene, out, NULL));
-}
-
 /* Let the base move as it was measured, in place of the scene's base.  A column follows the last colon,
  * unless the name of a file goes on there. */
 static void
@@ -162,30 +151,6 @@ set_method(ss_sim_opts *opts, const ss_scene *scene, double accuracy)
         opts->method = ss_sim_method_for(scene, &why);
         tool_note("method %s: %s", opts->method, why);
     }
-}
-
-/* A mistyped rate must not fill the disk, or the memory, without a warning. */
-static void
-check_samples(const request *req, const ss_scene *scene)
-{
-    const double most = 1e10;
-    double n = scene->duration * scene->rate;
-    if (!req->events && req->opts.max_steps == 0 && n > most)
-        tool_die("duration x rate = %g s x %g Hz are %.2g samples: more than %.0g are written only "
-                 "with --max-steps", scene->duration, scene->rate, n, most);
-}
-
-static void
-note_origin(ss_header *head, const request *req)
-{
-    const ss_sim_opts *opts = &req->opts;
-    char tol[SS_NUMBER_MAX], *name = tool_name_scene(req->scene_path, &req->settings);
-    ss_number_format(tol, opts->tol);
-    if (ss_header_note(head, "scene", name, NULL) != SS_OK
-        || ss_header_note(head, "integrator", opts->method, NULL) != SS_OK
-        || ss_header_note(head, "tolerance", tol, NULL) != SS_OK)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    free(name);
 }
 
 static void
@@ -258,19 +223,32 @@ main(int argc, char *argv[])
     ss_sim_columns_parse(&req.columns, "t,x,v,a,f", NULL);
     parse(&req, argc, argv);
     ss_scene scene = tool_read_scene(req.scene_path, &req.settings, "--set");
-    if (req.list) {
-        write_scene(&req, &scene);
+    char tol[SS_NUMBER_MAX], *name = tool_name_scene(req.scene_path, &req.settings);
+    if (req.list) {                             /* write the scene as it would be simulated */
+        FILE *out = tool_output(req.path);
+        fprintf(out, "# %s\n", name);
+        tool_check(ss_scene_write(&scene, out, NULL));
+        free(name);
         tool_end();
         return 0;
     }
     if (req.base != NULL)
         set_base(&scene, req.base);
-    check_samples(&req, &scene);
+    /* a mistyped rate must not fill the disk, or the memory, without a warning */
+    const double most = 1e10, samples = scene.duration * scene.rate;
+    if (!req.events && req.opts.max_steps == 0 && samples > most)
+        tool_die("duration x rate = %g s x %g Hz are %.2g samples: more than %.0g are written only "
+                 "with --max-steps", scene.duration, scene.rate, samples, most);
     set_method(&req.opts, &scene, req.accuracy);
     ss_header *head;
     int has_events = ss_model_has_events(scene.model);
     tool_check(ss_sim_header(&head, &scene, &req.columns, &tool_error));
-    note_origin(head, &req);
+    ss_number_format(tol, req.opts.tol);
+    if (ss_header_note(head, "scene", name, NULL) != SS_OK
+        || ss_header_note(head, "integrator", req.opts.method, NULL) != SS_OK
+        || ss_header_note(head, "tolerance", tol, NULL) != SS_OK)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
+    free(name);
     if (req.events && !has_events)
         tool_warn("the %s model has no events", ss_model_name(scene.model));
     o.contents = (ss_contents){ .signal = head, .n = ss_scene_samples(&scene),

@@ -144,18 +144,11 @@ parse(request *req, int argc, char *argv[])
         tool_usage("--resume and --output exclude each other");
     if (req->resume != NULL && req->text.format != SS_TSV)
         tool_usage("--resume goes on with .tsv, whose notes say of what sweep it is");
-}
-
-/* Refuse a setting of a key that is varied. */
-static void
-check_settings(const request *req)
-{
     for (size_t i = 0; i < req->settings.n; i++) {
         const char *name = req->settings.text[i] + strspn(req->settings.text[i], " \t");
         size_t length = strcspn(name, " \t=");
         for (size_t k = 0; k < req->opts.n_axes; k++)
-            if (strlen(req->axis[k].key) == length
-                && strncmp(req->axis[k].key, name, length) == 0)
+            if (strlen(req->axis[k].key) == length && strncmp(req->axis[k].key, name, length) == 0)
                 tool_usage("%s is both varied and set", req->axis[k].key);
     }
 }
@@ -195,7 +188,6 @@ main(int argc, char *argv[])
 
     tool_begin(argv, "ss-sweep", usage);
     parse(&req, argc, argv);
-    check_settings(&req);
     ss_scene scene = read_scene(&req);
     if (req.n_picks == 0)
         pick_usual(&req, &scene);

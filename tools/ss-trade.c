@@ -153,15 +153,6 @@ set_needs(const tool_option *o, char *list)
 }
 
 static void
-write_sentence(FILE *out, const ss_models *models, const request *req)
-{
-    char *sentence;
-    tool_check(ss_models_answer(&sentence, models, req->need, req->n_needs, &tool_error));
-    fprintf(out, "%s\n", sentence);
-    free(sentence);
-}
-
-static void
 compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
 {
     ss_models *models = NULL;
@@ -177,9 +168,13 @@ compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
     if (kind < TOOL_STREAM) {
         FILE *script = tool_draw(req->output, plot);
         tool_drawn(script, ss_plot_models(script, models, plot, &tool_error));
-    } else if (req->n_needs > 0 && req->output == NULL)
-        write_sentence(tool_output(NULL), models, req);
-    else
+    } else if (req->n_needs > 0 && req->output == NULL) {
+        char *sentence;
+        FILE *out = tool_output(NULL);
+        tool_check(ss_models_answer(&sentence, models, req->need, req->n_needs, &tool_error));
+        fprintf(out, "%s\n", sentence);
+        free(sentence);
+    } else
         tool_check(ss_models_write(models, req->name, req->need, req->n_needs, tool_output(req->output),
                                    tool_stream(kind), &tool_error));
     ss_models_free(models);
