@@ -96,27 +96,17 @@ add_known(const struct stat *st, int written, const char *name)
     known[n_known++] = (known_file){ st->st_dev, st->st_ino, written };
 }
 
-/* The status of the file at path, or of the file before ":/" if path names a dataset in it. */
-static int
-find_file(const char *path, struct stat *st)
-{
-    const char *colon = strstr(path, ":/");
-    if (strcmp(path, "-") == 0)
-        return fstat(STDIN_FILENO, st) == 0;
-    if (stat(path, st) == 0)
-        return 1;
-    char *file = colon != NULL ? strndup(path, (size_t)(colon - path)) : NULL;
-    int found = file != NULL && stat(file, st) == 0;
-    free(file);
-    return found;
-}
-
+/* A path may name a dataset in the file before its ":/". */
 const char *
 tool_reads(const char *path)
 {
     struct stat st;
-    if (find_file(path, &st))
+    const char *colon = strstr(path, ":/");
+    char *file = colon != NULL ? strndup(path, (size_t)(colon - path)) : NULL;
+    if (strcmp(path, "-") == 0 ? fstat(STDIN_FILENO, &st) == 0
+        : stat(path, &st) == 0 || (file != NULL && stat(file, &st) == 0))
         add_known(&st, 0, path);
+    free(file);
     return path;
 }
 
@@ -197,25 +187,6 @@ open_nameless(output *o)
     return -1;
 }
 
-/* Open a temporary file in the folder of o->target, or die. */
-static void
-open_beside(output *o, mode_t mode)
-{
-    int fits = name_beside(o->temporary, o->target, "XXXXXX"), fd = fits ? mkstemp(o->temporary) : -1;
-    if (fd < 0)
-        tool_die("%s: %s", o->name, strerror(fits ? errno : ENAMETOOLONG));
-    fchmod(fd, mode);
-    close(fd);
-}
-
-/* 1 if the last part of a path is longer than its folder allows. */
-static int
-too_long(const char *path)
-{
-    struct stat st;
-    return lstat(path, &st) != 0 && errno == ENAMETOOLONG;
-}
-
 const char *
 tool_output_path(const char *path)
 {
@@ -227,7 +198,7 @@ tool_output_path(const char *path)
         tool_die("%s: %s", path, strerror(EISDIR));
     if (exists && !S_ISREG(st.st_mode))
         return path;                    /* a device or a FIFO is written as it is */
-    if (!exists && (errno == ELOOP || too_long(path)))
+    if (!exists && (errno == ELOOP || (lstat(path, &st) != 0 && errno == ENAMETOOLONG)))
         tool_die("%s: %s", path, strerror(errno));
 
     *o = (output){ .name = path, .target = resolve(path), .fd = -1 };
@@ -242,10 +213,13 @@ tool_output_path(const char *path)
     sigfillset(&all);
     sigprocmask(SIG_SETMASK, &all, &before);
     o->fd = open_nameless(o);
-    if (o->fd < 0)
-        open_beside(o, mode);
-    else
-        fchmod(o->fd, mode);
+    int is_nameless = o->fd >= 0, fits = is_nameless || name_beside(o->temporary, o->target, "XXXXXX");
+    int fd = is_nameless ? o->fd : fits ? mkstemp(o->temporary) : -1;
+    if (fd < 0)
+        tool_die("%s: %s", path, strerror(fits ? errno : ENAMETOOLONG));
+    fchmod(fd, mode);
+    if (!is_nameless)
+        close(fd);
     n_out++;
     catch_signals(discard_and_die);
     sigprocmask(SIG_SETMASK, &before, NULL);

@@ -145,31 +145,24 @@ tool_check_base(ss_status status)
     tool_check(status);
 }
 
-/* Read the base of a scene that is in this file, "-" or shipped.  Its name is relative to the scene's folder. */
-static void
-read_base(ss_scene *scene, const char *path)
+/* The name of the scene's base is relative to the scene's folder. */
+ss_scene
+tool_read_scene(const char *path, const tool_texts *settings, const char *options)
 {
     static ss_base *base;               /* the scene points at it */
     const char *slash = strrchr(path, '/');
     char name[PATH_MAX + SS_BASE_FILE];
-    snprintf(name, sizeof name, "%.*s%s", slash != NULL ? (int)(slash - path) + 1 : 0, path, scene->base_file);
-    if (scene->base_file[0] != '\0')
-        tool_reads(name);
-    tool_check_base(ss_scene_load_base(&base, scene, strcmp(path, "-") == 0 ? "" : path, &tool_error));
-}
-
-ss_scene
-tool_read_scene(const char *path, const tool_texts *settings, const char *options)
-{
     ss_scene scene;
     ss_status st = is_stdin(path)
-                 ? ss_scene_read(&scene, stdin, tool_input_name(path), settings->text,
-                                     settings->n, &tool_error)
-                 : ss_scene_load(&scene, path, settings->text, settings->n, &tool_error);
+        ? ss_scene_read(&scene, stdin, tool_input_name(path), settings->text, settings->n, &tool_error)
+        : ss_scene_load(&scene, path, settings->text, settings->n, &tool_error);
     if (st == SS_EINVAL)
         tool_usage("%s: %s", options, tool_error.text);
     tool_check(st);
-    read_base(&scene, path);
+    snprintf(name, sizeof name, "%.*s%s", slash != NULL ? (int)(slash - path) + 1 : 0, path, scene.base_file);
+    if (scene.base_file[0] != '\0')
+        tool_reads(name);
+    tool_check_base(ss_scene_load_base(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &tool_error));
     return scene;
 }
 

@@ -196,20 +196,6 @@ append(option_rows *t, const tool_option option[], size_t n)
     }
 }
 
-/* Refuse control characters in long options, since getopt prints an unknown option as it is.  Names of
- * files may look like options. */
-static void
-refuse_control(char *argv[])
-{
-    for (char **arg = argv + 1; *arg != NULL && strcmp(*arg, "--") != 0; arg++) {
-        size_t n = strcspn(*arg, "=");
-        char *option = strncmp(*arg, "--", 2) == 0 ? strndup(*arg, n) : NULL;
-        if (option != NULL && strncmp(ss_printable(option), *arg, n) != 0)
-            tool_usage("unrecognized option '%s'", option);
-        free(option);
-    }
-}
-
 int
 tool_parse(int argc, char *argv[], const tool_option option[], size_t n, tool_reading *reading)
 {
@@ -224,7 +210,15 @@ tool_parse(int argc, char *argv[], const tool_option option[], size_t n, tool_re
         append(&t, of_reading, TOOL_READING_OPTIONS);
     }
     append(&t, common, sizeof common / sizeof *common);
-    refuse_control(argv);
+    /* refuse control characters in long options, since getopt prints an unknown option as it is; names of files may
+     * look like options */
+    for (char **arg = argv + 1; *arg != NULL && strcmp(*arg, "--") != 0; arg++) {
+        size_t length = strcspn(*arg, "=");
+        char *text = strncmp(*arg, "--", 2) == 0 ? strndup(*arg, length) : NULL;
+        if (text != NULL && strncmp(ss_printable(text), *arg, length) != 0)
+            tool_usage("unrecognized option '%s'", text);
+        free(text);
+    }
     for (int c; (c = getopt_long(argc, argv, t.letters, t.names, NULL)) != -1;) {
         size_t i = c >= LONG ? (size_t)(c - LONG) : 0;
         while (c < LONG && i < t.n && t.row[i].letter != c)

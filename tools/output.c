@@ -233,34 +233,22 @@ fix_date(char *picture, size_t n)
     }
 }
 
-/* Read all bytes of a pipe; they are to be freed. */
-static char *
-read_all(FILE *in, size_t *n)
-{
-    char *bytes = NULL, piece[BUFSIZ];
-    FILE *out = open_memstream(&bytes, n);
-    size_t got;
-    if (out == NULL)
-        tool_die("%s", strerror(errno));
-    while ((got = fread(piece, 1, sizeof piece, in)) > 0)
-        fwrite(piece, 1, got, out);
-    if (fclose(out) != 0)
-        tool_die("%s", ss_strerror(SS_ENOMEM));
-    return bytes;
-}
-
 /* Run gnuplot and write what it draws, since gnuplot itself does not report a full disk. */
 static void
 run_gnuplot(FILE *script, FILE *out)
 {
     char reason[256] = "gnuplot failed", text[256];
-    FILE *words = tmpfile(), *picture;
-    size_t n;
+    char *drawn = NULL, piece[BUFSIZ];
+    size_t n, got;
+    FILE *words = tmpfile(), *picture, *all = open_memstream(&drawn, &n);
     int status;
-    if (words == NULL)
+    if (words == NULL || all == NULL)
         tool_die("gnuplot cannot be started: %s", strerror(errno));
     pid_t child = start_gnuplot(script, words, &picture);
-    char *drawn = read_all(picture, &n);
+    while ((got = fread(piece, 1, sizeof piece, picture)) > 0)
+        fwrite(piece, 1, got, all);
+    if (fclose(all) != 0)
+        tool_die("%s", ss_strerror(SS_ENOMEM));
     fclose(picture);
     if (waitpid(child, &status, 0) != child)
         tool_die("%s", strerror(errno));

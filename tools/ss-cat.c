@@ -24,34 +24,27 @@ static const char usage[] =
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-static const char *path, *output;
-static tool_texts wanted, names;        /* of columns; OLD=NEW */
-
-static void
-say_header(const ss_header *head)
-{
-    char rate[SS_NUMBER_MAX], start[SS_NUMBER_MAX];
-    ss_number_format(rate, head->rate);
-    ss_number_format(start, head->start);
-    tool_note("%s: %s Hz from %s s, columns: %zu", tool_input_name(path), rate, start,
-              head->n_columns);
-}
-
 int
 main(int argc, char *argv[])
 {
     static tool_reading reading = { .time_letter = 't', .rate_letter = 'r' };
+    static tool_texts wanted, names;            /* of columns; OLD=NEW */
+    const char *output = NULL;
+    char rate[SS_NUMBER_MAX], start[SS_NUMBER_MAX];
     tool_kind kind = TOOL_TSV;
     const tool_option options[] = {
         TOOL_TEXTS('c', "column", &wanted), TOOL_TEXTS(0, "name", &names), TOOL_OUTPUT(&output), TOOL_FORMAT(&kind) };
 
     tool_begin(argv, "ss-cat", usage);
-    path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
+    const char *path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
     tool_reading_end(&reading, wanted.text, wanted.n);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     reading.opts.progress = (ss_progress){ tool_progress, output != NULL ? &reading : NULL };
     ss_reader *reader = tool_read_rows(path, &reading.opts);
-    say_header(ss_reader_header(reader));
+    const ss_header *head = ss_reader_header(reader);
+    ss_number_format(rate, head->rate);
+    ss_number_format(start, head->start);
+    tool_note("%s: %s Hz from %s s, columns: %zu", tool_input_name(path), rate, start, head->n_columns);
     tool_copy(reader, path, &wanted, &names, output, kind);
     tool_end();
     return 0;

@@ -22,30 +22,15 @@ TOOL_READING_USAGE
 "  -h, --help           show this text and exit\n"
 "      --version        show the version and exit\n";
 
-static const char *path, *output;
-static tool_texts wanted, names;        /* of columns; OLD=NEW */
-static ss_filter_opts opts;
-
-static void
-filter_rows(tool_kind kind, const ss_read_opts *reading)
-{
-    ss_reader *reader = tool_read_rows(path, reading);
-    ss_status st = ss_reader_filter(reader, &opts, &tool_error);
-    if (st == SS_EINVAL)
-        tool_usage("%s", tool_error.text);
-    tool_check(st);
-    tool_note("%s", ss_header_find_note(ss_reader_header(reader), "filter"));
-    if (opts.order < 0 && !(opts.high_pass > 0))
-        tool_warn("%s: an integral without --high-pass drifts with the mean of the signal", tool_input_name(path));
-    tool_copy(reader, path, &wanted, &names, output, kind);
-}
-
 int
 main(int argc, char *argv[])
 {
     const ss_range edges = { DBL_MIN, DBL_MAX }, stops = { 1, 160 }, derivatives = { 1, 4 },
         integrals = { 1, 2 };
     static tool_reading reading;
+    static tool_texts wanted, names;            /* of columns; OLD=NEW */
+    ss_filter_opts opts;
+    const char *output = NULL;
     tool_kind kind = TOOL_TSV;
     int derivative = 0, integral = 0;
     ss_filter_opts_init(&opts, sizeof opts);
@@ -53,11 +38,10 @@ main(int argc, char *argv[])
         TOOL_NUMBER(0, "low-pass", &opts.low_pass, edges), TOOL_NUMBER(0, "high-pass", &opts.high_pass, edges),
         TOOL_WHOLE(0, "derivative", &derivative, derivatives), TOOL_WHOLE(0, "integral", &integral, integrals),
         TOOL_NUMBER(0, "stop", &opts.stop, stops), TOOL_TEXTS('c', "column", &wanted), TOOL_TEXTS(0, "name", &names),
-        TOOL_OUTPUT(&output),
-        TOOL_FORMAT(&kind) };
+        TOOL_OUTPUT(&output), TOOL_FORMAT(&kind) };
 
     tool_begin(argv, "ss-filter", usage);
-    path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
+    const char *path = tool_input(argc, argv, TOOL_PARSE(argc, argv, options, &reading));
     if (derivative > 0 && integral > 0)
         tool_usage("--derivative and --integral exclude each other");
     opts.order = derivative - integral;
@@ -66,7 +50,15 @@ main(int argc, char *argv[])
     tool_reading_end(&reading, wanted.text, wanted.n);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
     reading.opts.progress = (ss_progress){ tool_progress, output != NULL ? &reading : NULL };
-    filter_rows(kind, &reading.opts);
+    ss_reader *reader = tool_read_rows(path, &reading.opts);
+    ss_status st = ss_reader_filter(reader, &opts, &tool_error);
+    if (st == SS_EINVAL)
+        tool_usage("%s", tool_error.text);
+    tool_check(st);
+    tool_note("%s", ss_header_find_note(ss_reader_header(reader), "filter"));
+    if (opts.order < 0 && !(opts.high_pass > 0))
+        tool_warn("%s: an integral without --high-pass drifts with the mean of the signal", tool_input_name(path));
+    tool_copy(reader, path, &wanted, &names, output, kind);
     tool_end();
     return 0;
 }

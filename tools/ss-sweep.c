@@ -67,21 +67,6 @@ set_measures(const tool_option *o, char *names)
     }
 }
 
-/* Pick the usual measures that the model has. */
-static void
-pick_usual(request *req, const ss_scene *scene)
-{
-    static const ss_measure usual[] = { SS_STOPS, SS_STICK_FRACTION, SS_AMPLITUDE, SS_V_MAX,
-                                        SS_A_MAX, SS_ENERGY, SS_PERIOD };
-    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++) {
-        ss_steady_opts has;
-        ss_steady_opts_init(&has, sizeof has);
-        has.measures = 1u << usual[i];
-        if (ss_steady_check(&has, scene, NULL) == SS_OK)
-            pick_measure(req, usual[i]);
-    }
-}
-
 static void
 set_shard(const tool_option *o, char *text)
 {
@@ -180,6 +165,8 @@ read_scene(const request *req)
 int
 main(int argc, char *argv[])
 {
+    static const ss_measure usual[] = { SS_STOPS, SS_STICK_FRACTION, SS_AMPLITUDE, SS_V_MAX,
+                                        SS_A_MAX, SS_ENERGY, SS_PERIOD };
     static request req = { .kind = TOOL_TSV };
     ss_steady_opts_init(&req.steady, sizeof req.steady);
     ss_sweep_opts_init(&req.opts, sizeof req.opts);
@@ -189,8 +176,13 @@ main(int argc, char *argv[])
     tool_begin(argv, "ss-sweep", usage);
     parse(&req, argc, argv);
     ss_scene scene = read_scene(&req);
-    if (req.n_picks == 0)
-        pick_usual(&req, &scene);
+    for (size_t i = 0, given = req.n_picks; given == 0 && i < sizeof usual / sizeof *usual; i++) {
+        ss_steady_opts has;
+        ss_steady_opts_init(&has, sizeof has);
+        has.measures = 1u << usual[i];
+        if (ss_steady_check(&has, &scene, NULL) == SS_OK)       /* the model has it */
+            pick_measure(&req, usual[i]);
+    }
     req.opts.axis = req.axis;
     if (ss_sweep_check(&scene, &req.opts, &tool_error) != SS_OK)
         tool_usage("%s", tool_error.text);
