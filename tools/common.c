@@ -279,16 +279,14 @@ static void
 note_cost(void)
 {
     struct rusage own, gnuplot;
-    const double unit =
 #ifdef __APPLE__
-        1;
+    const double unit = 1;
 #else
-        1024;
+    const double unit = 1024;
 #endif
     if (getrusage(RUSAGE_SELF, &own) != 0 || getrusage(RUSAGE_CHILDREN, &gnuplot) != 0)
         return;
-    long seconds = own.ru_utime.tv_sec + own.ru_stime.tv_sec + gnuplot.ru_utime.tv_sec
-        + gnuplot.ru_stime.tv_sec;
+    long seconds = own.ru_utime.tv_sec + own.ru_stime.tv_sec + gnuplot.ru_utime.tv_sec + gnuplot.ru_stime.tv_sec;
     double micro = (double)(own.ru_utime.tv_usec + own.ru_stime.tv_usec + gnuplot.ru_utime.tv_usec
                             + gnuplot.ru_stime.tv_usec);
     long most = own.ru_maxrss > gnuplot.ru_maxrss ? own.ru_maxrss : gnuplot.ru_maxrss;

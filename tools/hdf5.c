@@ -13,14 +13,17 @@
 #define LIBRARY "libstickslip.so." SS_VERSION
 
 /* Open the library beside the tool, in the build tree or installed, or where it was to be installed, before any
- * other of its name. */
-static void *
-open_library(void)
+ * other of its name.  It may be missing where a tool was copied alone. */
+const struct ss_store_calls *
+ss_store_calls(ss_error *err)
 {
+    static const struct ss_store_calls *calls;
     static const char *const place[] = { "/../", "/../lib/" };
     char tool[PATH_MAX], path[PATH_MAX + 64];
-    ssize_t n = readlink("/proc/self/exe", tool, sizeof tool - 1);
     void *library = NULL;
+    if (calls != NULL)
+        return calls;
+    ssize_t n = readlink("/proc/self/exe", tool, sizeof tool - 1);
     tool[n > 0 ? n : 0] = '\0';
     char *slash = strrchr(tool, '/');
     for (size_t i = 0; slash != NULL && library == NULL && i < sizeof place / sizeof *place; i++) {
@@ -30,18 +33,10 @@ open_library(void)
     }
     if (library == NULL)
         library = dlopen(LIBDIR "/" LIBRARY, RTLD_NOW | RTLD_LOCAL);
-    return library != NULL ? library : dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
-}
-
-/* The library may be missing where a tool was copied alone. */
-const struct ss_store_calls *
-ss_store_calls(ss_error *err)
-{
-    static const struct ss_store_calls *calls;
-    if (calls != NULL)
-        return calls;
+    if (library == NULL)
+        library = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
     const struct ss_store_calls *(*function)(ss_error *);
-    void *library = open_library(), *found = library != NULL ? dlsym(library, "ss_store_calls") : NULL;
+    void *found = library != NULL ? dlsym(library, "ss_store_calls") : NULL;
     *(void **)&function = found;            /* the form of dlsym(3), as C has no such conversion */
     if (found != NULL)
         return calls = function(err);

@@ -16,10 +16,11 @@ typedef struct job {
     int done, status;
 } job;
 
-/* Pass on the messages of a job.  why becomes the last of them, without the tool's name. */
+/* Pass on the messages of a job, and its result.  why becomes the last of the messages, without the tool's name. */
 static void
-pass_words(job *j, char why[LONGEST])
+collect(job *j, size_t i, tool_done *done, void *user)
 {
+    char why[LONGEST] = "";
     rewind(j->words);
     for (int c = 0, first = 1; fgets(why, LONGEST, j->words) != NULL; first = c == '\n') {
         size_t n = strlen(why), name = strcspn(why, " ");
@@ -30,13 +31,6 @@ pass_words(job *j, char why[LONGEST])
             memmove(why, why + name + 1, strlen(why + name + 1) + 1);
     }
     fclose(j->words);
-}
-
-static void
-collect(job *j, size_t i, tool_done *done, void *user)
-{
-    char why[LONGEST] = "";
-    pass_words(j, why);
     if (WIFSIGNALED(j->status))
         snprintf(why, sizeof why, "its process was killed by signal %d", WTERMSIG(j->status));
     rewind(j->result);

@@ -174,30 +174,16 @@ tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const t
 
 /* --- gnuplot ------------------------------------------------------------------------------- */
 
-/* gnuplot runs the commands in GNUTERM, and takes folders, fonts and programs from other variables.  So it
- * gets only the variables that it needs to start and to find the fonts of the machine. */
-static void
-clear_environment(void)
+/* Start gnuplot on a script, without the settings of a user.  Its messages go to the file `words`, and its
+ * picture comes through *picture.  gnuplot runs the commands in GNUTERM, and takes folders, fonts and programs from
+ * other variables.  So it gets only the variables that it needs to start and to find the fonts of the machine. */
+static pid_t
+start_gnuplot(FILE *script, FILE *words, FILE **picture)
 {
     extern char **environ;
     static const char *const kept[] = { "PATH", "HOME", "TMPDIR", "LD_LIBRARY_PATH", "FONTCONFIG_PATH",
         "FONTCONFIG_FILE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME" };
     size_t n = 0;
-    for (char **entry = environ; *entry != NULL; entry++)
-        for (size_t i = 0, length; i < sizeof kept / sizeof *kept; i++)
-            if (strncmp(*entry, kept[i], length = strlen(kept[i])) == 0 && (*entry)[length] == '=') {
-                environ[n++] = *entry;
-                break;
-            }
-    environ[n] = NULL;
-    setenv("TZ", "UTC0", 1);            /* for the date in a PDF */
-}
-
-/* Start gnuplot on a script, without the settings of a user.  Its messages go to the file `words`, and its
- * picture comes through *picture. */
-static pid_t
-start_gnuplot(FILE *script, FILE *words, FILE **picture)
-{
     int fd[2];
     if (pipe(fd) != 0)
         tool_die("gnuplot cannot be started: %s", strerror(errno));
@@ -208,7 +194,14 @@ start_gnuplot(FILE *script, FILE *words, FILE **picture)
         dup2(fileno(words), STDERR_FILENO);
         close(fd[0]);
         close(fd[1]);
-        clear_environment();
+        for (char **entry = environ; *entry != NULL; entry++)
+            for (size_t i = 0, length; i < sizeof kept / sizeof *kept; i++)
+                if (strncmp(*entry, kept[i], length = strlen(kept[i])) == 0 && (*entry)[length] == '=') {
+                    environ[n++] = *entry;
+                    break;
+                }
+        environ[n] = NULL;
+        setenv("TZ", "UTC0", 1);        /* for the date in a PDF */
         execlp("gnuplot", "gnuplot", "-d", "-", (char *)NULL);
         _exit(127);
     }

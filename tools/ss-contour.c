@@ -56,40 +56,19 @@ draw_contours(const drawing *d, const char *path, ss_plot_opts *opts)
     tool_drawn(script, ss_plot_contour(script, d->coefficients, &d->opts, opts, &tool_error));
 }
 
-/* --- a recording, in one pass -------------------------------------------------------------- */
+/* --- coefficients, or a recording in one pass ------------------------------------------------- */
 
 /* The lowest frequency of a recording whose length is not known: a useful one has some cycles of it. */
 #define LOWEST 5e-4             /* of the rate */
 
-/* Draw the column that was asked for, or "a", or the only one. */
-static void
-draw_rows(drawing *d, ss_reader *reader)
-{
-    ss_morlet_opts opts;
-    ss_morlet_opts_init(&opts, sizeof opts);
-    const ss_header *head = ss_reader_header(reader);
-    size_t column = tool_column(head, d->path, d->column);
-    opts.fmin = d->opts.fmin > 0 ? d->opts.fmin : LOWEST * head->rate;
-    opts.fmax = d->opts.fmax;
-    opts.detrend = d->detrend;
-    tool_check(ss_overview_read(&d->overview, reader, column, &opts, &tool_error));
-    d->coefficients = d->overview->coefficients;
-    d->opts.signal = d->overview->signal;
-    d->opts.top = d->overview->top;
-    if (isnan(d->opts.noise))
-        d->opts.noise = d->overview->noise;
-    d->opts.fmin = d->opts.fmax = 0;
-    d->opts.progress = (ss_progress){ NULL, NULL };     /* the rest takes no time */
-}
-
-/* --- coefficients -------------------------------------------------------------------------- */
-
-/* A stream holds coefficients; a file may hold a signal instead, whose map is drawn as its rows come. */
+/* A stream holds coefficients; a file may hold a signal instead, of which the map of one column, that which was asked
+ * for, or "a", or the only one, is drawn as its rows come. */
 static void
 open_input(drawing *d)
 {
     ss_error other;
     ss_reader *reader = NULL;
+    ss_morlet_opts opts;
     struct stat is;
     d->opts.progress = d->reading.opts.progress = (ss_progress){ tool_progress, d };
     d->reading.opts.rewinds = d->detrend != SS_DETREND_NONE;
@@ -98,16 +77,28 @@ open_input(drawing *d)
         return;
     }
     ss_status st = ss_coefficients_read(&d->own, NULL, tool_reads(d->path), &tool_error);
-    if (st == SS_EKIND) {
-        st = ss_reader_new(&reader, NULL, d->path, &d->reading.opts, &other);
-        if (st == SS_OK)
-            draw_rows(d, reader);
-        ss_reader_free(reader);
-        tool_check_error(st, st == SS_EKIND ? &tool_error : &other);
+    if (st != SS_EKIND) {
+        tool_check(st);
+        d->coefficients = d->own;
         return;
     }
-    tool_check(st);
-    d->coefficients = d->own;
+    st = ss_reader_new(&reader, NULL, d->path, &d->reading.opts, &other);
+    tool_check_error(st, st == SS_EKIND ? &tool_error : &other);
+    const ss_header *head = ss_reader_header(reader);
+    size_t column = tool_column(head, d->path, d->column);
+    ss_morlet_opts_init(&opts, sizeof opts);
+    opts.fmin = d->opts.fmin > 0 ? d->opts.fmin : LOWEST * head->rate;
+    opts.fmax = d->opts.fmax;
+    opts.detrend = d->detrend;
+    tool_check(ss_overview_read(&d->overview, reader, column, &opts, &tool_error));
+    ss_reader_free(reader);
+    d->coefficients = d->overview->coefficients;
+    d->opts.signal = d->overview->signal;
+    d->opts.top = d->overview->top;
+    if (isnan(d->opts.noise))
+        d->opts.noise = d->overview->noise;
+    d->opts.fmin = d->opts.fmax = 0;
+    d->opts.progress = (ss_progress){ NULL, NULL };     /* the rest takes no time */
 }
 
 /* Warn of a signal with another clock, as panel (a) shows the time of panel (b). */

@@ -158,18 +158,6 @@ check_flow(const flow *f, ss_status status, const char *path)
 /* --- a record that is there --------------------------------------------------------------------- */
 
 static void
-say_what_was_done(const ss_morlet *plan, size_t n, double seconds)
-{
-    size_t scales = ss_morlet_grid(plan)->n_scales, by_fft = 0;
-    for (size_t i = 0; i < scales; i++)
-        by_fft += ss_morlet_grid(plan)->scale[i].engine == SS_ENGINE_FFT;
-    tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz, %zu by fft, "
-              "%zu by quadrature, %.3g s", ss_morlet_grid(plan)->total, n, scales,
-              ss_morlet_grid(plan)->scale[0].f, ss_morlet_grid(plan)->scale[scales - 1].f, by_fft,
-              scales - by_fft, seconds);
-}
-
-static void
 transform_whole(const request *req, const char *path)
 {
     flow f = { .writer = NULL };
@@ -183,16 +171,22 @@ transform_whole(const request *req, const char *path)
     opts.progress.function = tool_progress;
     double begin = tool_seconds();
     tool_check_input(ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, &tool_error), path);
+    const ss_grid *grid = ss_morlet_grid(plan);
     if (req->check)
-        f.w = tool_room(NULL, 2 * ss_morlet_grid(plan)->total, sizeof *f.w);
-    open_output(&f, req, signal->head, column, signal->n, ss_morlet_grid(plan));
+        f.w = tool_room(NULL, 2 * grid->total, sizeof *f.w);
+    open_output(&f, req, signal->head, column, signal->n, grid);
     double **all = tool_room(NULL, signal->head->n_columns, sizeof *all);
     for (size_t c = 0; c < signal->head->n_columns; c++)
         all[c] = signal->values + c * signal->n;
     tool_check(ss_writer_rows(f.writer, all, signal->n, &tool_error));
     free(all);
     check_flow(&f, ss_morlet_each(plan, x, write_coefficients, &f, &tool_error), path);
-    say_what_was_done(plan, signal->n, tool_seconds() - begin - f.seconds);
+    size_t by_fft = 0, last = grid->n_scales - 1;
+    for (size_t i = 0; i <= last; i++)
+        by_fft += grid->scale[i].engine == SS_ENGINE_FFT;
+    tool_note("%zu coefficients of %zu samples on %zu scales, %.4g to %.4g Hz, %zu by fft, %zu by quadrature, %.3g s",
+              grid->total, signal->n, last + 1, grid->scale[0].f, grid->scale[last].f, by_fft, last + 1 - by_fft,
+              tool_seconds() - begin - f.seconds);
     if (req->check) {
         enum { EACH = 20 };             /* coefficients of a scale */
         double difference;

@@ -202,20 +202,6 @@ warn_of_rig(const char *what, double found, double given, double spread)
         tool_warn("%s of the slips is %.2g times that of the given scene", what, found / given);
 }
 
-static void
-write_events(FILE *out, const ss_features *f, double start)
-{
-    fprintf(out, "# Each slip: onset [s], static_friction [N] and error, friction [N] and error, k/m [1/s^2]\n"
-            "# and error:\n");
-    for (size_t i = 0; i < f->n; i++) {
-        const ss_loading *l = &f->loading[i];
-        if (!isnan(l->friction.value))
-            fprintf(out, "#   %.4f %.4g %.1g %.4g %.1g %.4g %.1g\n", start + f->transition[i].onset,
-                    l->static_friction.value, l->static_friction.error, l->friction.value,
-                    l->friction.error, l->k_over_m.value, l->k_over_m.error);
-    }
-}
-
 /* Write the slips of a Coulomb slider without damping, one by one. */
 static void
 write_slips(FILE *out, const ss_pull *p, const ss_signal *signal, double k_over_m, double loading)
@@ -230,7 +216,15 @@ write_slips(FILE *out, const ss_pull *p, const ss_signal *signal, double k_over_
     write_median(out, "drop", f->number[SS_DROP], "N", NAN);
     write_median(out, "k/m", f->number[SS_K_OVER_M], "1/s^2", k_over_m);
     write_median(out, "loading", f->number[SS_LOADING_SLOPE], "N/s", loading);
-    write_events(out, f, signal->head->start);
+    fprintf(out, "# Each slip: onset [s], static_friction [N] and error, friction [N] and error, k/m [1/s^2]\n"
+            "# and error:\n");
+    for (size_t i = 0; i < f->n; i++) {
+        const ss_loading *l = &f->loading[i];
+        if (!isnan(l->friction.value))
+            fprintf(out, "#   %.4f %.4g %.1g %.4g %.1g %.4g %.1g\n", signal->head->start + f->transition[i].onset,
+                    l->static_friction.value, l->static_friction.error, l->friction.value,
+                    l->friction.error, l->k_over_m.value, l->k_over_m.error);
+    }
 }
 
 /* Write the result for another scene: the numbers that all slips share, and the frictions. */
@@ -451,18 +445,6 @@ fit_load(job *j)
     ss_signal_free(signal);
 }
 
-/* What goes with --load. */
-static void
-check_load(job *j, int files)
-{
-    static const char *const of_load[] = { "load", "normal-stress", "share", "column", "set", "output", "format",
-        "time", "time-unit", "rate", "table", "gaps", "resample", "from", "to", "scale", "unit", "quiet", "verbose", NULL };
-    if (tool_given_others(of_load) || files > 1)
-        tool_usage("with --load, of the other options only --column, --normal-stress, --share, --set stiffness "
-                   "and those of reading mean something, and no scene is read");
-    j->reading.opts.stamps = 1;
-}
-
 /* Set the signal and the scenes that are named.  Without any, the scenes are those of the paper, or, for a
  * fit, the one from which it starts. */
 static void
@@ -504,6 +486,8 @@ parse(job *j, int argc, char *argv[])
 {
     const ss_range percents = { 0, 99 }, frequencies = { 1e-9, 1e12 };
     const ss_range delays = { 0, 100 };
+    static const char *const of_load[] = { "load", "normal-stress", "share", "column", "set", "output", "format", "time",
+        "time-unit", "rate", "table", "gaps", "resample", "from", "to", "scale", "unit", "quiet", "verbose", NULL };
     static const char *const folds[] = { "by-range", "halves", "interleaved", NULL };
     double percent = 100 * j->opts.spread;
     const tool_option options[] = {
@@ -526,8 +510,10 @@ parse(job *j, int argc, char *argv[])
         tool_usage("--extra, --residual, --delay and --folds need --motion");
     if (j->load == NULL && (j->normal != NULL || j->shared))
         tool_usage("%s needs --load", j->shared ? "--share" : "--normal-stress");
-    if (j->load != NULL)
-        check_load(j, argc - first);
+    if (j->load != NULL && (tool_given_others(of_load) || argc - first > 1))
+        tool_usage("with --load, of the other options only --column, --normal-stress, --share, --set stiffness "
+                   "and those of reading mean something, and no scene is read");
+    j->reading.opts.stamps |= j->load != NULL;
     if (j->fits && argc - first > 2)
         tool_usage("--fit takes one scene");
     if (j->fits)

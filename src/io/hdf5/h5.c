@@ -124,44 +124,33 @@ values_in(hid_t space)
         : product(H5Sget_simple_extent_dims(space, dims, NULL), dims);
 }
 
-/* So many bytes of values can come from one of the file at most: 1 if they are stored as they are, what deflate
- * can do if they are deflated; 0 if that is not known.  Deflated twice, a file would hold 1032^2 times its size;
- * other filters take the size from the file. */
-static double
-most_from_byte(hid_t how)
-{
-    int deflated = 0, n = H5Pget_nfilters(how);
-    for (int i = 0; i < n; i++) {
-        unsigned flags, config;
-        size_t values = 0;
-        H5Z_filter_t filter = H5Pget_filter2(how, (unsigned)i, &flags, &values, NULL, 0, NULL, &config);
-        if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE
-            && filter != H5Z_FILTER_FLETCHER32)
-            return 0;
-        deflated += filter == H5Z_FILTER_DEFLATE;
-    }
-    return n < 0 || deflated > 1 ? 0 : deflated == 1 ? 1032 : 1;
-}
-
 /* How they are stored is asked before their extent: for that of a virtual dataset, HDF5 opens the files that it
- * refers to. */
+ * refers to.  At most 1032 bytes of values can come from one of the file, if they are deflated.  Deflated twice, a
+ * file would hold 1032^2 times its size; other filters take the size from the file. */
 const char *
 ss_h5_refuse_values(hid_t dataset, double *bytes)
 {
     hsize_t chunk[H5S_MAX_RANK];
     hid_t how = H5Dget_create_plist(dataset);
     int outside = H5Pget_layout(how) == H5D_VIRTUAL || H5Pget_external_count(how) > 0;
-    double most = most_from_byte(how), in_chunk = H5Pget_layout(how) != H5D_CHUNKED ? 0
-        : product(H5Pget_chunk(how, H5S_MAX_RANK, chunk), chunk);
+    int deflated = 0, others = 0, n = H5Pget_nfilters(how);
+    for (int i = 0; i < n; i++) {
+        unsigned flags, config;
+        size_t values = 0;
+        H5Z_filter_t filter = H5Pget_filter2(how, (unsigned)i, &flags, &values, NULL, 0, NULL, &config);
+        deflated += filter == H5Z_FILTER_DEFLATE;
+        others += filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_FLETCHER32;
+    }
+    double in_chunk = H5Pget_layout(how) != H5D_CHUNKED ? 0 : product(H5Pget_chunk(how, H5S_MAX_RANK, chunk), chunk);
     H5Pclose(how);
     if (outside)
         return "its values lie outside this file";
-    if (most <= 0)
+    if (n < 0 || deflated > 1 || others > 0)
         return "is packed otherwise than by deflate, once; h5repack -f GZIP=1 makes it so";
     hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
     H5T_class_t class = H5Tget_class(type);
     size_t size = H5Tget_size(type);
-    double width = (double)size / most, values = values_in(space);
+    double width = deflated > 0 ? (double)size / 1032 : (double)size, values = values_in(space);
     H5Sclose(space);
     H5Tclose(type);
     *bytes = values * width;
