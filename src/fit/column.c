@@ -95,55 +95,36 @@ gaussian_variance(double *d, size_t n)
     return median * median;
 }
 
-/* The variance by fourth differences, which have (1 + 16 + 36 + 16 + 1) times as much: their median contains
- * neither slow motion nor what happens seldom. */
-static double
-fast_variance(const rank_record *r, double *d)
+ss_status
+ss_record_noise(rank_record *r, double samples)
 {
+    double *d = malloc((r->n + 1) * sizeof *d);
     size_t count = 0;
+    if (d == NULL)
+        return SS_ENOMEM;
+    /* by fourth differences, which have (1 + 16 + 36 + 16 + 1) times as much: their median contains neither slow
+     * motion nor what happens seldom */
     for (size_t i = 0; i + 5 <= r->n; i++)
         if (!is_missing(r, i, 5)) {
             const double *x = r->x + i;
             d[count++] = (x[0] - 4 * x[1] + 6 * x[2] - 4 * x[3] + x[4]) / sqrt(70);
         }
-    return gaussian_variance(d, count);
-}
-
-/* The variance by the differences from one cycle to the next, interpolated between two samples: they contain
- * no periodic motion, however fast. */
-static double
-cycle_variance(const rank_record *r, double samples, double *d)
-{
-    size_t lag = (size_t)samples, count = 0;
-    double part = samples - floor(samples);
+    double smallest = gaussian_variance(d, count);
+    /* by the differences from one cycle to the next, interpolated between two samples: they contain no periodic
+     * motion, however fast */
+    const size_t lag = samples > 0 && samples < (double)r->n ? (size_t)samples : r->n;
+    const double part = samples - floor(samples);
+    count = 0;
     for (size_t i = 0; i + lag + 2 <= r->n; i++)
         if (!is_missing(r, i, 1) && !is_missing(r, i + lag, 2)) {
             double later = (1 - part) * r->x[i + lag] + part * r->x[i + lag + 1];
             d[count++] = (r->x[i] - later) / sqrt(1 + (1 - part) * (1 - part) + part * part);
         }
-    return gaussian_variance(d, count);
-}
-
-/* The variance of a converter's steps: a twelfth of the square of the smallest, and a ninth for noise of a
- * third of a step.  Medians do not see such noise, as most samples do not leave their step. */
-static double
-step_variance(const rank_record *r)
-{
-    double smallest = ss_smallest_change(r->x, r->n);
-    return isfinite(smallest) ? smallest * smallest * (1. / 12 + 1. / 9) : 0;
-}
-
-ss_status
-ss_record_noise(rank_record *r, double samples)
-{
-    double *d = malloc((r->n + 1) * sizeof *d);
-    if (d == NULL)
-        return SS_ENOMEM;
-    double fast = fast_variance(r, d);
-    double repeated = samples > 0 && samples < (double)r->n
-        ? cycle_variance(r, samples, d) : INFINITY;
-    double smallest = fmin(fast, repeated);
-    r->steps = step_variance(r);
+    smallest = fmin(smallest, gaussian_variance(d, count));
+    /* a converter's steps have a twelfth of the square of the smallest, and a ninth for noise of a third of a step:
+     * medians do not see such noise, as most samples do not leave their step */
+    const double step = ss_smallest_change(r->x, r->n);
+    r->steps = isfinite(step) ? step * step * (1. / 12 + 1. / 9) : 0;
     r->noise = fmax(isfinite(smallest) ? smallest : 0, r->steps);
     free(d);
     return SS_OK;

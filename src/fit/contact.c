@@ -73,29 +73,6 @@ static const struct {
     { "base_frequency", 1, { FORCED_FREQUENCY } }, { "contact_stiffness", 1, { FORCED_OWN } },
     { "contact_damping", 1, { FORCED_OWN + 1 } } };
 
-static void
-list_keys(ss_fit *fit, const ss_scene *start)
-{
-    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
-        ss_fitted *k = &fit->key[i];
-        k->name = fitted[i].name;
-        k->given = ss_scene_get(start, k->name);
-        k->unit = ss_scene_unit(start, k->name);
-        k->found = (ss_value){ NAN, NAN };
-    }
-}
-
-/* The standard error of the logarithm of a number. */
-static double
-error_of(const forced_fit *m, size_t key)
-{
-    double sum = 0;
-    for (size_t i = 0; i < fitted[key].n; i++)
-        for (size_t k = 0; k < fitted[key].n; k++)
-            sum += m->covariance[fitted[key].unknown[i]][fitted[key].unknown[k]];
-    return sqrt(m->of_samples.left * sum);
-}
-
 /* The scene from rest, settled and in step with the whole record; its numbers; and what it leaves of the record
  * without their offset. */
 static ss_status
@@ -109,8 +86,12 @@ report(ss_fit *fit, const fitting *w)
     s.duration = (double)w->n / w->rate;
     fit->scene = s;
     for (size_t i = 0; i < SS_FIT_KEYS; i++) {
-        double value = ss_scene_get(&fit->scene, fitted[i].name);
-        fit->key[i].found = (ss_value){ value, value * error_of(&w->best, i) };
+        const double value = ss_scene_get(&fit->scene, fitted[i].name);
+        double variance = 0;            /* of its logarithm */
+        for (size_t j = 0; j < fitted[i].n; j++)
+            for (size_t k = 0; k < fitted[i].n; k++)
+                variance += w->best.covariance[fitted[i].unknown[j]][fitted[i].unknown[k]];
+        fit->key[i].found = (ss_value){ value, value * sqrt(of->left * variance) };
     }
     fit->residual_started = sqrt(of->left / of->power);
     fit->noise = sqrt(fmin(w->record.noise, of->white) / of->power);
@@ -144,37 +125,6 @@ time_stick(const ss_event *e, void *user)
     return 0;
 }
 
-/* The longest stick of the fitted motion, in periods of the contact's oscillation. */
-static ss_status
-find_longest_stick(double *periods, const ss_scene *scene)
-{
-    sticks found = { NAN, 0 };
-    ss_sim_opts opts = ss_samples_opts(scene, SAMPLES_FINE);
-    opts.events = time_stick;
-    opts.user = &found;
-    ss_status st = ss_sim_run(scene, &opts, NULL, NULL);
-    double stiffness = scene->stiffness + ss_scene_get(scene, "contact_stiffness");
-    *periods = found.longest * sqrt(stiffness / scene->mass) / (2 * M_PI);
-    return st == SS_ENOMEM ? st : SS_OK;
-}
-
-/* The first parameter that stands at an end of its range, or whose error is too large; NULL: none. */
-static const char *
-vague_parameter(const ss_fit *fit, const fitting *w, double *value, double *error)
-{
-    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
-        size_t k = fitted[i].unknown[0];
-        const ss_range *range = k < FORCED_KEYS ? &w->scene.range[k] : NULL;
-        *value = fit->key[i].found.value;
-        *error = fit->key[i].found.error;
-        if (range != NULL && (w->best.u[k] <= range->from || w->best.u[k] >= range->to))
-            *error = INFINITY;
-        if (!(SIGMAS * *error <= *value))
-            return fit->key[i].name;
-    }
-    return NULL;
-}
-
 /* Say which term the signal contradicts most: then the other numbers are wrong, too. */
 static ss_status
 judge_held(ss_fit *fit, const fitting *w)
@@ -204,11 +154,26 @@ static ss_status
 judge(ss_fit *fit, const fitting *w)
 {
     const residue *of = &w->best.of_samples;
-    double value, error, periods = 0;
-    ss_status st = find_longest_stick(&periods, &w->best.scene);
-    const char *vague = vague_parameter(fit, w, &value, &error);
-    if (st != SS_OK)
+    const ss_scene *scene = &w->best.scene;
+    ss_fitted vague = { .name = NULL };         /* the first that stands at an end of its range, or is not known */
+    sticks found = { NAN, 0 };
+    ss_sim_opts opts = ss_samples_opts(scene, SAMPLES_FINE);
+    opts.events = time_stick;
+    opts.user = &found;
+    ss_status st = ss_sim_run(scene, &opts, NULL, NULL);
+    if (st == SS_ENOMEM)
         return st;
+    st = SS_OK;
+    const double stiffness = scene->stiffness + ss_scene_get(scene, "contact_stiffness");
+    const double periods = found.longest * sqrt(stiffness / scene->mass) / (2 * M_PI);
+    for (size_t i = 0; i < SS_FIT_KEYS && vague.name == NULL; i++) {
+        const size_t k = fitted[i].unknown[0];
+        ss_fitted key = fit->key[i];
+        if (k < FORCED_KEYS && !(w->best.u[k] > w->scene.range[k].from && w->best.u[k] < w->scene.range[k].to))
+            key.found.error = INFINITY;
+        if (!(SIGMAS * key.found.error <= key.found.value))
+            vague = key;
+    }
     if (of->compared == 0)
         snprintf(fit->why, sizeof fit->why, "the motion nearest to it does not slip");
     else if (!ss_residue_explains(of, w->record.noise))
@@ -221,12 +186,12 @@ judge(ss_fit *fit, const fitting *w)
     else if (periods < SHORT)
         ss_print_to(fit->why, sizeof fit->why, "the longest stick lasts %.2g periods of the contact's "
                     "oscillation: less than %g shows no stiffness", periods, SHORT);
-    else if (vague != NULL && isinf(error))
-        ss_print_to(fit->why, sizeof fit->why, "%s = %.3g is at an end of the range searched", vague,
-                    value);
-    else if (vague != NULL)
-        ss_print_to(fit->why, sizeof fit->why, "%s = %.3g +- %.2g: the signal does not tell it", vague,
-                    value, error);
+    else if (vague.name != NULL && isinf(vague.found.error))
+        ss_print_to(fit->why, sizeof fit->why, "%s = %.3g is at an end of the range searched", vague.name,
+                    vague.found.value);
+    else if (vague.name != NULL)
+        ss_print_to(fit->why, sizeof fit->why, "%s = %.3g +- %.2g: the signal does not tell it", vague.name,
+                    vague.found.value, vague.found.error);
     else
         st = judge_held(fit, w);
     fit->conclusive = fit->why[0] == '\0';
@@ -297,7 +262,12 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     char *missing = NULL;
     fitting *w = malloc(sizeof *w);
     *fit = (ss_fit){ .scene = *start, .residual = NAN, .residual_started = NAN, .noise = NAN };
-    list_keys(fit, start);
+    for (size_t i = 0; i < SS_FIT_KEYS; i++) {
+        ss_fitted *k = &fit->key[i];
+        *k = (ss_fitted){ .name = fitted[i].name, .found = { NAN, NAN } };
+        k->given = ss_scene_get(start, k->name);
+        k->unit = ss_scene_unit(start, k->name);
+    }
     if (w == NULL)
         return ss_fail_memory(err, NULL);
     *w = (fitting){ .x = signal->values + column * signal->n, .n = signal->n, .rate = signal->head->rate };
@@ -308,10 +278,10 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
                            opts->forcing_frequency);
     if (st == SS_OK && w->goal.period > 0)
         st = fit_signal(fit, w, signal, column, opts, err);
-    if (!fit->conclusive) {             /* then it gives no number */
+    if (!fit->conclusive)               /* then it gives no number */
         fit->scene = *start;
-        list_keys(fit, start);
-    }
+    for (size_t i = 0; i < SS_FIT_KEYS && !fit->conclusive; i++)
+        fit->key[i].found = (ss_value){ NAN, NAN };
     free(missing);
     free(w);
     return st;

@@ -62,25 +62,6 @@ set_fall(fall *w, const falls *r, const ss_features *f, size_t i, size_t n)
     return t[i].end * r->rate < to && w->n >= FEWEST_SAMPLES && w->top > w->middle;
 }
 
-/* The mean square of the samples about the mean of their fall. */
-static double
-power_of(const falls *r)
-{
-    double sum = 0, n = 0;
-    for (size_t i = 0; i < r->n; i++) {
-        const fall *w = &r->fall[i];
-        double mean = 0, squares = 0;
-        for (size_t k = 0; k < w->n; k++) {
-            double d = r->y[w->first + k * w->step] - mean;
-            mean += d / (double)(k + 1);
-            squares += d * (r->y[w->first + k * w->step] - mean);
-        }
-        sum += squares;
-        n += (double)w->n;
-    }
-    return n > 0 ? sum / n : NAN;
-}
-
 /* Copy the force to out->y without its glitches, in the direction of the pull, and find its noise. */
 static ss_status
 copy_force(falls *out, const ss_features *f, const double *x, size_t n, double direction)
@@ -110,6 +91,7 @@ copy_force(falls *out, const ss_features *f, const double *x, size_t n, double d
 static ss_status
 choose_falls(falls *out, const ss_features *f, size_t n)
 {
+    double squares = 0, samples = 0;    /* about the mean of their fall */
     size_t slips = 0, n_usable = 0, *usable = malloc((f->n + 1) * sizeof *usable);
     if (usable == NULL)
         return SS_ENOMEM;
@@ -122,7 +104,17 @@ choose_falls(falls *out, const ss_features *f, size_t n)
     for (size_t i = 0; i < most; i++)
         out->n += (size_t)set_fall(&out->fall[out->n], out, f, usable[i * n_usable / most], n);
     out->first = n_usable > 0 ? f->transition[usable[0]].onset : NAN;
-    out->power = power_of(out);
+    for (size_t i = 0; i < out->n; i++) {
+        const fall *w = &out->fall[i];
+        double mean = 0;
+        for (size_t k = 0; k < w->n; k++) {
+            double d = out->y[w->first + k * w->step] - mean;
+            mean += d / (double)(k + 1);
+            squares += d * (out->y[w->first + k * w->step] - mean);
+        }
+        samples += (double)w->n;
+    }
+    out->power = squares / samples;
     free(usable);
     return SS_OK;
 }

@@ -165,12 +165,18 @@ slope_at(const fitting *w, size_t i, size_t unknown)
     return -sqrt(w->weight[i]) * by;
 }
 
-/* Write the slopes of the root of the mean square by each unknown, less what size and offset make up for
- * (Kaufman 1975). */
-static void
-write_slopes(const fitting *w, double *slopes)
+/* See least_model: of the mean square residual of the samples used.  Slopes are less what size and offset make up
+ * for (Kaufman 1975). */
+static ss_status
+motion_model(const double *u, double *residual, double *slopes, void *user)
 {
-    for (size_t k = 0; k < FORCED_MOVED; k++) {
+    fitting *w = user;
+    ss_status st = slopes == NULL || memcmp(u, w->at, sizeof w->at) != 0 ? move_to(w, u) : SS_OK;
+    for (size_t i = 0; st == SS_OK && slopes == NULL && i < w->r->n; i++)
+        residual[i] = sqrt(w->weight[i] / w->used) * left_at(w, i);
+    if (st == SS_OK && slopes != NULL)
+        st = move_unknowns(w);
+    for (size_t k = 0; st == SS_OK && slopes != NULL && k < FORCED_MOVED; k++) {
         double level = 0, along = 0;
         for (size_t i = 0; i < w->r->n; i++) {
             double slope = sqrt(w->weight[i]) * slope_at(w, i, k);
@@ -180,21 +186,6 @@ write_slopes(const fitting *w, double *slopes)
         for (size_t i = 0; i < w->r->n; i++)
             slopes[i * FORCED_MOVED + k] = (slope_at(w, i, k) - sqrt(w->weight[i])
                                             * (level + along * (w->motion[i] - w->mean))) / sqrt(w->used);
-    }
-}
-
-/* See least_model: of the mean square residual of the samples used. */
-static ss_status
-motion_model(const double *u, double *residual, double *slopes, void *user)
-{
-    fitting *w = user;
-    ss_status st = slopes == NULL || memcmp(u, w->at, sizeof w->at) != 0 ? move_to(w, u) : SS_OK;
-    for (size_t i = 0; st == SS_OK && slopes == NULL && i < w->r->n; i++)
-        residual[i] = sqrt(w->weight[i] / w->used) * left_at(w, i);
-    if (st == SS_OK && slopes != NULL) {
-        st = move_unknowns(w);
-        if (st == SS_OK)
-            write_slopes(w, slopes);
     }
     return st;
 }
@@ -537,33 +528,6 @@ change_term(ss_scene *s, forced_term term, double by)
     return s->static_friction / s->friction;
 }
 
-/* The slopes by a term of the scene. */
-static ss_status
-slopes_by_scene(fitting *w, forced_term term, double *slopes)
-{
-    const double h = step_of(w, 0);
-    const ss_scene own = w->c->scene;
-    change_term(&w->c->scene, term, h);
-    ss_status st = run(w, w->at, slopes, NULL);
-    w->c->scene = own;
-    for (size_t i = 0; i < w->r->n; i++)
-        slopes[i] = -sqrt(w->weight[i]) * w->size * (slopes[i] - w->motion[i]) / h;
-    return st;
-}
-
-/* What a lag of so many samples changes in the residuals; the motion is straight between samples. */
-static void
-slopes_by_lag(const fitting *w, double samples, double *slopes)
-{
-    const double *x = w->motion, keep = exp(-1 / samples), part = samples * (1 - keep);
-    double y = x[0];
-    slopes[0] = 0;
-    for (size_t i = 1; i < w->r->n; i++) {
-        y = keep * y + (1 - part) * x[i] + (part - keep) * x[i - 1];
-        slopes[i] = -sqrt(w->weight[i]) * w->size * (y - x[i]);
-    }
-}
-
 ss_status
 ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m, const rank_record *r)
 {
@@ -572,7 +536,7 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
     forced_fit unused;
     fitting w;
     linear l = { .residual = NULL };
-    double far;
+    double far, y;
     own.progress.progress.function = NULL;
     for (forced_term term = 0; term < HELD_TERMS; term++)
         of[term] = (forced_held){ 0, NAN };
@@ -585,15 +549,26 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
     for (size_t i = 0; st == SS_OK && i < r->n * FORCED_UNKNOWNS; i++)
         l.residual[i / FORCED_UNKNOWNS] -= l.slopes[i] * l.step[i % FORCED_UNKNOWNS];
     for (forced_term term = 0; st == SS_OK && term < HELD_LAG; term++) {
-        ss_scene changed = c->scene;
-        st = slopes_by_scene(&w, term, l.extra);
-        if (st == SS_OK)
-            of[term].gain = find_gain(&l, r->n, &far) / unit;
-        of[term].nearer = st == SS_OK ? change_term(&changed, term, far) : NAN;
+        const double h = step_of(&w, 0);
+        change_term(&own.scene, term, h);
+        st = run(&w, w.at, l.extra, NULL);
+        own.scene = c->scene;
+        if (st != SS_OK)
+            break;
+        for (size_t i = 0; i < r->n; i++)
+            l.extra[i] = -sqrt(w.weight[i]) * w.size * (l.extra[i] - w.motion[i]) / h;
+        of[term].gain = find_gain(&l, r->n, &far) / unit;
+        of[term].nearer = change_term(&own.scene, term, far);
+        own.scene = c->scene;
     }
-    /* longer lags leave more than noise */
+    /* a lag changes a motion that is straight between samples so; longer lags leave more than noise */
     for (double samples = 1 / 8.; st == SS_OK && samples <= 8; samples *= 2) {
-        slopes_by_lag(&w, samples, l.extra);
+        const double *x = w.motion, keep = exp(-1 / samples), part = samples * (1 - keep);
+        y = x[0];
+        for (size_t i = 0; i < r->n; i++) {
+            y = i > 0 ? keep * y + (1 - part) * x[i] + (part - keep) * x[i - 1] : y;
+            l.extra[i] = -sqrt(w.weight[i]) * w.size * (y - x[i]);
+        }
         of[HELD_LAG].gain = fmax(of[HELD_LAG].gain, find_gain(&l, r->n, &far) / unit);
     }
     free(l.residual);

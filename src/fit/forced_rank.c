@@ -94,25 +94,6 @@ measure_jumps(observation *l, double half)
     return SS_OK;
 }
 
-/* Measure the spikes that are at most 20 dB below the strongest: their number in a half cycle, and the median
- * of their slopes. */
-static ss_status
-measure_spikes(observation *l, const ss_spikes *spikes, double halves)
-{
-    size_t count = 0;
-    double *slope = malloc((spikes->n + 1) * sizeof *slope);
-    if (slope == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < spikes->n; i++)
-        if (spikes->spike[i].kind != SS_SPIKE_GLITCH && spikes->spike[i].level >= -20)
-            slope[count++] = spikes->spike[i].slope;
-    l->countable = spikes->conclusive;
-    l->value[SS_BY_SPIKES] = (double)count / halves;
-    l->value[SS_BY_SLOPE] = median(slope, count);
-    free(slope);
-    return SS_OK;
-}
-
 static ss_status
 measure_features(observation *l, const ss_signal *signal, size_t column, double half, ss_error *err)
 {
@@ -124,25 +105,29 @@ measure_features(observation *l, const ss_signal *signal, size_t column, double 
     ss_status st = ss_features_find(&f, signal, column, &opts, err);
     if (st != SS_OK)
         return st;
-    double halves = (double)signal->n / signal->head->rate / half;
+    const ss_spikes *spikes = f->spikes;
+    const double halves = (double)signal->n / signal->head->rate / half;
+    size_t count = 0;
     l->has_slope = opts.displacement >= 0 && opts.force >= 0;
     l->value[SS_BY_MAXIMUM] = fmin((double)f->recurring / floor(halves), 1);
     l->value[SS_BY_FREQUENCY] = f->number[SS_TRANSITION_FREQUENCY].value;
     l->value[SS_BY_DAMPING] = f->number[SS_DAMPING_RATIO].value;
     l->value[SS_BY_STIFFNESS] = f->number[SS_CONTACT_STIFFNESS_SLOPE].value;
-    st = measure_spikes(l, f->spikes, halves);
+    /* spikes at most 20 dB below the strongest: their number in a half cycle, and the median of their slopes */
+    double *slope = malloc((spikes->n + 1) * sizeof *slope);
+    for (size_t i = 0; slope != NULL && i < spikes->n; i++)
+        if (spikes->spike[i].kind != SS_SPIKE_GLITCH && spikes->spike[i].level >= -20)
+            slope[count++] = spikes->spike[i].slope;
+    l->countable = spikes->conclusive;
+    l->value[SS_BY_SPIKES] = (double)count / halves;
+    l->value[SS_BY_SLOPE] = median(slope, count);
+    st = slope != NULL ? SS_OK : SS_ENOMEM;
+    free(slope);
     ss_features_free(f);
     return st;
 }
 
-static void
-observation_free(observation *l)
-{
-    ss_coefficients_free(l->map);
-    l->map = NULL;
-}
-
-/* Observe a column whose motion repeats after period [s].  To be freed if that is SS_OK. */
+/* Observe a column whose motion repeats after period [s].  The map is the caller's to free. */
 static ss_status
 observe(observation *l, const ss_signal *signal, size_t column, double period, ss_error *err)
 {
@@ -157,11 +142,7 @@ observe(observation *l, const ss_signal *signal, size_t column, double period, s
     st = measure_features(l, signal, column, period / 2, err);
     if (st == SS_OK)
         st = ss_morlet_transform(&l->map, signal, column, &opts, err);
-    if (st == SS_OK)
-        st = measure_jumps(l, period / 2);
-    if (st != SS_OK)
-        observation_free(l);
-    return st;
+    return st == SS_OK ? measure_jumps(l, period / 2) : st;
 }
 
 /* The rms difference of the levels of two maps on one grid, every octave counting the same. */
@@ -186,23 +167,14 @@ map_distance(const observation *a, const observation *b)
     return sqrt(sum / (double)a->map->n_scales);
 }
 
-static double
-distance(ss_criterion c, double a, double b)
-{
-    if (isnan(a) && isnan(b))
-        return 0;
-    if (c == SS_BY_FREQUENCY || c == SS_BY_DAMPING || c == SS_BY_STIFFNESS)
-        return fabs(log(a / b));
-    return fabs(a - b);
-}
-
 /* Write the model's values to the row, and their distances from the signal's. */
 static void
 compare(ss_rank_row *row, const observation *signal, const observation *model)
 {
     for (size_t i = SS_BY_MAXIMUM; i < SS_CRITERIA; i++) {
-        row->value[i] = model->value[i];
-        row->distance[i] = distance((ss_criterion)i, signal->value[i], model->value[i]);
+        const double a = signal->value[i], b = row->value[i] = model->value[i];
+        const int is_ratio = i == SS_BY_FREQUENCY || i == SS_BY_DAMPING || i == SS_BY_STIFFNESS;
+        row->distance[i] = isnan(a) && isnan(b) ? 0 : fabs(is_ratio ? log(a / b) : a - b);
     }
     /* where noise hides spikes, their number and kind describe the noise */
     if (!signal->countable)
@@ -248,7 +220,7 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
     const double more = fmax(1, fmin(wider * wider, FORCED_KEPT / KEEP));
     forced_start start[FORCED_KEPT];
     size_t n;
-    observation l;
+    observation l = { .map = NULL };
     f->scene = ss_forced_of(scene, (int)w->opts->quantity, factor);
     f->scene.period = w->goal.period;
     f->scene.budget = more * BUDGET;
@@ -266,15 +238,14 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
     const residue *of = &f->fit.of_samples;
     row->adjusted = f->fit.scene;
     st = observe_scene(&l, w, &row->adjusted, err);
-    if (st != SS_OK)
-        return st;
-    compare(row, &w->observation, &l);
-    observation_free(&l);
+    if (st == SS_OK)
+        compare(row, &w->observation, &l);
+    ss_coefficients_free(l.map);
     row->explained = 1 - f->fit.left_all / of->power;
     row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(of->left, 1e-12 * of->power) / of->power);
     row->value[SS_BY_ADJUSTMENT] = ss_forced_distance(&f->scene, f->fit.u);
     row->distance[SS_BY_ADJUSTMENT] = spread > 0 ? row->value[SS_BY_ADJUSTMENT] / log(1 + spread) : 0;
-    return SS_OK;
+    return st;
 }
 
 /* --- the verdict --------------------------------------------------------------------------- */
@@ -381,22 +352,6 @@ judge(ss_ranking *r, const comparison *w, const found *f)
     return st == SS_OK ? test_damping(r, w, f) : st;
 }
 
-/* The key in which two fits of one scene differ most, significantly, and their difference in standard errors;
- * n: they do not contradict each other. */
-static size_t
-contradicted_key(const forced_fit *a, const forced_fit *b, size_t n, double *errors)
-{
-    double most = RESIDUE_DECISIVE;
-    size_t worst = n;
-    for (size_t i = 0; i < n; i++) {
-        double d = a->u[i] - b->u[i], squares = d * d / (variance_of(a, i) + variance_of(b, i));
-        if (squares > most)             /* NaN is not: a key without an error */
-            most = squares, worst = i;
-    }
-    *errors = sqrt(most);
-    return worst;
-}
-
 /* Fit the scene that is named to another column.  It must explain that, too, with the same parameters except
  * the size, which is in the units of the column; else r->why says so. */
 static ss_status
@@ -409,7 +364,7 @@ fit_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
     rank_record record = w->record;
     forced scene = named->scene;
     forced_fit m;
-    double errors;
+    double most = RESIDUE_DECISIVE;
     scene.pick = quantity;
     scene.progress.progress.function = NULL;
     record.x = w->signal->values + column * w->signal->n;
@@ -418,7 +373,13 @@ fit_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
         st = ss_forced_refit(&m, &scene, &named->fit, &record);
     if (st != SS_OK || m.of_samples.power == 0)         /* a constant contradicts nothing */
         return st;
-    size_t key = contradicted_key(&named->fit, &m, scene.n, &errors);
+    size_t key = scene.n;               /* in which the fits differ most, significantly */
+    for (size_t i = 0; i < scene.n; i++) {
+        const double d = named->fit.u[i] - m.u[i];
+        const double squares = d * d / (variance_of(&named->fit, i) + variance_of(&m, i));
+        if (squares > most)             /* NaN is not: a key without an error */
+            most = squares, key = i;
+    }
     if (!ss_residue_explains(&m.of_samples, record.noise))
         ss_print_to(r->why, sizeof r->why, "%s friction explains column %s, but not column %s: it "
                     "leaves %.3g %% of that, %.3g times the noise", model, first, other,
@@ -426,7 +387,8 @@ fit_column(ss_ranking *r, const comparison *w, const found *named, int quantity)
     else if (key < scene.n && record.noise > record.steps)      /* errors are those of white noise */
         ss_print_to(r->why, sizeof r->why, "%s friction explains column %s and column %s, but with %s "
                     "%.2g %% apart, %.2g standard errors", model, first, other,
-                    ss_forced_key_name(&scene, key), 100 * fabs(expm1(m.u[key] - named->fit.u[key])), errors);
+                    ss_forced_key_name(&scene, key), 100 * fabs(expm1(m.u[key] - named->fit.u[key])),
+                    sqrt(most));
     return SS_OK;
 }
 
@@ -492,7 +454,7 @@ rank_window(ss_ranking *r, comparison *w, const ss_signal *signal, const char *m
     }
     if (st == SS_OK)
         st = conclude(r, w, f);
-    observation_free(&w->observation);
+    ss_coefficients_free(w->observation.map);
     free(w->gap);
     free(f);
     ss_signal_free(window);

@@ -41,14 +41,6 @@ ss_pull_check(const ss_signal *signal, size_t column, const ss_scene *start, con
     return ss_column_check_unit(signal, column, SS_SPRING, err);
 }
 
-/* Do its slips have a closed form with few unknowns? */
-static int
-is_plain(const ss_scene *scene)
-{
-    const ss_model *model = scene->model;
-    return model->linear && !model->has_contact && scene->damping == 0;
-}
-
 static void
 fill_left(ss_pull *p, const residue *r, double noise, double power)
 {
@@ -71,8 +63,7 @@ scene_of(const ss_scene *start, const ss_features *f, double onset, const ss_sig
     else
         s.surface_velocity = -pull;
     s.friction = f->number[SS_FRICTION].value;
-    s.static_friction = s.friction + f->number[SS_DROP].value
-        / 2;     /* it scatters less if the level drifts */
+    s.static_friction = s.friction + f->number[SS_DROP].value / 2;      /* it scatters less if the level drifts */
     s.x0 = -direction * fmax(s.static_friction - loading * onset, -s.static_friction) / s.stiffness;
     s.v0 = s.surface_velocity;
     s.settle = 0;
@@ -124,65 +115,54 @@ fit_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *st
 
 /* --- any scene ----------------------------------------------------------------------------- */
 
-static void
-report(ss_pull *p, const falls *r, const pulled_fit *fit, const ss_scene *start, const ss_signal *signal)
-{
-    fill_left(p, &fit->of_samples, r->noise, r->power);
-    p->n_slips = r->n;
-    p->static_friction = fit->static_friction;
-    p->friction = fit->friction;
-    p->scene = fit->scene;
-    p->scene.rate = signal->head->rate;
-    p->scene.duration = (double)signal->n / p->scene.rate;
-    p->n_keys = fit->n_keys;
-    for (size_t i = 0; i < fit->n_keys; i++) {
-        ss_fitted *k = &p->key[i];
-        k->name = fit->key[i].name;
-        k->given = ss_scene_get(start, k->name);
-        k->unit = ss_scene_unit(start, k->name);
-        k->found.value = ss_scene_get(&fit->scene, k->name);
-        k->found.error = fit->key[i].error * fabs(k->found.value);
-    }
-}
-
-static void
-judge(ss_pull *p, const pulled_fit *fit)
-{
-    size_t i = 0;
-    while (i < p->n_keys && SIGMAS * p->key[i].found.error <= fabs(p->key[i].found.value))
-        i++;
-    if (!fit->slips)
-        snprintf(p->why, sizeof p->why, "the scene does not stick and slip, or not within the steps of "
-                 "a fit");
-    else if (p->left > 1 - SLIP_EXPLAINED && !p->explains) {
-        ss_print_to(p->why, sizeof p->why, "the best such scene leaves %.3g %% of the power of the falls, "
-                    "%.3g times the noise", 100 * p->left, p->excess);
-        p->verdict = SS_NONE_FITS;
-    } else if (i < p->n_keys)
-        ss_print_to(p->why, sizeof p->why, "%s = %.3g +- %.2g: the falls do not tell it", p->key[i].name,
-                    p->key[i].found.value, p->key[i].found.error);
-    else
-        p->verdict = SS_NAMED;
-}
-
 /* Fit by simulation to the falls. */
 static ss_status
 fit_falls(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start,
           const ss_rank_opts *opts)
 {
     const ss_stretch all = { opts->progress, 0, 1 };
+    const ss_fitted *vague = NULL;
     pulled_fit fit;
     falls r;
     ss_status st = ss_falls_gather(&r, p->why, sizeof p->why, p->features, signal, column, start);
-    if (st == SS_OK && p->why[0] == '\0') {
+    const int is_usable = st == SS_OK && p->why[0] == '\0';
+    if (is_usable)
         st = ss_pulled_fit(&fit, &r, start, INFINITY, &all);
-        if (st == SS_OK && fit.slips)
-            report(p, &r, &fit, start, signal);
-        if (st == SS_OK)
-            judge(p, &fit);
-    }
     ss_falls_free(&r);
-    return st;
+    if (!is_usable || st != SS_OK)
+        return st;
+    if (!fit.slips) {
+        snprintf(p->why, sizeof p->why, "the scene does not stick and slip, or not within the steps of "
+                 "a fit");
+        return SS_OK;
+    }
+    fill_left(p, &fit.of_samples, r.noise, r.power);
+    p->n_slips = r.n;
+    p->static_friction = fit.static_friction;
+    p->friction = fit.friction;
+    p->scene = fit.scene;
+    p->scene.rate = signal->head->rate;
+    p->scene.duration = (double)signal->n / p->scene.rate;
+    for (p->n_keys = 0; p->n_keys < fit.n_keys; p->n_keys++) {
+        ss_fitted *k = &p->key[p->n_keys];
+        k->name = fit.key[p->n_keys].name;
+        k->given = ss_scene_get(start, k->name);
+        k->unit = ss_scene_unit(start, k->name);
+        k->found.value = ss_scene_get(&fit.scene, k->name);
+        k->found.error = fit.key[p->n_keys].error * fabs(k->found.value);
+        if (vague == NULL && !(SIGMAS * k->found.error <= fabs(k->found.value)))
+            vague = k;
+    }
+    if (p->left > 1 - SLIP_EXPLAINED && !p->explains) {
+        ss_print_to(p->why, sizeof p->why, "the best such scene leaves %.3g %% of the power of the falls, "
+                    "%.3g times the noise", 100 * p->left, p->excess);
+        p->verdict = SS_NONE_FITS;
+    } else if (vague != NULL)
+        ss_print_to(p->why, sizeof p->why, "%s = %.3g +- %.2g: the falls do not tell it", vague->name,
+                    vague->found.value, vague->found.error);
+    else
+        p->verdict = SS_NAMED;
+    return SS_OK;
 }
 
 ss_status
@@ -210,8 +190,8 @@ ss_pull_fit(ss_pull **out, const ss_signal *signal, size_t column, const ss_scen
     *p = (ss_pull){ .verdict = SS_UNDECIDED, .scene = *start, .left = NAN, .excess = NAN, .noise = NAN };
     st = ss_features_find(&p->features, signal, column, &how, err);
     if (st == SS_OK) {
-        st = is_plain(start) ? fit_slips(p, signal, column, start)
-                             : fit_falls(p, signal, column, start, opts);
+        const int is_plain = start->model->linear && start->damping == 0;   /* slips have a closed form */
+        st = is_plain ? fit_slips(p, signal, column, start) : fit_falls(p, signal, column, start, opts);
         if (st != SS_OK)
             ss_fail(err, st, "%s", ss_strerror(st));
     }

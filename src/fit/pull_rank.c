@@ -35,14 +35,6 @@ typedef struct change {
 } change;
 
 static change
-change_of_key(const pulled_key *k, double known)
-{
-    double precision = 1 / (k->error * k->error), data = precision - 1 / (known * known);
-    return (change){ k->name, k->change, k->error, data > 0 ? k->change * precision / data : 0,
-                     data > 0 ? 1 / sqrt(data) : INFINITY, k->power };
-}
-
-static change
 change_of_friction(const char *name, ss_number found, double given)
 {
     double by = found.value > 0 && given > 0 ? log(found.value / given) : found.value == given ? 0 : INFINITY;
@@ -59,7 +51,10 @@ measure_change(trial *t, ss_rank_row *row, const ss_scene *scene, double known, 
     double sum = 0, powers = 1, squares = 0, errors = 0;        /* the stiffness has a power of 1, frictions none */
     size_t n = 0;
     for (; n < t->fit.n_keys; n++) {
-        c[n] = change_of_key(&t->fit.key[n], known);
+        const pulled_key *k = &t->fit.key[n];
+        const double precision = 1 / (k->error * k->error), data = precision - 1 / (known * known);
+        c[n] = (change){ k->name, k->change, k->error, data > 0 ? k->change * precision / data : 0,
+                         data > 0 ? 1 / sqrt(data) : INFINITY, k->power };
         sum += c[n].power * c[n].by;
         powers += c[n].power * c[n].power;
     }
@@ -89,18 +84,6 @@ measure_change(trial *t, ss_rank_row *row, const ss_scene *scene, double known, 
                      ss_scene_get(&row->adjusted, c[i].name) * exp(c[i].power * stiffer), NULL);
 }
 
-/* Does the contact still ring, above the noise, when the next slip begins?  Then the next fall depends on the
- * phase of the ringing, which changes fast with the frictions and the contact's frequency.  So a fit may end
- * far from the best one; and the falls need not be settled, as the fit assumes. */
-static int
-rings_on(const ss_scene *s, const falls *r)
-{
-    double stick = 2 * (s->static_friction - s->friction) / fabs(s->stiffness * pull_of(s));
-    double decay = (ss_scene_get(s, "contact_damping") + s->damping) / (2 * s->mass);
-    double noise = fmax(r->noise, RESIDUE_QUIET * r->power);
-    return s->model->has_contact && decay * stick < 0.5 * log(r->power / noise);
-}
-
 static ss_status
 try_scene(trial *t, ss_rank_row *row, const falls *r, const ss_scene *scene, double spread,
           const ss_stretch *progress)
@@ -111,7 +94,14 @@ try_scene(trial *t, ss_rank_row *row, const falls *r, const ss_scene *scene, dou
     if (st != SS_OK)
         return st;
     t->explains = ss_residue_explains(of, r->noise);
-    t->rings = !t->explains && rings_on(t->fit.slips ? &t->fit.scene : scene, r);
+    /* Where the contact still rings above the noise when the next slip begins, the next fall depends on the phase
+     * of the ringing, which changes fast with the frictions and the contact's frequency.  So a fit may end far from
+     * the best one; and the falls need not be settled, as the fit assumes. */
+    const ss_scene *s = t->fit.slips ? &t->fit.scene : scene;
+    const double stick = 2 * (s->static_friction - s->friction) / fabs(s->stiffness * pull_of(s));
+    const double decay = (ss_scene_get(s, "contact_damping") + s->damping) / (2 * s->mass);
+    const double above = log(r->power / fmax(r->noise, RESIDUE_QUIET * r->power)) / 2;
+    t->rings = !t->explains && s->model->has_contact && decay * stick < above;
     t->distance = NAN;
     row->adjusted = *scene;
     if (t->fit.slips)
@@ -133,12 +123,6 @@ static int
 is_equal(const trial *t, const trial *least, double noise)
 {
     return t->near && ss_residue_equals(&t->fit.of_samples, &least->fit.of_samples, noise);
-}
-
-static int
-is_same_law(const trial *a, const trial *b)
-{
-    return a->fit.scene.model == b->fit.scene.model && a->fit.n_keys == b->fit.n_keys;
 }
 
 /* Write the reason if no scene within the spread explains the falls. */
@@ -194,7 +178,7 @@ name_scene(ss_ranking *r, const trial *t, double noise)
     for (size_t i = 0; i < n; i++) {
         if (!is_equal(&t[i], &t[least], noise))
             continue;
-        if (!is_same_law(&t[i], &t[least])) {
+        if (t[i].fit.scene.model != t[least].fit.scene.model || t[i].fit.n_keys != t[least].fit.n_keys) {
             snprintf(r->why, sizeof r->why, "%s and %s friction%s explain the falls equally well",
                      ss_model_name(t[least].fit.scene.model), ss_model_name(t[i].fit.scene.model),
                      t[i].fit.scene.damping > 0 ? ", with damping," : "");
@@ -213,20 +197,6 @@ name_scene(ss_ranking *r, const trial *t, double noise)
 }
 
 /* --- all ----------------------------------------------------------------------------------- */
-
-static ss_status
-check_scenes(const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
-             const ss_rank_opts *opts, ss_error *err)
-{
-    for (size_t i = 0; i < n; i++) {
-        ss_status st = ss_pull_check(signal, column, &scene[i], opts, err);
-        if (st != SS_OK)
-            return st;
-        if (pull_of(&scene[i]) * pull_of(&scene[0]) < 0)
-            return ss_fail(err, SS_EINVAL, "scenes that are pulled to either side are not compared");
-    }
-    return SS_OK;
-}
 
 static ss_status
 compare_all(ss_ranking *r, const falls *f, const ss_scene *scene, const ss_rank_opts *opts)
@@ -261,9 +231,14 @@ ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_
 {
     ss_features *features = NULL;
     falls f;
-    ss_status st = check_scenes(signal, column, scene, r->n, opts, err);
-    if (st == SS_OK)
-        st = ss_features_find(&features, signal, column, NULL, err);
+    for (size_t i = 0; i < r->n; i++) {
+        ss_status st = ss_pull_check(signal, column, &scene[i], opts, err);
+        if (st != SS_OK)
+            return st;
+        if (pull_of(&scene[i]) * pull_of(&scene[0]) < 0)
+            return ss_fail(err, SS_EINVAL, "scenes that are pulled to either side are not compared");
+    }
+    ss_status st = ss_features_find(&features, signal, column, NULL, err);
     if (st != SS_OK)
         return st;
     st = ss_falls_gather(&f, r->why, sizeof r->why, features, signal, column, &scene[0]);

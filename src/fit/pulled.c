@@ -141,13 +141,6 @@ find_fall(double *time, const ss_scene *scene, double *steps)
     return st == SS_ENOMEM ? st : SS_OK;
 }
 
-/* The residuals of a fall are those of its samples, and of the slope of its loading. */
-static size_t
-rows_of(const fall *w)
-{
-    return w->n + 1;
-}
-
 /* The scene of fall i.  As long as a slider never slips back, a constant may be subtracted from f_s and f_k: the
  * force is less by the same constant, and the first stick is shorter. */
 static ss_scene
@@ -171,7 +164,7 @@ fall_time(problem *f, const double u[], size_t i, double *time)
     return st == SS_OK && isnan(*time) ? SS_EDATA : st;
 }
 
-/* Write the rows of fall i, at which time the scene falls. */
+/* Write the rows of fall i, at which time the scene falls: one for each sample, and the slope of its loading. */
 static ss_status
 fall_rows(problem *f, const double u[], size_t i, double time, double *row)
 {
@@ -219,7 +212,7 @@ fall_slopes(problem *f, size_t i, size_t k, size_t column, size_t first, double 
         st = k == ONSET ? SS_OK : fall_time(f, u, i, &time);
         if (st == SS_OK)
             st = fall_rows(f, u, i, time, changed);
-        for (size_t n = 0; st == SS_OK && n < rows_of(w); n++)
+        for (size_t n = 0; st == SS_OK && n <= w->n; n++)
             slopes[(first + n) * unknowns + column] = (changed[n] - here[first + n]) / h;
     }
     u[column] = at;
@@ -235,7 +228,7 @@ falls_model(const double *u, double *residual, double *slopes, void *user)
     size_t first = 0, most = 0;
     ss_status st = SS_OK;
     for (size_t i = 0; i < f->r->n; i++)
-        most = rows_of(&f->r->fall[i]) > most ? rows_of(&f->r->fall[i]) : most;
+        most = f->r->fall[i].n + 1 > most ? f->r->fall[i].n + 1 : most;
     double *changed = malloc((most + unknowns) * sizeof *changed), *moved = changed + most;
     if (changed == NULL)
         return SS_ENOMEM;
@@ -249,7 +242,7 @@ falls_model(const double *u, double *residual, double *slopes, void *user)
             st = fall_slopes(f, i, k, keys + LOCALS * i + k, first, moved, residual, changed, slopes);
         for (size_t k = 0; st == SS_OK && slopes != NULL && k < keys; k++)
             st = fall_slopes(f, i, LOCALS, k, first, moved, residual, changed, slopes);
-        first += rows_of(&f->r->fall[i]);
+        first += f->r->fall[i].n + 1;
     }
     for (size_t k = 0; k < keys; k++) {         /* what the scene knows */
         double weight = sqrt(f->r->noise) / f->spread;
@@ -304,21 +297,6 @@ start_fall(problem *f, size_t i, double *u, double *row)
     return SS_OK;
 }
 
-/* Start from the mass and the speed that the record's slope and k/m give, and the scene's other keys. */
-static ss_status
-start(problem *f, double far, double *u, double *row)
-{
-    const falls *r = f->r;
-    const double stiffness = f->scene->stiffness, speed = r->slope.value / stiffness / f->out->key[SPEED].own;
-    ss_status st = SS_OK;
-    if (r->k_over_m.value > 0)
-        u[MASS] = fmax(-far, fmin(log(stiffness / r->k_over_m.value / f->out->key[MASS].own), far));
-    u[SPEED] = fmax(-far, fmin(log(speed), far));
-    for (size_t i = 0; st == SS_OK && i < r->n; i++)
-        st = start_fall(f, i, u, row);
-    return st;
-}
-
 /* The median of f_k or f_s over the falls.  Its error is that of the scatter, or that of the mean if this is
  * larger: the errors of the keys are common to all falls. */
 static ss_number
@@ -352,7 +330,7 @@ report(problem *f, const double *u, const double *residual, double *covariance)
         for (size_t k = 0; k < f->r->fall[i].n; k++)
             squares += residual[k] * residual[k];
         compared += (double)f->r->fall[i].n;
-        residual += rows_of(&f->r->fall[i]);
+        residual += f->r->fall[i].n + 1;
     }
     double left = squares / (compared - (double)unknowns);
     for (size_t i = 0; i < unknowns * unknowns; i++)
@@ -389,10 +367,19 @@ ss_pulled_fit(pulled_fit *out, const falls *r, const ss_scene *scene, double spr
     list_keys(out, scene);
     size_t rows = out->n_keys, m = out->n_keys + LOCALS * r->n;
     for (size_t i = 0; i < r->n; i++)
-        rows += rows_of(&r->fall[i]);
+        rows += r->fall[i].n + 1;
     double *u = calloc(m + m * m + rows, sizeof *u), *covariance = u + m, *residual = covariance + m * m;
     ss_range *range = malloc(m * sizeof *range);
-    ss_status st = u != NULL && range != NULL ? start(&f, 0.9 * far, u, residual) : SS_ENOMEM;
+    ss_status st = u != NULL && range != NULL ? SS_OK : SS_ENOMEM;
+    if (st == SS_OK) {          /* from the mass and the speed that the record's slope and k/m give */
+        const double mass = scene->stiffness / r->k_over_m.value / out->key[MASS].own;
+        const double speed = r->slope.value / scene->stiffness / out->key[SPEED].own, near = 0.9 * far;
+        if (mass > 0)
+            u[MASS] = fmax(-near, fmin(log(mass), near));
+        u[SPEED] = fmax(-near, fmin(log(speed), near));
+    }
+    for (size_t i = 0; st == SS_OK && i < r->n; i++)
+        st = start_fall(&f, i, u, residual);
     least fit = { .rows = rows, .unknowns = m, .model = falls_model, .user = &f, .range = range,
                   .tol = 1e-6, .noise = r->noise, .gain = 1e-4 };
     least_end end = { .why = "" };

@@ -13,22 +13,6 @@
 #include "fit/order.h"
 #include "fit/pulled.h"
 
-static ss_status
-check(const ss_signal *signal, size_t column, size_t n, const ss_rank_opts *opts, ss_error *err)
-{
-    ss_status st = ss_column_check(signal, column, opts, err);
-    if (st == SS_OK && n == 0)
-        return ss_fail(err, SS_EINVAL, "no scene to rank");
-    if (st == SS_OK && !(opts->spread >= 0 && opts->spread < 1))
-        return ss_fail(err, SS_EINVAL, "spread %g is out of range 0 ... 1", opts->spread);
-    for (int q = 0; st == SS_OK && q < SS_QUANTITIES; q++)
-        if (opts->also[q] >= 0)
-            st = ss_column_check(signal, (size_t)opts->also[q], opts, err);
-    return st;
-}
-
-/* --- pulled and forced scenes together ------------------------------------------------------ */
-
 static int
 report_half(double done, void *user)
 {
@@ -45,18 +29,6 @@ is_pull(const ss_ranking *others, const ss_ranking *pulled)
     if ((pulled->verdict == SS_NAMED) != (others->verdict == SS_NAMED))
         return pulled->verdict == SS_NAMED;
     return pulled->row[0].explained > others->row[0].explained;
-}
-
-/* The row of a scene that does not fit. */
-static ss_rank_row
-last_row(size_t i, const ss_scene *scene)
-{
-    ss_rank_row row = { .scene = i, .adjusted = *scene, .total = NAN, .excess = NAN };
-    for (size_t k = 0; k < SS_CRITERIA; k++) {
-        row.value[k] = NAN;
-        row.distance[k] = INFINITY;
-    }
-    return row;
 }
 
 /* Rank the scenes of each kind by themselves.  The verdict and the first rows are those of the signal's kind; the
@@ -88,9 +60,14 @@ rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene 
         r->row = row;
         r->n = n;
         for (size_t i = 0; i < n; i++)
-            if (ss_scene_is_pulled(&scene[i]) != pulled)
-                row[next++] = last_row(i, &scene[i]);
-            else {
+            if (ss_scene_is_pulled(&scene[i]) != pulled) {
+                ss_rank_row *to = &row[next++];
+                *to = (ss_rank_row){ .scene = i, .adjusted = scene[i], .total = NAN, .excess = NAN };
+                for (size_t k = 0; k < SS_CRITERIA; k++) {
+                    to->value[k] = NAN;
+                    to->distance[k] = INFINITY;
+                }
+            } else {
                 for (size_t k = 0; k < own->n; k++)
                     if (own->row[k].scene == nth) {
                         row[k] = own->row[k];
@@ -119,7 +96,14 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
         return SS_FAIL_NULL(err);
     ss_status st = ss_rank_opts_take(&own, given, err);
     if (st == SS_OK)
-        st = check(signal, column, n, opts, err);
+        st = ss_column_check(signal, column, opts, err);
+    if (st == SS_OK && n == 0)
+        return ss_fail(err, SS_EINVAL, "no scene to rank");
+    if (st == SS_OK && !(opts->spread >= 0 && opts->spread < 1))
+        return ss_fail(err, SS_EINVAL, "spread %g is out of range 0 ... 1", opts->spread);
+    for (int q = 0; st == SS_OK && q < SS_QUANTITIES; q++)
+        if (opts->also[q] >= 0)
+            st = ss_column_check(signal, (size_t)opts->also[q], opts, err);
     size_t pulled = 0;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         pulled += (size_t)ss_scene_is_pulled(&scene[i]);

@@ -58,22 +58,14 @@ ss_ranking_sort(ss_ranking *r)
 
 /* --- notes --------------------------------------------------------------------------------- */
 
-/* The first row if the verdict names its scene, else the row that explains most. */
-static const ss_rank_row *
-find_best(const ss_ranking *r)
-{
-    const ss_rank_row *best = &r->row[0];
-    for (size_t i = 1; i < r->n; i++)
-        if (r->verdict != SS_NAMED && r->row[i].explained > best->explained)
-            best = &r->row[i];
-    return best;
-}
-
 /* The answer as one text, to be freed; NULL: there is no memory. */
 static char *
 answer_of(const ss_ranking *r, const char *const *scene)
 {
-    const ss_rank_row *best = find_best(r);
+    const ss_rank_row *best = &r->row[0];       /* if none is named, the one that explains most */
+    for (size_t i = 1; i < r->n; i++)
+        if (r->verdict != SS_NAMED && r->row[i].explained > best->explained)
+            best = &r->row[i];
     char part[SS_NUMBER_MAX], *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
@@ -123,15 +115,6 @@ write_notes(FILE *out, const ss_ranking *r, const ss_ranking_text *about, const 
     write_criteria(out, "signal", SS_BY_MAXIMUM, SS_BY_MAP, r);
     fprintf(out, "# noise: %s %% of the power, at most\n",
             ss_number_rounded(text, 100 * r->noise, DIGITS));
-}
-
-static void
-write_unfit(FILE *out, const ss_ranking *r, const ss_ranking_text *about)
-{
-    for (size_t i = 0; i < r->n && is_compared(r); i++)
-        if (isnan(r->row[i].total))
-            fprintf(out, "# does not fit: %s, which is %s\n", about->scene[r->row[i].scene],
-                    ss_scene_is_pulled(&r->row[i].adjusted) ? "pulled" : "forced");
 }
 
 /* --- rows ---------------------------------------------------------------------------------- */
@@ -201,8 +184,10 @@ ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const 
             ss_rows_whole_word(&rows, "answer", answer);
         if (all)
             write_notes(out, ranking, about, &own);
-        if (notes)
-            write_unfit(out, ranking, about);
+        for (size_t i = 0; i < ranking->n && notes && is_compared(ranking); i++)
+            if (isnan(ranking->row[i].total))
+                fprintf(out, "# does not fit: %s, which is %s\n", about->scene[ranking->row[i].scene],
+                        ss_scene_is_pulled(&ranking->row[i].adjusted) ? "pulled" : "forced");
         write_row(&rows, ranking, 0, about, answer);       /* the names */
         for (size_t i = 0; i < ranking->n; i++)
             write_row(&rows, ranking, i, about, answer);
