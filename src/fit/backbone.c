@@ -17,6 +17,7 @@
 #include "base/options.h"
 #include "base/sort.h"
 #include "find/judgement.h"
+#include "find/line.h"
 #include "signal/gaps.h"
 
 enum {
@@ -88,7 +89,7 @@ spectrum(real_fft *f, size_t *size, const double *x, size_t n, int is_tapered)
  * power than they matter, each other than those before; near > 0: the second is the strongest about it.  0: there
  * is none. */
 static ss_status
-find_lines(double line[TRIED + 1], const double *x, size_t n, double near)
+find_lines(double found[TRIED + 1], const double *x, size_t n, double near)
 {
     size_t size;
     real_fft f;
@@ -99,17 +100,17 @@ find_lines(double line[TRIED + 1], const double *x, size_t n, double near)
         power[k] /= (double)k;
     for (size_t l = 0; l <= TRIED; l++) {
         double best = 0;
-        line[l] = 0;
+        found[l] = 0;
         for (size_t k = (size_t)fmax(2.5 * (double)size / (double)n, 1); k < size / 2; k++) {
             const double at = (double)k * unit;
             if (!(power[k] >= power[k - 1] && power[k] > power[k + 1] && power[k] > best))
                 continue;
             int is_asked = near == 0 || l == 0 || fabs(at - near) < NEAR * near;
             for (size_t i = 0; i < l && near == 0; i++)
-                is_asked &= fabs(at - line[i]) > NEAR * line[i];
+                is_asked &= fabs(at - found[i]) > NEAR * found[i];
             if (is_asked) {
                 best = power[k];
-                line[l] = at;
+                found[l] = at;
             }
         }
     }
@@ -329,17 +330,6 @@ is_hit(const decay *d)
     return d->n_blocks >= FEW && left_of(b) > HIT * fmax(b[1].left / b[1].free, b[2].left / b[2].free);
 }
 
-/* 1: the motion's end is in the last block: it leaves more than those before, by 5 standard deviations, or it
- * loses an e-fold, as no block before a stop does. */
-static int
-is_stop(const decay *d)
-{
-    const block *b = d->block + d->n_blocks - 1;
-    double usual = fmin(b[-1].left / b[-1].free, b[-2].left / b[-2].free);
-    return d->n_blocks > FEW && (b->at.s * (double)(b->end - b->first) > 1
-                                 || left_of(b) > usual * (1 + 5 * sqrt(2 / b->free)));
-}
-
 /* The noise of each block, from those about it, re the amplitude that is smooth: else those that noise makes large
  * would count more. */
 static void
@@ -356,23 +346,8 @@ share_noise(decay *d)
     }
 }
 
-/* Fit the blocks again about what is smooth: where noise is large, what a block alone finds is biased. */
-static void
-refit(decay *d)
-{
-    for (size_t i = 0; i < d->n_blocks; i++) {
-        block *b = &d->block[i], again;
-        if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside, 1)) {
-            again.at = b->at;
-            again.level = b->level;
-            again.phase = b->phase;
-            *b = again;
-        }
-    }
-    share_noise(d);
-}
-
-/* Draw a smooth curve through the blocks, and fit them again about it. */
+/* Draw a smooth curve through the blocks, and fit them again about it: where noise is large, what a block alone finds
+ * is biased. */
 static ss_status
 settle(decay *d)
 {
@@ -381,30 +356,23 @@ settle(decay *d)
         d->block[i].at = (bend){ .w = d->block[i].rate[PHASE] };
         d->block[i].level = d->block[i].y[LEVEL];
     }
-    share_noise(d);
     for (int pass = 0; st == SS_OK && pass < REFITS; pass++) {
-        if (pass > 0)
-            refit(d);
+        for (size_t i = 0; pass > 0 && i < d->n_blocks; i++) {
+            block *b = &d->block[i], again;
+            if (ss_block_fit(&again, d->x, b->first, b->end, b->at, &d->beside, 1)) {
+                again.at = b->at;
+                again.level = b->level;
+                again.phase = b->phase;
+                *b = again;
+            }
+        }
+        share_noise(d);
         st = ss_blocks_smooth(d->block, d->n_blocks, d->source);
     }
     return st;
 }
 
 /* --- lines beside it ------------------------------------------------------------------------- */
-
-/* What the smooth curve leaves of the first ENOUGH samples, at least, of all blocks but the first, which a blow or
- * a slip may be in, to be freed; NULL: no memory. */
-static double *
-leave(const decay *d, size_t *n)
-{
-    double *left = malloc((d->n + 1) * sizeof *left);
-    *n = 0;
-    for (size_t i = 1; left != NULL && i < d->n_blocks && *n < ENOUGH; i++) {
-        ss_block_leave(&d->block[i], d->x, left + *n);
-        *n += d->block[i].end - d->block[i].first;
-    }
-    return left;
-}
 
 /* 1: a line at w may be the decay itself or a harmonic of it, or one that is known. */
 static int
@@ -485,10 +453,15 @@ find_beside(const decay *d, const double *left, size_t n, double *ratio, double 
 static ss_status
 add_line(decay *d, int *found)
 {
-    size_t n;
-    double best = OUTSTANDING, ratio, w, *left = leave(d, &n);
+    size_t n = 0;
+    double best = OUTSTANDING, ratio, w, *left = malloc((d->n + 1) * sizeof *left);
     ss_status st = left != NULL ? SS_OK : SS_ENOMEM;
     *found = 0;
+    /* what the smooth curve leaves of all blocks but the first, which a blow or a slip may be in */
+    for (size_t i = 1; left != NULL && i < d->n_blocks && n < ENOUGH; i++) {
+        ss_block_leave(&d->block[i], d->x, left + n);
+        n += d->block[i].end - d->block[i].first;
+    }
     for (; st == SS_OK && (double)n * d->w > PARTS * 2 * M_PI; n /= 4) {
         st = find_beside(d, left, n, &ratio, &w);
         double s = st == SS_OK && ratio > best ? line_decay(&w, left, n) : INFINITY;
@@ -535,19 +508,14 @@ look_behind(decay *d)
 static block
 fit_level(const double *x, size_t first, size_t end, double w)
 {
-    double n = (double)(end - first), t = (double)(first + end - 1) / 2, tt = n * (n * n - 1) / 12;
-    double sum = 0, slope = 0;
-    block b = { .first = first, .end = end, .t = t, .free = n - 2, .at = { .w = w } };
-    for (size_t i = first; i < end; i++) {
-        sum += x[i];
-        slope += x[i] * ((double)i - t);
-    }
-    for (size_t i = first; i < end; i++)
-        b.left += pow((x[i] - sum / n - slope / tt * ((double)i - t)) * NEPER, 2);
-    b.y[LEVEL] = b.level = sum / n * NEPER;
-    b.rate[LEVEL] = slope / tt * NEPER;
+    const line l = ss_line_through(x, NULL, (ss_window){ first, end });
+    const double n = (double)(end - first);
+    block b = { .first = first, .end = end, .t = l.x, .free = n - 2, .at = { .w = w } };
+    b.left = pow(l.rms * NEPER, 2) * b.free;
+    b.y[LEVEL] = b.level = l.y * NEPER;
+    b.rate[LEVEL] = l.slope * NEPER;
     b.cov[LEVEL][0] = 1 / n;
-    b.cov[LEVEL][2] = 1 / tt;
+    b.cov[LEVEL][2] = 12 / (n * (n * n - 1));
     return b;
 }
 
@@ -676,8 +644,13 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
         }
         if (st == SS_OK && d->n_blocks >= FEW)
             st = settle(d);
-        if (st == SS_OK && d->n_blocks >= FEW && is_stop(d)) {
-            const block *b = &d->block[--d->n_blocks];
+        const block *b = st == SS_OK && d->n_blocks > FEW ? &d->block[d->n_blocks - 1] : NULL;
+        /* the motion's end is in the last block: it leaves more than those before, by 5 standard deviations, or it
+         * loses an e-fold, as no block before a stop does */
+        if (b != NULL && (b->at.s * (double)(b->end - b->first) > 1
+                          || left_of(b) > fmin(b[-1].left / b[-1].free, b[-2].left / b[-2].free)
+                                          * (1 + 5 * sqrt(2 / b->free)))) {
+            d->n_blocks--;
             d->stop = b->cov[LEVEL][0] * b[-1].left / b[-1].free > LITTLE * LITTLE ? "noise" : "the motion stops";
             st = settle(d);
         }
@@ -719,20 +692,28 @@ is_mixed(const decay *d)
 /* Find the decay of the line that is asked for, or else of the strongest, beside the next one if less than half is
  * left then; of another if this is none. */
 static ss_status
-find(decay *d, const double *x, size_t n)
+find(decay *d, const double *record, size_t n)
 {
     const decay none = *d;
+    double most = 0, *x = malloc((n + 1) * sizeof *x);
+    if (x == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fabs(record[i]));
+    d->source->unit = most > 0 ? ldexp(1, ilogb(most)) : 1;     /* its squares neither overflow nor vanish */
+    for (size_t i = 0; i < n; i++)
+        x[i] = record[i] / d->source->unit;
     const double near = 2 * M_PI * d->opts->mode / d->source->rate;
     static const int other[][2] = { { 0, 1 }, { 1, 0 }, { 2, 0 } };     /* which line, beside which */
-    double line[TRIED + 1];
-    ss_status st = find_lines(line, x, n, near);
+    double found[TRIED + 1];
+    ss_status st = find_lines(found, x, n, near);
     if (st == SS_OK)
-        st = find_at(d, x, n, line[near > 0], near > 0 ? line[0] : 0);
+        st = find_at(d, x, n, found[near > 0], near > 0 ? found[0] : 0);
     for (size_t k = 0; st == SS_OK && near == 0 && k < sizeof other / sizeof *other; k++) {
         decay with = none;
-        if (!(line[other[k][0]] > 0 && line[other[k][1]] > 0) || (no_decay(d) == NULL && (k > 0 || !is_mixed(d))))
+        if (!(found[other[k][0]] > 0 && found[other[k][1]] > 0) || (no_decay(d) == NULL && (k > 0 || !is_mixed(d))))
             continue;
-        st = find_at(&with, x, n, line[other[k][0]], line[other[k][1]]);
+        st = find_at(&with, x, n, found[other[k][0]], found[other[k][1]]);
         if (st == SS_OK && no_decay(&with) == NULL
             && (no_decay(d) != NULL || leaves(&with, d) < leaves(d, &with) / 2)) {
             decay was = *d;
@@ -741,37 +722,12 @@ find(decay *d, const double *x, size_t n)
         }
         forget(&with);
     }
+    free(x);
     d->source->rate /= (double)d->group;
     if (st == SS_OK && d->n_blocks >= FEW
         && grows(d, d->block[d->n_blocks - 1].end, exp(d->block[d->n_blocks - 1].y[LEVEL])))
         d->stop = d->source->beats = "the amplitude grows";
     return st;
-}
-
-/* The same of samples in a unit whose squares neither overflow nor vanish. */
-static ss_status
-find_scaled(decay *d, const double *x, size_t n)
-{
-    double most = 0, *unit = &d->source->unit, *scaled = malloc((n + 1) * sizeof *scaled);
-    for (size_t i = 0; i < n; i++)
-        most = fmax(most, fabs(x[i]));
-    *unit = most > 0 ? ldexp(1, ilogb(most)) : 1;
-    for (size_t i = 0; scaled != NULL && i < n; i++)
-        scaled[i] = x[i] / *unit;
-    ss_status st = scaled != NULL ? find(d, scaled, n) : SS_ENOMEM;
-    free(scaled);
-    return st;
-}
-
-/* Which derivative of a displacement or an angle a column is, by its unit, of this size, or by its name; -1: it is
- * not known. */
-static int
-derivative_of(const ss_column *c, double *size)
-{
-    int order = ss_motion_order(c->unit, size);
-    for (int i = 0; i < 3 && order < 0; i++)
-        order = strcmp(c->name, ss_quantity_names[i]) == 0 ? i : -1;
-    return order;
 }
 
 /* Follow the decay and name its mechanism.  What the first block leaves is a blow, and the decay begins behind it,
@@ -784,7 +740,7 @@ find_and_name(ss_backbone **out, const double *x, size_t n, const ss_backbone_op
     decay d = { .opts = opts, .cuts_blow = cuts_blow, .start = "the largest amplitude",
                 .stop = "end of the record", .source = &now };
     ss_backbone *b = calloc(1, sizeof *b);
-    ss_status st = b == NULL ? SS_ENOMEM : source.has_phase ? find_scaled(&d, x, n) : find_levels(&d, x, n);
+    ss_status st = b == NULL ? SS_ENOMEM : source.has_phase ? find(&d, x, n) : find_levels(&d, x, n);
     if (st == SS_OK) {
         b->why = no_decay(&d);
         b->start = d.start;
@@ -829,7 +785,9 @@ ss_backbone_find(ss_backbone **out, const ss_signal *signal, size_t column, cons
     const ss_column *of = &signal->head->column[column];
     decay_source source = { .rate = signal->head->rate, .has_phase = !(own.level_frequency > 0), .column = of->unit,
                             .mass = own.mass, .unit = 1 };
-    source.derivative = derivative_of(of, &source.size);
+    source.derivative = ss_motion_order(of->unit, &source.size);
+    for (int i = 0; i < 3 && source.derivative < 0; i++)
+        source.derivative = strcmp(of->name, ss_quantity_names[i]) == 0 ? i : -1;
     if (own.mass > 0 && !(source.size > 0))
         return ss_fail(err, SS_EINVAL, "a mass needs a length, a speed or an acceleration, as in mm, m/s or g; %s"
                        " is in '%s'", of->name, of->unit);

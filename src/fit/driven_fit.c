@@ -35,6 +35,8 @@ typedef struct problem {
     double late, *x, *v, *a;        /* the motion, so much earlier */
     double line[COLUMNS + 1][2];    /* of each column, and of the force, over all rows */
     size_t free[UNKNOWNS], n_free;
+    ss_range range[UNKNOWNS];
+    double nudge[UNKNOWNS];
     const double *given;            /* the unknowns where the fit starts */
     driven_fit now;                 /* evaluated last */
 } problem;
@@ -68,9 +70,12 @@ problem_new(problem *p, const driven_law *law, const driven *d)
         p->column[DRIFT][i] = d->t[i] - d->t[d->n - 1] / 2;
     }
     ss_driven_line(p->line[COLUMNS], d, d->f);
-    for (size_t k = 0; k < UNKNOWNS; k++)
+    for (size_t k = 0; k < UNKNOWNS; k++) {
         if (law->free >> k & 1 || (k == DELAY && d->most_delay > 0))
             p->free[p->n_free++] = k;
+        p->range[k] = k == DELAY ? (ss_range){ -d->most_delay, d->most_delay } : ranges[k];
+        p->nudge[k] = k == DELAY ? NUDGE_DELAY : NUDGE;
+    }
     return SS_OK;
 }
 
@@ -263,18 +268,6 @@ residuals(const double *u, double *residual, double *slopes, void *user)
     return SS_OK;
 }
 
-static ss_range
-range_of(const problem *p, size_t unknown)
-{
-    return unknown == DELAY ? (ss_range){ -p->d->most_delay, p->d->most_delay } : ranges[unknown];
-}
-
-static double
-nudge_of(size_t unknown)
-{
-    return unknown == DELAY ? NUDGE_DELAY : NUDGE;
-}
-
 /* Improve a fit; the columns are then its own. */
 static ss_status
 improve(problem *p, driven_fit *fit)
@@ -289,9 +282,10 @@ improve(problem *p, driven_fit *fit)
     for (size_t i = 0; i < p->d->n; i++)
         how.rows += (size_t)is_fitted(p, i);
     for (size_t k = 0; k < p->n_free; k++) {
-        range[k] = range_of(p, p->free[k]);
+        const double nudge = p->nudge[p->free[k]];
+        range[k] = p->range[p->free[k]];
         u[k] = fmax(range[k].from, fmin(fit->u[p->free[k]], range[k].to));
-        difference[k] = u[k] > (range[k].from + range[k].to) / 2 ? -nudge_of(p->free[k]) : nudge_of(p->free[k]);
+        difference[k] = u[k] > (range[k].from + range[k].to) / 2 ? -nudge : nudge;
     }
     const driven_fit start = *fit;
     p->given = start.u;
@@ -301,19 +295,6 @@ improve(problem *p, driven_fit *fit)
     *fit = p->now;
     free(residual);
     return st;
-}
-
-/* Keep these unknowns, whose columns are filled in, if they are among the best. */
-static void
-keep(problem *p, driven_fit best[FOLDS + 1][KEPT], const double u[UNKNOWNS])
-{
-    evaluate(p, u, NULL);
-    for (driven_fit *at = best[p->without], other; at < best[p->without] + KEPT; at++)
-        if (p->now.loss < at->loss) {
-            other = *at;
-            *at = p->now;
-            p->now = other;
-        }
 }
 
 /* Find starts for the fits without either fold and of all rows. */
@@ -326,16 +307,23 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT])
     if (all_over == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < (dim < 4 ? points[dim] : points[3]); i++) {
-        double u[UNKNOWNS], at[UNKNOWNS];
+        double u[UNKNOWNS], part[UNKNOWNS];
         memcpy(u, p->law->held, sizeof u);
-        gsl_qrng_get(all_over, at);
+        gsl_qrng_get(all_over, part);
         for (size_t k = 0; k < dim; k++) {
-            const ss_range in = ranges[p->free[k]];
-            u[p->free[k]] = in.from + (1 + (in.from == -in.to ? 2 : 3) * at[k]) / 4 * (in.to - in.from);
+            const ss_range in = p->range[p->free[k]];
+            u[p->free[k]] = in.from + (1 + (in.from == -in.to ? 2 : 3) * part[k]) / 4 * (in.to - in.from);
         }
         fill_columns(p, u);
-        for (p->without = 0; p->without <= ALL; p->without++)
-            keep(p, best, u);
+        for (p->without = 0; p->without <= ALL; p->without++) {
+            evaluate(p, u, NULL);
+            for (driven_fit *at = best[p->without], other; at < best[p->without] + KEPT; at++)
+                if (p->now.loss < at->loss) {
+                    other = *at;
+                    *at = p->now;
+                    p->now = other;
+                }
+        }
     }
     gsl_qrng_free(all_over);
     return SS_OK;
@@ -361,12 +349,12 @@ find_covariance(problem *p, driven_result *r, double *slopes)
         }
     for (size_t j = 0; j < p->n_free; j++) {
         const size_t k = p->free[j];
-        const ss_range range = range_of(p, k);
+        const ss_range range = p->range[k];
         double u[UNKNOWNS];
         memcpy(u, fit->u, sizeof u);
         if (u[k] <= range.from || u[k] >= range.to)
             continue;               /* it is held there */
-        double nudge = u[k] + nudge_of(k) < range.to ? nudge_of(k) : -nudge_of(k);
+        const double nudge = u[k] + p->nudge[k] < range.to ? p->nudge[k] : -p->nudge[k];
         u[k] += nudge;
         fill_columns(p, u);
         for (size_t i = 0; i < d->n; i++)

@@ -6,10 +6,9 @@
  * * The noise is unknown, but at most the less of two estimates.  Motions that repeat: what differs between
  * rows of two passages through nearly the same place, by position, speed and the last two turns; a law's memory is
  * no longer than that.  Other motions: noise of short memory is as rough as its power says, and what a law fails to
- * explain is smoother, but friction that wanders from cycle to cycle, which stands beside it. */
+ * explain is smoother. */
 #include "fit/driven.h"
 
-#include <float.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
@@ -95,16 +94,6 @@ find_doubt(char *why, size_t room, const driven *d, size_t turns)
         moving += range[b] > LITTLE * most;
     if (2 * moving < BLOCKS)
         snprintf(why, room, "the motion is mostly rest");
-}
-
-/* Are there fewer rows in a fold to which a law may be fitted? */
-static int
-is_fewer(const driven *d, size_t fewest)
-{
-    size_t used[FOLDS] = { 0 };
-    for (size_t i = 0; i < d->n; i++)
-        used[driven_fold(d, i)] += (size_t)d->used[i];
-    return used[0] < fewest || used[1] < fewest;
 }
 
 /* --- the noise ----------------------------------------------------------------------------- */
@@ -199,29 +188,28 @@ find_spring(double spring[BLOCKS], const driven *d, const double *left)
 }
 
 /* The mean square at most of noise with these second differences, if its memory is at most MEMORY of a cycle: of
- * noise of the first order, and of white noise.  What a law fails to explain is smoother, but for few rows.
- * room: for DRIVEN_ROWS numbers. */
+ * noise of the first order, and of white noise.  What a law fails to explain is smoother, but for few rows. */
 static double
-find_rough(const driven *d, const double *predicted, size_t turns, double *room)
+find_rough(const driven *d, const double *p, size_t turns)
 {
-    const double *f = d->f, *p = predicted, memory = MEMORY * 2 * (double)d->n / (double)turns;     /* [rows] */
-    double least = INFINITY;
+    const double *f = d->f, memory = MEMORY * 2 * (double)d->n / (double)turns;     /* [rows] */
+    double least = INFINITY, squares[DRIVEN_ROWS];
     for (size_t lag = 1; (double)lag <= memory; lag *= 2) {
         const double keep = exp(-(double)lag / memory);
         size_t n = 0;
         for (size_t i = lag; i + lag < d->n; i += 1 + d->n / DRIVEN_ROWS) {
             double by = f[i - lag] - p[i - lag] - 2 * (f[i] - p[i]) + f[i + lag] - p[i + lag];
             if (d->used[i - lag] && d->used[i] && d->used[i + lag])
-                room[n++] = by * by / (6 - 8 * keep + 2 * keep * keep);
+                squares[n++] = by * by / (6 - 8 * keep + 2 * keep * keep);
         }
         if (n > DRIVEN_FEWEST)
-            least = fmin(least, ss_wander_variance(room, n));
+            least = fmin(least, ss_wander_variance(squares, n));
     }
     return least;
 }
 
 /* The correlation of what is left with that of the partners; *noise becomes the mean square that they do not
- * share. */
+ * share; NaN: no passage is like another. */
 static double
 find_repeat(const driven *d, const size_t *partner, const double *left, double *noise)
 {
@@ -237,43 +225,6 @@ find_repeat(const driven *d, const size_t *partner, const double *left, double *
     }
     *noise = n > 0 ? differences / n : NAN;
     return squares > 0 ? products / squares : NAN;
-}
-
-/* By how much less is left, in the mean square, if the law's own force has another size in each two cycles, as
- * friction wanders. */
-static double
-find_wander(const driven *d, const double *left, const double *own, size_t turns)
-{
-    const size_t parts = turns / 4 + 1;
-    double sum = 0, n = 0;
-    for (size_t k = 0; k < parts; k++) {
-        double product = 0, squares = DBL_MIN;
-        for (size_t i = k * d->n / parts; i < (k + 1) * d->n / parts; i++)
-            if (d->used[i]) {
-                product += left[i] * own[i];
-                squares += own[i] * own[i];
-                n++;
-            }
-        sum += product * product / squares;
-    }
-    return sum / n;
-}
-
-/* What is left of a law, beside noise. */
-typedef struct driven_noise {
-    double most, rough;             /* upper bounds of the mean square of the noise; rough: if the law is right;
-                                       most NaN: no passage is like another */
-    double repeat;                  /* correlation of what is left with that of the nearest other passage */
-} driven_noise;
-
-/* The noise by what a law leaves; rows: the record d of `turns` turns, thinned, to which the law was fitted. */
-static void
-find_noise(driven_noise *out, const driven_result *r, const driven *rows, const size_t *partner, const driven *d,
-           const double *predicted, size_t turns)
-{
-    double room[DRIVEN_ROWS];
-    out->repeat = find_repeat(rows, partner, r->left, &out->most);
-    out->rough = find_rough(d, predicted, turns, room) + find_wander(rows, r->left, r->own, turns);
 }
 
 /* --- the numbers of the law ----------------------------------------------------------------- */
@@ -387,15 +338,6 @@ find_confounded(ss_motion_ranking *out, const driven_result *r, const driven *d)
 
 /* --- the ranking ---------------------------------------------------------------------------- */
 
-static int
-is_without(const char *const *without, const char *name)
-{
-    for (; without != NULL && *without != NULL; without++)
-        if (strcmp(*without, name) == 0)
-            return 1;
-    return 0;
-}
-
 /* Order the rows: the one that was chosen, then by what is explained. */
 static void
 order_rows(ss_motion_ranking *out, const driven_result *best)
@@ -424,7 +366,8 @@ work_of(const driven_result *r, const driven *d)
     return all > 0 ? taken / all : 1;
 }
 
-/* Rank by a record that can show a law. */
+/* Rank by a record d of `turns` turns that can show a law; rows and coarse: the same, thinned, to which laws are
+ * fitted. */
 static ss_status
 judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven *coarse, size_t turns,
       const ss_signal *signal, const size_t of[2], const ss_motion_opts *opts)
@@ -439,8 +382,11 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         ? find_partners(rows, partner) : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && ss_driven_law(i) != NULL; i++) {
         const driven_law *law = ss_driven_law(i);
-        driven_noise noise;
-        if (is_without(opts->without, law->name))
+        const char *const *without = opts->without;
+        double noise;
+        while (without != NULL && *without != NULL && strcmp(*without, law->name) != 0)
+            without++;
+        if (without != NULL && *without != NULL)
             continue;
         st = ss_driven_fit(&r[n], law, rows, coarse);
         if (st == SS_OK)
@@ -449,11 +395,12 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
             st = ss_driven_predict(out->predicted, law, d, &r[n].fit[ALL]);
         if (st != SS_OK)
             break;
-        find_noise(&noise, &r[n], rows, partner, d, out->predicted, turns);
+        const double repeat = find_repeat(rows, partner, r[n].left, &noise);
+        const double rough = find_rough(d, out->predicted, turns);
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
             .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power,
-            .noise = noise.most / power, .rough = noise.rough / power, .work = work_of(&r[n], rows) };
-        out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - c[n].left, .repeat = noise.repeat,
+            .noise = noise / power, .rough = rough / power, .work = work_of(&r[n], rows) };
+        out->row[n] = (ss_motion_row){ .law = law->name, .explained = 1 - c[n].left, .repeat = repeat,
             .gain = 1 - r[n].loss / r[0].loss,
             .explained_error = ss_verdict_error(r[n].block, NULL) / power };
         n++;
@@ -497,7 +444,7 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const char *missing, si
 {
     driven d = { 0 }, rows = { 0 }, coarse = { 0 };
     char why[128];
-    size_t turns = 0;
+    size_t turns = 0, used[FOLDS] = { 0 };
     ss_status st = SS_OK;
     snprintf(why, sizeof why, "it has %zu rows, fewer than %d", n, DRIVEN_FEWEST);
     if (n >= DRIVEN_FEWEST && (st = ss_driven_new(&d, column[0], column[1], column[2], n, opts)) == SS_OK) {
@@ -506,7 +453,9 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const char *missing, si
         if (why[0] == '\0' && choose_folds(&d, opts->folds, turns, &r->interleaved))
             snprintf(why, sizeof why, "the two %s visit other ranges of the motion",
                      r->interleaved ? "folds" : "halves");
-        if (why[0] == '\0' && is_fewer(&d, DRIVEN_FEWEST / 4))
+        for (size_t i = 0; i < d.n; i++)
+            used[driven_fold(&d, i)] += (size_t)d.used[i];
+        if (why[0] == '\0' && (used[0] < DRIVEN_FEWEST / 4 || used[1] < DRIVEN_FEWEST / 4))
             snprintf(why, sizeof why, "where the motion goes is lost in its noise");
         if (why[0] == '\0' && (st = ss_driven_thin(&rows, &d, DRIVEN_ROWS)) == SS_OK)
             st = ss_driven_thin(&coarse, &d, COARSE);

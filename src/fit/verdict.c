@@ -82,14 +82,6 @@ ss_verdict_append(char *text, size_t room, const char *word)
     snprintf(text + n, room - n, "%s%s", n > 0 ? ", " : "", word);
 }
 
-/* How much more a candidate leaves than the best, in errors of the difference. */
-static double
-errors_behind(const candidate *c, const candidate *best, double power)
-{
-    double error = ss_verdict_error(c->block, best->block) / power;
-    return (c->left - best->left) / fmax(fmin(error, best->left / 2), RESIDUE_QUIET / 2);
-}
-
 /* Why the best law is none, or NULL. */
 static const char *
 find_fault(const candidate c[], size_t n, const candidate *best)
@@ -118,7 +110,8 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
     noise = fmax(fmin(noise, most->rough), QUIET);
     const double own = fmax(AS_GOOD * fmax(most->left, noise), ALIKE * (most->left - noise));
     for (size_t i = 0; i <= n; i++) {
-        c[i].tied = c[i].left - most->left <= own || errors_behind(&c[i], most, power) <= 2;
+        const double more = c[i].left - most->left, error = ss_verdict_error(c[i].block, most->block) / power;
+        c[i].tied = more <= own || more <= fmax(2 * fmin(error, most->left / 2), RESIDUE_QUIET);
         c[i].excess = c[i].fitted / noise;
         fit |= c[i].tied ? c[i].law : 0;
     }
