@@ -20,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/least.h"
+#include "base/sort.h"
 #include "fit/samples.h"
 
 enum { LN_A, TURN, W, S, C, SHAPE, BEND, RATIO, UNKNOWNS };     /* at the start; w; viscous s; of the mechanism */
@@ -134,21 +135,6 @@ typedef struct told {
     double left;                /* what a bend leaves of an exact motion, as of a block */
 } told;
 
-/* The same of two modes that beat: of s = u[S] and w = u[W], and of u[C] and u[SHAPE] beside it. */
-static void
-tell_two(told *out, const trial *of, const double u[UNKNOWNS])
-{
-    double complex first = -u[S] + u[W] * I, second = -u[C] + u[SHAPE] * I;
-    for (size_t i = 0; i < of->n + of->behind; i++) {
-        const point *p = &of->p[i];
-        double complex a = cexp(first * p->t), b = cexp(u[BEND] + u[RATIO] * I + second * p->t);
-        double complex sum = a + b, rate = (first * a + second * b) / sum;
-        double turn = u[TURN] + carg(sum);
-        out[i] = (told){ { u[LN_A] + log(cabs(sum)), turn + 2 * M_PI * round((p->y[PHASE] - turn) / (2 * M_PI)) },
-                         { creal(rate), cimag(rate) }, { 0 }, { 0 }, { 0 }, 0 };
-    }
-}
-
 /* Carry ln A and the phase on over dt, which may be negative. */
 static void
 carry_on(const trial *of, const double u[UNKNOWNS], double dt, double y[TRACKS], double lag[2])
@@ -206,10 +192,11 @@ tell_exactly(told *out, size_t *told_blocks, const trial *of, const double u[UNK
             near = is;
         double turn = is.y[PHASE] - of->w * (of->p[done].t - of->p->t);
         turn -= 2 * M_PI * round((turn - of->p[done].y[PHASE]) / (2 * M_PI));
-        out[done] = (told){ { is.y[LEVEL] - of->ln_a, turn },
-                            { is.rate[LEVEL] / of->unit, is.rate[PHASE] / of->unit - of->w }, { 0 }, { 0 },
-                            { (near.rate[LEVEL] - is.rate[LEVEL]) / of->unit,
-                              (near.rate[PHASE] - is.rate[PHASE]) / of->unit }, is.left };
+        out[done] = (told){ .y = { is.y[LEVEL] - of->ln_a, turn }, .left = is.left };
+        for (int c = 0; c < TRACKS; c++) {
+            out[done].rate[c] = is.rate[c] / of->unit - (c == PHASE ? of->w : 0);
+            out[done].local[c] = (near.rate[c] - is.rate[c]) / of->unit;
+        }
         rates(of, u, out[done].y[LEVEL], rate, out[done].lag);
     }
     free(x);
@@ -221,11 +208,20 @@ static ss_status
 tell(told *out, const trial *of, const double u[UNKNOWNS])
 {
     double y[TRACKS] = { u[LN_A], u[TURN] };
-    if (of->kind == TWO_MODES) {
-        tell_two(out, of, u);
-        return SS_OK;
-    }
     size_t i = 0;
+    /* two modes that beat: of s = u[S] and w = u[W], and of u[C] and u[SHAPE] beside it */
+    const double complex one = -u[S] + u[W] * I, other = -u[C] + u[SHAPE] * I;
+    for (; of->kind == TWO_MODES && i < of->n + of->behind; i++) {
+        const point *p = &of->p[i];
+        double complex a = cexp(one * p->t), b = cexp(u[BEND] + u[RATIO] * I + other * p->t);
+        double complex sum = a + b, rate = (one * a + other * b) / sum;
+        double turn = u[TURN] + carg(sum);
+        out[i] = (told){ .y = { u[LN_A] + log(cabs(sum)),
+                                turn + 2 * M_PI * round((p->y[PHASE] - turn) / (2 * M_PI)) },
+                         .rate = { creal(rate), cimag(rate) } };
+    }
+    if (of->kind == TWO_MODES)
+        return SS_OK;
     ss_status st = of->kind == SS_JENKINS && of->is_exact ? tell_exactly(out, &i, of, u) : SS_OK;
     if (i > 0)
         memcpy(y, out[i - 1].y, sizeof y);
@@ -400,9 +396,9 @@ begin_two(const point *p, const block *b, size_t n, double ln_a, double w, doubl
 }
 
 typedef struct fitted {
-    int kind;
-    double u[UNKNOWNS], covariance[UNKNOWNS * UNKNOWNS], squares, free, p, bic;
-    int is_exact;               /* as of trials */
+    double bic;                 /* by which fits are sorted */
+    int kind, is_exact;         /* as of trials */
+    double u[UNKNOWNS], covariance[UNKNOWNS * UNKNOWNS], squares, free, p;
 } fitted;
 
 /* Fit from f->u on. */
@@ -455,13 +451,6 @@ fit_first(fitted *f, trial *of, int kind)
         }
     }
     return fit(f, of);
-}
-
-static int
-by_bic(const void *a, const void *b)
-{
-    const fitted *x = a, *y = b;
-    return (x->bic > y->bic) - (x->bic < y->bic);
 }
 
 /* Add a number that is a constant times unknown k. */
@@ -664,7 +653,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
         free(p), free(what);
         return st;
     }
-    qsort(f, SS_MECHANISMS, sizeof *f, by_bic);
+    qsort(f, SS_MECHANISMS, sizeof *f, ss_ascending);
     of.kind = f->kind;
     of.is_exact = of.kind == SS_JENKINS && source->has_phase;
     if (of.is_exact) {

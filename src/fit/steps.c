@@ -235,43 +235,24 @@ digit_of(const double *x, size_t n, size_t *longest)
     return digit;
 }
 
-/* The power of ten of which all of these numbers are multiples, as rounding makes them; 0: there is none. */
-static double
-grain(const double *x, size_t n)
-{
-    double most = 0;
-    for (size_t i = 0; i < n; i++)
-        most = fmax(most, fabs(x[i]));
-    for (double q = pow(10, ceil(log10(most))); q > 1e-12 * most; q /= 10) {
-        size_t i = 0;
-        while (i < n && fabs(x[i] / q - rint(x[i] / q)) < FAINT)
-            i++;
-        if (i == n)
-            return q;
-    }
-    return 0;
-}
-
-/* The variance of the path's noise along a line: the faster it is, the more that of its stamps makes. */
+/* The variance of the path's noise along a line: the faster it is, the more that of its stamps makes, which are
+ * multiples of a power of ten if they were rounded. */
 static double
 noise_along(const path *p, const line *l)
 {
-    const double by_stamps = l->speed * grain(p->t + l->first, l->end - l->first);
-    double sum = 0, n = 0;
+    double sum = 0, n = 0, most = 0;
+    for (size_t i = l->first; i < l->end; i++)
+        most = fmax(most, fabs(p->t[i]));
+    double grain = pow(10, ceil(log10(most)));
+    for (size_t i = l->first; i < l->end && grain > 1e-12 * most;)
+        if (fabs(p->t[i] / grain - rint(p->t[i] / grain)) < FAINT)
+            i++;
+        else
+            grain /= 10, i = l->first;
+    const double by_stamps = grain > 1e-12 * most ? l->speed * grain : 0;
     for (size_t i = l->first + LEAST; i + LEAST < l->end; i++, n++)
         sum += off_neighbours(p, i);
     return fmax(fmax(p->noise, n > 2 * LEAST ? sum / n : 0), by_stamps * by_stamps / 12);
-}
-
-/* The time at which a line meets the next, if that is near, else that of the next one's first row. */
-static double
-joint(const path *p, const line *l)
-{
-    const double first = p->t[l[1].first];
-    double apart = l[0].from - l[0].speed * l[0].at - (l[1].from - l[1].speed * l[1].at);
-    double meet = p->t[0] + apart / (l[1].speed - l[0].speed);
-    double before = (p->t[l[0].first] + first) / 2, behind = (first + p->t[l[1].end - 1]) / 2;
-    return meet > before && meet < behind ? meet : first;
 }
 
 /* The time at which a line ends. */
@@ -345,22 +326,6 @@ chain(path *p)
     return SS_OK;
 }
 
-/* Let the load point slide at the speeds of the slides alone, one from where the last ends. */
-static void
-slide_on(path *p)
-{
-    double x = p->start;
-    for (size_t k = 0, i = 0; k < p->lines; k++) {
-        slide *s = &p->line[k].of;
-        const double to = end_of(p, k);
-        if (k > 0)
-            p->corner[1][p->corners[1]++] = (corner){ s->meets, x };
-        for (; i < p->n && (p->t[i] < to || k + 1 == p->lines); i++)
-            p->moved[1][i] = x + s->speed * (p->t[i] - s->meets);
-        x += s->speed * (to - s->meets);
-    }
-}
-
 /* Find the lines of different speed, and both paths. */
 static ss_status
 find_lines(path *p)
@@ -395,18 +360,32 @@ find_lines(path *p)
     p->noise = is_digit ? p->noise : noise;
     for (size_t k = 0; st == SS_OK && k < p->lines; k++) {
         line *l = &p->line[k];
-        const double lasts = p->t[l->end - 1] - p->t[l->first];
-        const double meets = k > 0 ? joint(p, l - 1) : p->t[0];
-        l->of = (slide){ meets, l->speed, (double)(l->end - l->first) * lasts * lasts };
+        const double first = p->t[l->first], last = p->t[l->end - 1], lasts = last - first;
+        l->of = (slide){ first, l->speed, (double)(l->end - l->first) * lasts * lasts };
+        if (k == 0)
+            continue;
+        /* where it meets the line before, if that is near its first row */
+        const double apart = l[-1].from - l[-1].speed * l[-1].at - (l->from - l->speed * l->at);
+        const double meet = p->t[0] + apart / (l->speed - l[-1].speed);
+        if (meet > (p->t[l[-1].first] + first) / 2 && meet < (first + last) / 2)
+            l->of.meets = meet;
     }
     p->corner[0] = st == SS_OK ? malloc((BETWEEN * p->n + 2 * p->lines) * sizeof *p->corner[0]) : NULL;
     if (p->corner[0] == NULL)
         return SS_ENOMEM;
     p->corner[1] = p->corner[0] + BETWEEN * p->n + p->lines;
     st = chain(p);
-    if (st == SS_OK) {
+    if (st == SS_OK)
         join(p);
-        slide_on(p);
+    double x = from;                            /* at the speeds of the slides alone, one from where the last ends */
+    for (size_t k = 0, i = 0; st == SS_OK && k < p->lines; k++) {
+        const slide *s = &p->line[k].of;
+        const double to = end_of(p, k);
+        if (k > 0)
+            p->corner[1][p->corners[1]++] = (corner){ s->meets, x };
+        for (; i < p->n && (p->t[i] < to || k + 1 == p->lines); i++)
+            p->moved[1][i] = x + s->speed * (p->t[i] - s->meets);
+        x += s->speed * (to - s->meets);
     }
     return st;
 }
@@ -589,32 +568,6 @@ judge(ss_step *s, double ahead, double stiffness)
 
 /* --- a record ------------------------------------------------------------------------------ */
 
-static const char *
-unit_of(const ss_column *c)
-{
-    return *c->unit != '\0' ? c->unit : ss_unit_of_name(c->name, NULL);
-}
-
-/* Read path [m] and friction from their columns. */
-static ss_status
-read_columns(double *x, double *mu, const ss_signal *signal, size_t load, size_t friction, int normal,
-             ss_error *err)
-{
-    const ss_column *column = signal->head->column;
-    const size_t n = signal->n;
-    const double unit = ss_unit_in_si(unit_of(&column[load]), 'm');
-    if (unit == 0)
-        return ss_fail(err, SS_EDATA, "column %s: '%.40s' is not a unit of length, as m, mm or um is",
-                       column[load].name, unit_of(&column[load]));
-    for (size_t i = 0; i < n; i++) {
-        x[i] = unit * signal->values[load * n + i];
-        mu[i] = signal->values[friction * n + i] / (normal >= 0 ? signal->values[(size_t)normal * n + i] : 1);
-        if (!isfinite(x[i] + mu[i]))
-            return ss_fail(err, SS_EDATA, "row %zu: path or friction is not a finite number", i + 1);
-    }
-    return SS_OK;
-}
-
 /* Fit the steps of a path, each by itself; shared: then all of them by the same numbers. */
 static ss_status
 fit_steps(ss_steps *out, const path *p, const double *mu, double stiffness, int shared)
@@ -634,7 +587,7 @@ fit_steps(ss_steps *out, const path *p, const double *mu, double stiffness, int 
         if (st == SS_OK)
             st = fit_step(&out->step[k], &fit[k], record[k], SIGMAS * SIGMAS * p->noise + p->rounding, stiffness);
     }
-    if (st == SS_OK && shared)
+    if (st == SS_OK && shared && out->n > 0)
         st = ss_loaded_fit(fit, out->n);
     double all = 0;
     for (size_t k = 0; k < out->n; k++) {
@@ -666,12 +619,22 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
                               columns);
     if (!(stiffness >= 0) || isinf(stiffness))
         return ss_fail(err, SS_EINVAL, "a stiffness of %g 1/m is out of range", stiffness);
+    const ss_column *of = &signal->head->column[load];
+    const char *named = *of->unit != '\0' ? of->unit : ss_unit_of_name(of->name, NULL);
+    const double unit = ss_unit_in_si(named, 'm');
+    if (unit == 0)
+        return ss_fail(err, SS_EDATA, "column %s: '%.40s' is not a unit of length, as m, mm or um is", of->name,
+                       named);
     double *x = malloc((2 * n + 1) * sizeof *x), *mu = x + n;
     path p = { .t = signal->values + (columns - 1) * n, .x = x, .n = n };
     ss_steps *made = calloc(1, sizeof *made);
-    ss_status st = SS_ENOMEM;
-    if (x != NULL && made != NULL)
-        st = read_columns(x, mu, signal, load, friction, normal, err);
+    ss_status st = x != NULL && made != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        x[i] = unit * signal->values[load * n + i];
+        mu[i] = signal->values[friction * n + i] / (normal >= 0 ? signal->values[(size_t)normal * n + i] : 1);
+        if (!isfinite(x[i] + mu[i]))
+            st = ss_fail(err, SS_EDATA, "row %zu: path or friction is not a finite number", i + 1);
+    }
     for (size_t i = 0, back = st == SS_OK && n > 0 && x[n - 1] < x[0]; back && i < n; i++)
         x[i] = -x[i];           /* the slide goes forwards */
     if (st == SS_OK && n >= 2 * LEAST)
@@ -679,8 +642,7 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
     if (st == SS_OK)
         st = fit_steps(made, &p, mu, stiffness, shared);
     if (st == SS_OK && made->n == 0)
-        st = ss_fail(err, SS_EDATA, "the speed of column %s has no step behind a steady slide",
-                     signal->head->column[load].name);
+        st = ss_fail(err, SS_EDATA, "the speed of column %s has no step behind a steady slide", of->name);
     free(p.sum);
     free(p.line);
     free(p.moved[0]);
@@ -738,33 +700,29 @@ write_row(struct rows *rows, size_t rank, const ss_step *s, size_t law)
     ss_rows_end(rows);
 }
 
-static void
-note_step(struct rows *rows, const ss_step *s)
-{
-    enum { DIGITS = 6 };
-    const ss_step_law *best = &s->law[s->best];
-    char at[SS_NUMBER_MAX], before[SS_NUMBER_MAX], after[SS_NUMBER_MAX];
-    ss_rows_note(rows, "step: at %s s, from %s to %s m/s", ss_number_rounded(at, s->at, 9),
-                 ss_number_rounded(before, s->before, 3), ss_number_rounded(after, s->after, 3));
-    write_answer(rows, s);
-    ss_rows_note_value(rows, "direct_effect", best->direct_effect, "", DIGITS);
-    ss_rows_note_value(rows, "evolution_effect", best->evolution_effect, "", DIGITS);
-    ss_rows_note_value(rows, "critical_slip_distance", best->critical_slip_distance, "m", DIGITS);
-    ss_rows_note_value(rows, "stiffness", best->stiffness, "1/m", DIGITS);
-    ss_rows_note_value(rows, "drift", best->drift, "1/m", DIGITS);
-}
-
 ss_status
 ss_steps_write(const ss_steps *steps, FILE *out, ss_format format, ss_error *err)
 {
+    enum { DIGITS = 6 };
     struct rows rows;
     if (steps == NULL || out == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, err);
     if (st != SS_OK)
         return st;
-    for (size_t i = 0; i < steps->n && rows.format->has_notes; i++)
-        note_step(&rows, &steps->step[i]);
+    for (size_t i = 0; i < steps->n && rows.format->has_notes; i++) {
+        const ss_step *s = &steps->step[i];
+        const ss_step_law *best = &s->law[s->best];
+        char at[SS_NUMBER_MAX], before[SS_NUMBER_MAX], after[SS_NUMBER_MAX];
+        ss_rows_note(&rows, "step: at %s s, from %s to %s m/s", ss_number_rounded(at, s->at, 9),
+                     ss_number_rounded(before, s->before, 3), ss_number_rounded(after, s->after, 3));
+        write_answer(&rows, s);
+        ss_rows_note_value(&rows, "direct_effect", best->direct_effect, "", DIGITS);
+        ss_rows_note_value(&rows, "evolution_effect", best->evolution_effect, "", DIGITS);
+        ss_rows_note_value(&rows, "critical_slip_distance", best->critical_slip_distance, "m", DIGITS);
+        ss_rows_note_value(&rows, "stiffness", best->stiffness, "1/m", DIGITS);
+        ss_rows_note_value(&rows, "drift", best->drift, "1/m", DIGITS);
+    }
     write_row(&rows, 0, &steps->step[0], 0);
     for (size_t i = 0; i < steps->n; i++)
         for (size_t rank = 0; rank < SS_STEP_LAWS; rank++)
