@@ -139,28 +139,22 @@ solve(start *s, const track *r, const double *g, double a)
 }
 
 /* Keep the best starts of different b/a, the best first. */
-static void
-keep(start best[STARTS], const start *s)
-{
-    int at = 0;
-    while (at < STARTS - 1 && best[at].ratio != s->ratio)
-        at++;
-    for (; at > 0 && s->squares < best[at - 1].squares; at--)
-        best[at] = best[at - 1];
-    if (s->squares < best[at].squares)
-        best[at] = *s;
-}
-
 static ss_status
 try_start(start best[STARTS], law *l, double ratio, double critical, double ring, double over, double stiffness)
 {
     start s = { .ratio = ratio, .u = { [CRITICAL] = critical, [RING] = ring, [STIFFNESS] = log(over) } };
     ss_status st = run(l, l->g, s.u, 0, 0, COARSE);
-    if (st == SS_OK) {
-        solve(&s, l->record, l->g, stiffness / over);
-        keep(best, &s);
-    }
-    return st == SS_EDATA ? SS_OK : st;
+    int at = 0;
+    if (st != SS_OK)
+        return st == SS_EDATA ? SS_OK : st;
+    solve(&s, l->record, l->g, stiffness / over);
+    while (at < STARTS - 1 && best[at].ratio != s.ratio)
+        at++;
+    for (; at > 0 && s.squares < best[at - 1].squares; at--)
+        best[at] = best[at - 1];
+    if (s.squares < best[at].squares)
+        best[at] = s;
+    return SS_OK;
 }
 
 /* Try b/a, K = k Dc/a and the angular frequency V sqrt(k/(a Dc)) at which friction may ring, which needs its steps;
@@ -281,19 +275,6 @@ begin(law *all, const law *other, double stiffness)
     return st;
 }
 
-/* Find the noise of what a law leaves beside its slopes. */
-static ss_status
-find_noise(law *l, double *residual, double *slopes)
-{
-    const size_t n = l->record->n, free = UNKNOWNS - (l->range[STIFFNESS].from == l->range[STIFFNESS].to);
-    ss_status st = leave(l, l->u, residual, slopes);
-    for (size_t i = 0; i < n; i++) {
-        memcpy(l->rows + i * (free + 1), slopes + i * UNKNOWNS, free * sizeof *slopes);     /* k is the last */
-        l->rows[i * (free + 1) + free] = residual[i];
-    }
-    return st == SS_OK ? ss_wander_find(&l->noise, l->record->t, l->rows, n, free + 1) : st;
-}
-
 /* A number whose slopes by the unknowns are these.  noise: its variance, for which the covariance is 1. */
 static ss_value
 value_of(double value, const double slope[UNKNOWNS], const double *covariance, double noise)
@@ -367,21 +348,6 @@ blur(law *l, double noise, double *changed, double *out)
     return SS_OK;
 }
 
-/* The squares that a line along the path leaves of whitened rows, and the logarithms of their variances. */
-static ss_status
-fit_line(law *l, double *room, double *squares, double *logarithms)
-{
-    const track *r = l->record;
-    double c[2];
-    for (size_t i = 0; i < r->n; i++) {
-        l->rows[2 * i] = 1;
-        l->rows[2 * i + 1] = r->load[i] / way_of(r);
-    }
-    *logarithms = ss_wander_whiten(l->rows, &l->noise, r->t, l->rows, r->n, 2);
-    ss_wander_whiten(room, &l->noise, r->t, r->mu, r->n, 1);
-    return ss_least_linear(l->rows, room, r->n, 2, c, squares, NULL);
-}
-
 /* --- one step, or steps that share their numbers -------------------------------------------- */
 
 enum { OWN = DIRECT, SHARED = UNKNOWNS - OWN };     /* level and drift are each step's own */
@@ -389,7 +355,9 @@ enum { OWN = DIRECT, SHARED = UNKNOWNS - OWN };     /* level and drift are each 
 struct loaded {
     law law[SS_STEP_LAWS];
     ss_range range[UNKNOWNS];
-    double free_rows, line, logarithms;         /* see fit_line */
+    double free_rows;
+    double line, logarithms;    /* squares that a line along the path leaves of whitened rows, and the logarithms of
+                                   their variances */
     double *room;
 };
 
@@ -486,12 +454,21 @@ fit_joint(joint *j, size_t starts)
     return st;
 }
 
-/* Find the noise that the better law leaves of a step; both laws' squares become those of rows whitened by it. */
+/* Find the noise that the better law leaves of a step beside its slopes; both laws' squares, and a line's, become
+ * those of rows whitened by it. */
 static ss_status
-find_noise_of(loaded *s, law *better)
+find_noise(loaded *s, law *better)
 {
-    const size_t n = better->record->n;
-    ss_status st = find_noise(better, s->room, s->room + n);
+    const track *r = better->record;
+    const size_t n = r->n, free = UNKNOWNS - (s->range[STIFFNESS].from == s->range[STIFFNESS].to);
+    double *rows = better->rows, *slopes = s->room + n, c[2];
+    ss_status st = leave(better, better->u, s->room, slopes);
+    for (size_t i = 0; i < n; i++) {
+        memcpy(rows + i * (free + 1), slopes + i * UNKNOWNS, free * sizeof *slopes);    /* k is the last */
+        rows[i * (free + 1) + free] = s->room[i];
+    }
+    if (st == SS_OK)
+        st = ss_wander_find(&better->noise, r->t, rows, n, free + 1);
     for (law *l = s->law; l < s->law + SS_STEP_LAWS && st == SS_OK; l++) {
         l->noise = better->noise;
         if (isinf(l->squares))
@@ -501,7 +478,15 @@ find_noise_of(loaded *s, law *better)
         for (size_t i = 0; i < n; i++)
             l->squares += s->room[i] * s->room[i];
     }
-    return st == SS_OK ? fit_line(s->law, s->room, &s->line, &s->logarithms) : st;
+    if (st != SS_OK)
+        return st;
+    for (size_t i = 0; i < n; i++) {
+        rows[2 * i] = 1;
+        rows[2 * i + 1] = r->load[i] / way_of(r);
+    }
+    s->logarithms = ss_wander_whiten(rows, &better->noise, r->t, rows, n, 2);
+    ss_wander_whiten(s->room, &better->noise, r->t, r->mu, n, 1);
+    return ss_least_linear(rows, s->room, n, 2, c, &s->line, NULL);
 }
 
 /* Fit both laws, and again, to rows that are whitened by what the better one leaves. */
@@ -533,41 +518,33 @@ fit_both(loaded *const step[], size_t n)
         for (size_t i = 0; i < n; i++)
             ahead += (double)step[i]->law->record->n * log(step[i]->law[0].squares / step[i]->law[1].squares);
         for (size_t i = 0; st == SS_OK && pass + 1 < passes && i < n && !isnan(ahead); i++)
-            st = find_noise_of(step[i], &step[i]->law[ahead > 0]);
+            st = find_noise(step[i], &step[i]->law[ahead > 0]);
     }
     free(j.range);
     free(j.u);
     return st;
 }
 
-/* Blurs of one step are errors of what it shares with the others. */
-static ss_status
-blur_all(loaded *const step[], size_t n, size_t k)
-{
-    enum { ALL = UNKNOWNS * UNKNOWNS };
-    double shared[ALL] = { 0 };
-    ss_status st = SS_OK;
-    for (size_t i = 0; st == SS_OK && i < n && isfinite(step[i]->law[k].squares); i++) {
-        double more[ALL] = { 0 };
-        st = blur(&step[i]->law[k], noise_of(step[i], k), step[i]->room, more);
-        for (int e = 0; e < ALL; e++)
-            if (e / UNKNOWNS < OWN || e % UNKNOWNS < OWN)
-                step[i]->law[k].covariance[e] += more[e] / noise_of(step[i], k);
-            else
-                shared[e] += more[e];
-    }
-    for (size_t i = 0; i < n; i++)
-        for (int e = 0; e < ALL; e++)
-            step[i]->law[k].covariance[e] += shared[e] / noise_of(step[i], k);
-    return st;
-}
-
 ss_status
 ss_loaded_fit(loaded *const step[], size_t n)
 {
+    enum { ALL = UNKNOWNS * UNKNOWNS };
     ss_status st = fit_both(step, n);
-    for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++)
-        st = blur_all(step, n, k);
+    for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++) {
+        double shared[ALL] = { 0 };         /* blurs of one step are errors of what it shares with the others */
+        for (size_t i = 0; st == SS_OK && i < n && isfinite(step[i]->law[k].squares); i++) {
+            double more[ALL] = { 0 };
+            st = blur(&step[i]->law[k], noise_of(step[i], k), step[i]->room, more);
+            for (int e = 0; e < ALL; e++)
+                if (e / UNKNOWNS < OWN || e % UNKNOWNS < OWN)
+                    step[i]->law[k].covariance[e] += more[e] / noise_of(step[i], k);
+                else
+                    shared[e] += more[e];
+        }
+        for (size_t i = 0; i < n; i++)
+            for (int e = 0; e < ALL; e++)
+                step[i]->law[k].covariance[e] += shared[e] / noise_of(step[i], k);
+    }
     return st;
 }
 
