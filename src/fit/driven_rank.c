@@ -30,8 +30,6 @@ static const ss_motion_opts defaults = { .size = sizeof defaults, .delay = 1 };
 
 SS_OPTIONS(ss_motion_opts, defaults)
 
-/* --- folds --------------------------------------------------------------------------------- */
-
 /* The ratio of the rms motions in the two folds, at least 1. */
 static double
 fold_ratio(const driven *d)
@@ -46,18 +44,6 @@ fold_ratio(const driven *d)
     for (int k = 0; k < FOLDS; k++)
         variance[k] = squares[k] / n[k] - sum[k] / n[k] * (sum[k] / n[k]);
     return sqrt(fmax(variance[0], variance[1]) / fmin(variance[0], variance[1]));
-}
-
-/* Choose the folds.  Returns 1 if the two are not alike. */
-static int
-choose_folds(driven *d, ss_folds how, size_t turns, int *interleaved)
-{
-    const double span = d->t[d->n - 1] * (1 + 1e-9);
-    d->pieces = 2 / span;
-    *interleaved = how == SS_FOLDS_INTERLEAVED || (how == SS_FOLDS_BY_RANGE && fold_ratio(d) > OTHER_RANGE);
-    if (*interleaved)
-        d->pieces = fmax(4, fmin((double)(turns / 4 * 2), 16)) / span;      /* of at least a cycle */
-    return fold_ratio(d) > (*interleaved ? 2 : 1) * OTHER_RANGE;
 }
 
 /* --- what the motion can show -------------------------------------------------------------- */
@@ -450,13 +436,21 @@ rank_rows(ss_motion_ranking *r, double *const column[3], const char *missing, si
     if (n >= DRIVEN_FEWEST && (st = ss_driven_new(&d, column[0], column[1], column[2], n, opts)) == SS_OK) {
         turns = ss_driven_turns(&d, fmax(LITTLE, d.least), NULL);
         find_doubt(why, sizeof why, &d, turns);
-        if (why[0] == '\0' && choose_folds(&d, opts->folds, turns, &r->interleaved))
-            snprintf(why, sizeof why, "the two %s visit other ranges of the motion",
-                     r->interleaved ? "folds" : "halves");
-        for (size_t i = 0; i < d.n; i++)
-            used[driven_fold(&d, i)] += (size_t)d.used[i];
-        if (why[0] == '\0' && (used[0] < DRIVEN_FEWEST / 4 || used[1] < DRIVEN_FEWEST / 4))
-            snprintf(why, sizeof why, "where the motion goes is lost in its noise");
+        if (why[0] == '\0') {
+            const double span = d.t[d.n - 1] * (1 + 1e-9);
+            d.pieces = 2 / span;
+            r->interleaved = opts->folds == SS_FOLDS_INTERLEAVED
+                || (opts->folds == SS_FOLDS_BY_RANGE && fold_ratio(&d) > OTHER_RANGE);
+            if (r->interleaved)
+                d.pieces = fmax(4, fmin((double)(turns / 4 * 2), 16)) / span;   /* of at least a cycle */
+            for (size_t i = 0; i < d.n; i++)
+                used[driven_fold(&d, i)] += (size_t)d.used[i];
+            if (fold_ratio(&d) > (r->interleaved ? 2 : 1) * OTHER_RANGE)
+                snprintf(why, sizeof why, "the two %s visit other ranges of the motion",
+                         r->interleaved ? "folds" : "halves");
+            else if (used[0] < DRIVEN_FEWEST / 4 || used[1] < DRIVEN_FEWEST / 4)
+                snprintf(why, sizeof why, "where the motion goes is lost in its noise");
+        }
         if (why[0] == '\0' && (st = ss_driven_thin(&rows, &d, DRIVEN_ROWS)) == SS_OK)
             st = ss_driven_thin(&coarse, &d, COARSE);
     }

@@ -151,22 +151,15 @@ typedef struct point {
     double height, w[FORCED_KEYS];
 } point;
 
-/* Map the search vector w into the ranges of the keys; skip those that are held. */
-static void
-keys_of(const forced *c, const double *w, double key[FORCED_KEYS])
-{
-    for (size_t i = 0, k = 0; i < c->n; i++) {
-        double width = c->range[i].to - c->range[i].from;
-        key[i] = c->range[i].from + (width > 0 ? width * (0.5 + 0.5 * sin(w[k++])) : 0);
-    }
-}
-
 static void
 run_point(search *p, const double *w, forced_start *s)
 {
     forced *c = p->c;
     double value[CYCLE_MOST];
-    keys_of(c, w, s->key);
+    for (size_t i = 0, k = 0; i < c->n; i++) {          /* w goes into the ranges of the keys that are free */
+        const double width = c->range[i].to - c->range[i].from;
+        s->key[i] = c->range[i].from + (width > 0 ? width * (0.5 + 0.5 * sin(w[k++])) : 0);
+    }
     s->misfit = p->cycle->power;
     s->size = s->shift = 0;
     if (p->status == SS_OK)
@@ -193,53 +186,15 @@ height(const gsl_vector *w, void *user)
     return isfinite(h) ? h : log(DBL_MAX);
 }
 
-/* Try points all over the ranges. */
-static ss_status
-scatter(point *at, size_t points, size_t free, search *p)
-{
-    gsl_qrng *sobol = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)free);
-    if (sobol == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < points; i++) {
-        gsl_vector_view w = gsl_vector_view_array(at[i].w, free);
-        gsl_qrng_get(sobol, at[i].w);           /* the middle comes first */
-        for (size_t k = 0; k < free; k++)
-            at[i].w[k] = asin(2 * at[i].w[k] - 1);
-        at[i].height = height(&w.vector, p);
-    }
-    gsl_qrng_free(sobol);
-    qsort(at, points, sizeof *at, ss_ascending);
-    return p->status;
-}
-
-static ss_status
-descend(point *at, size_t free, search *p)
-{
-    double first[FORCED_KEYS] = { 0.3, 0.3, 0.3, 0.3 };     /* of the range: about a seventh */
-    gsl_vector_view w = gsl_vector_view_array(at->w, free), step = gsl_vector_view_array(first, free);
-    gsl_multimin_function f = { height, free, p };
-    gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, free);
-    if (m == NULL)
-        return SS_ENOMEM;
-    int failed = gsl_multimin_fminimizer_set(m, &f, &w.vector, &step.vector);
-    for (size_t i = 0; !failed && i < STEPS && gsl_multimin_fminimizer_size(m) > FAINT; i++)
-        failed = gsl_multimin_fminimizer_iterate(m);
-    if (m->fval < at->height) {
-        at->height = m->fval;
-        memcpy(at->w, m->x->data, free * sizeof *at->w);
-    }
-    gsl_multimin_fminimizer_free(m);
-    return p->status;
-}
-
 ss_status
 ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cycle *goal, size_t points,
                  size_t keep)
 {
     /* a step of the simplex runs the scene once or twice */
     search p = { .c = c, .cycle = goal, .expected = (double)(points + 3 * keep * STEPS / 2) };
+    double first[FORCED_KEYS] = { 0.3, 0.3, 0.3, 0.3 };     /* of the range: about a seventh */
     point *at = calloc(points + 1, sizeof *at);
-    size_t free_keys = 0;
+    size_t dim = 0;
     *n = 0;
     ss_status st = at != NULL ? ss_cycle_goal_new(&p.goal, goal) : SS_ENOMEM;
     if (st != SS_OK) {
@@ -247,16 +202,40 @@ ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cy
         return st;
     }
     for (size_t i = 0; i < c->n; i++)
-        free_keys += c->range[i].to > c->range[i].from;
-    if (free_keys > 0) {
-        st = scatter(at, points, free_keys, &p);
-        for (size_t i = 0; st == SS_OK && i < keep; i++)
-            st = descend(&at[i], free_keys, &p);
-        qsort(at, keep, sizeof *at, ss_ascending);
+        dim += c->range[i].to > c->range[i].from;
+    gsl_qrng *sobol = dim > 0 ? gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)dim) : NULL;
+    gsl_multimin_fminimizer *m = dim > 0 ? gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, dim) : NULL;
+    if (dim > 0 && (sobol == NULL || m == NULL))
+        p.status = SS_ENOMEM;
+    for (size_t i = 0; dim > 0 && p.status == SS_OK && i < points; i++) {
+        gsl_vector_view w = gsl_vector_view_array(at[i].w, dim);
+        gsl_qrng_get(sobol, at[i].w);           /* the middle comes first */
+        for (size_t k = 0; k < dim; k++)
+            at[i].w[k] = asin(2 * at[i].w[k] - 1);
+        at[i].height = height(&w.vector, &p);
     }
-    for (; st == SS_OK && *n < (free_keys > 0 ? keep : 1); st = p.status, ++*n)
+    qsort(at, points, sizeof *at, ss_ascending);
+    for (size_t i = 0; dim > 0 && p.status == SS_OK && i < keep; i++) {
+        gsl_vector_view w = gsl_vector_view_array(at[i].w, dim), step = gsl_vector_view_array(first, dim);
+        gsl_multimin_function f = { height, dim, &p };
+        int failed = gsl_multimin_fminimizer_set(m, &f, &w.vector, &step.vector);
+        for (size_t k = 0; !failed && k < STEPS && gsl_multimin_fminimizer_size(m) > FAINT; k++)
+            failed = gsl_multimin_fminimizer_iterate(m);
+        if (m->fval < at[i].height) {
+            at[i].height = m->fval;
+            memcpy(at[i].w, m->x->data, dim * sizeof *at[i].w);
+        }
+    }
+    qsort(at, keep, sizeof *at, ss_ascending);
+    while (p.status == SS_OK && *n < (dim > 0 ? keep : 1)) {
         run_point(&p, at[*n].w, &start[*n]);
+        ++*n;
+    }
+    if (sobol != NULL)
+        gsl_qrng_free(sobol);
+    if (m != NULL)
+        gsl_multimin_fminimizer_free(m);
     ss_cycle_goal_free(&p.goal);
     free(at);
-    return st;
+    return p.status;
 }

@@ -49,34 +49,22 @@ extend(series *c, const slider *s, double h, double speed, double tol)
     return ORDER + 1;
 }
 
-/* The part of the step at which the last two terms are within tol. */
-static double
-part_of(const series *c, int is_slip, double tol)
-{
-    double most = 0;
-    for (int n = ORDER - 1; n <= ORDER; n++) {
-        double size = fmax(fabs(c->v[n]) / c->v[0], fabs(c->other[n]) / (is_slip ? 1 : c->other[0]));
-        most = fmax(most, pow(size / tol, 1. / n));
-    }
-    return 1 / most;
-}
-
 /* Step towards the end of a stretch that is `left` long.  Returns how far, and adds the way to *slid; NaN: it runs
  * away. */
 static double
 step(series *c, const slider *s, double left, double speed, double tol, double *slid)
 {
-    double part = 1;
+    double most = 1;            /* 1 over the part of the step at which the last two terms are within tol */
     int order = extend(c, s, left, speed, tol);
-    if (order > ORDER) {
-        part = part_of(c, s->is_slip, tol);
-        order = ORDER;
-        if (!(part > 1e-12))
-            return NAN;
-        part = fmin(part, 1);
+    for (int n = ORDER - 1; order > ORDER && n <= ORDER; n++) {
+        double size = fmax(fabs(c->v[n]) / c->v[0], fabs(c->other[n]) / (s->is_slip ? 1 : c->other[0]));
+        most = fmax(most, pow(size / tol, 1. / n));
     }
+    const double part = 1 / most;
+    if (!(part > 1e-12))
+        return NAN;
     double v = 0, other = 0, way = 0;
-    for (int n = order; n >= 0; n--) {
+    for (int n = order > ORDER ? ORDER : order; n >= 0; n--) {
         v = v * part + c->v[n];
         other = other * part + c->other[n];
         way = way * part + c->v[n] / (n + 1);
