@@ -204,7 +204,6 @@ static ss_status
 fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, const ss_rank_opts *opts,
            ss_error *err)
 {
-    forced_start start[FORCED_KEPT];
     ss_scene scene = fit->scene;
     forced *c = &w->scene;
     ss_status st = take_features(&scene, signal, column, err);
@@ -218,19 +217,16 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
     /* A long record is fitted from half a cycle on.  A fitted motion starts in a slip before its record, but the
      * record itself may start from rest. */
     const double samples = w->goal.period * w->rate;
-    size_t first = (double)w->n > 2.5 * samples ? (size_t)(samples / 2) : 0, starts;
+    size_t first = (double)w->n > 2.5 * samples ? (size_t)(samples / 2) : 0;
     size_t n = (size_t)fmin(fmin((double)(w->n - first), CYCLES * samples), MOST);
     w->record = (rank_record){ .x = w->x + first, .n = n, .rate = w->rate,
                                .missing = w->missing != NULL ? w->missing + first : NULL,
                                .from = (double)first / w->rate };
     if (st == SS_OK)
         st = ss_record_noise(&w->record, samples);
-    c->progress = (ss_stretch){ opts->progress, 0, 0.5 };
+    c->progress = (ss_stretch){ opts->progress, 0, 1 };
     if (st == SS_OK)
-        st = ss_forced_search(start, &starts, c, &w->goal, POINTS, KEEP);
-    c->progress = (ss_stretch){ opts->progress, 0.5, 1 };
-    if (st == SS_OK)
-        st = ss_forced_fit(&w->best, &w->rival, c, start, starts, w->goal.power, &w->record);
+        st = ss_forced_fit(&w->best, &w->rival, c, &w->goal, POINTS, KEEP, &w->record);
     if (st == SS_OK && c->steps > BUDGET)
         return ss_fail(err, SS_EBUDGET, "its fits take more than %.0e integration steps: the contact is "
                        "too stiff, or too many samples stand in a cycle", BUDGET);

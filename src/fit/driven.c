@@ -16,6 +16,7 @@
 
 enum { TERMS = 4, WIDEST = 64, SERIES = 5 };    /* of the cubic; half the widest window, in rows; t, x, v, a, f */
 #define NOISY 1e-3                  /* of the force's range, from row to row: it is clipped, not saturated */
+#define JUMP 4                      /* times the largest of four differences of noise: seldom */
 #define UNKNOWN_MEMORY 0.03         /* the part of the time in which the memory of a law is not known yet */
 
 /* The cubic about row i by the rows at most m away, but for those of a run: its value and derivatives there, and how
@@ -148,6 +149,18 @@ leave_out_clipped(driven *d)
     return SS_OK;
 }
 
+/* Does the force change within a row of row i by much more than before and after? */
+static int
+force_jumps(const double force[], size_t n, size_t i)
+{
+    double beside = 0, most = 0;
+    for (size_t k = i > 3 ? i - 3 : 1; k < n && k <= i + 3; k++) {
+        double *size = k + 1 >= i && k <= i + 1 ? &most : &beside;
+        *size = fmax(*size, fabs(force[k] - force[k - 1]));
+    }
+    return most > JUMP * beside;
+}
+
 ss_status
 ss_driven_new(driven *d, const double t[], const double motion[], const double force[], size_t n,
               const ss_motion_opts *opts)
@@ -200,6 +213,9 @@ ss_driven_new(driven *d, const double t[], const double motion[], const double f
         }
         memset(d->used + first, 0, end - first);
     }
+    for (size_t i = 1; i < n && d->most_delay > 0; i++)
+        if (((d->v[i] > 0) != (d->v[i - 1] > 0) || fabs(d->v[i]) <= d->slow) && force_jumps(force, n, i))
+            memset(d->used + i - 1, 0, i + 1 < n ? 3 : 2);      /* it may do so a row earlier or later */
     const double time = d->length / d->speed;
     for (size_t i = 0; i < n; i++) {
         d->f[i] *= d->sign / d->force;

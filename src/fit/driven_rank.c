@@ -6,9 +6,10 @@
  * * The noise is unknown, but at most the less of two estimates.  Motions that repeat: what differs between
  * rows of two passages through nearly the same place, by position, speed and the last two turns; a law's memory is
  * no longer than that.  Other motions: noise of short memory is as rough as its power says, and what a law fails to
- * explain is smoother. */
+ * explain is smoother, but friction that wanders from cycle to cycle, which stands beside it. */
 #include "fit/driven.h"
 
+#include <float.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
@@ -213,6 +214,26 @@ find_repeat(const driven *d, const size_t *partner, const double *left, double *
     return squares > 0 ? products / squares : NAN;
 }
 
+/* By how much less is left, in the mean square, if the law's own force has another size in each two cycles, as
+ * friction wanders. */
+static double
+find_wander(const driven *d, const double *left, const double *own, size_t turns)
+{
+    const size_t parts = turns / 4 + 1;
+    double sum = 0, n = 0;
+    for (size_t k = 0; k < parts; k++) {
+        double product = 0, squares = DBL_MIN;
+        for (size_t i = k * d->n / parts; i < (k + 1) * d->n / parts; i++)
+            if (d->used[i]) {
+                product += left[i] * own[i];
+                squares += own[i] * own[i];
+                n++;
+            }
+        sum += product * product / squares;
+    }
+    return sum / n;
+}
+
 /* --- the numbers of the law ----------------------------------------------------------------- */
 
 enum { AT = UNKNOWNS + COLUMNS, BESIDE = COLUMNS - VISCOUS, LATE = LAW_NUMBERS + BESIDE, NUMBERS };
@@ -382,7 +403,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
         if (st != SS_OK)
             break;
         const double repeat = find_repeat(rows, partner, r[n].left, &noise);
-        const double rough = find_rough(d, out->predicted, turns);
+        const double rough = find_rough(d, out->predicted, turns) + find_wander(rows, r[n].left, r[n].own, turns);
         c[n] = (candidate){ .name = law->name, .law = 1u << i, .contains = law->contains,
             .left = r[n].loss / power, .block = r[n].block, .fitted = r[n].fit[ALL].loss / power,
             .noise = noise / power, .rough = rough / power, .work = work_of(&r[n], rows) };

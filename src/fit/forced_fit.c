@@ -17,7 +17,6 @@
  * lag is the variance of that noise if it is white, and less at some lag if it is not. */
 #include "fit/forced.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -285,29 +284,33 @@ whiteness(const fitting *w)
     return lowest;
 }
 
-/* The linear problem at w->at: residual[i], their slopes by all unknowns, and its solution, the step to the least
- * squares.  One column more, `extra`, is left empty. */
+/* The linear problem at w->at: residual[i], their slopes by all unknowns and by an EXTRA one, which are 0 at first,
+ * and its solution, the step to the least squares and its covariance. */
+enum { EXTRA = FORCED_UNKNOWNS, ALL };
 typedef struct linear {
-    double *residual, *slopes, *extra, step[FORCED_UNKNOWNS], inverse[FORCED_UNKNOWNS * FORCED_UNKNOWNS];
+    double *residual, *slopes, step[ALL], covariance[ALL][ALL];
 } linear;
 
 static ss_status
 linearise(fitting *w, linear *l)
 {
     const size_t rows = w->r->n;
-    double squares;
-    l->residual = malloc((rows * (FORCED_UNKNOWNS + 2) + 1) * sizeof *l->residual);
+    l->residual = calloc(rows * (ALL + 1) + 1, sizeof *l->residual);
     ss_status st = l->residual != NULL ? move_unknowns(w) : SS_ENOMEM;
-    if (st != SS_OK)
-        return st;
     l->slopes = l->residual + rows;
-    l->extra = l->slopes + rows * FORCED_UNKNOWNS;
-    for (size_t i = 0; i < rows; i++) {
+    for (size_t i = 0; st == SS_OK && i < rows; i++) {
         l->residual[i] = sqrt(w->weight[i]) * left_at(w, i);
         for (size_t k = 0; k < FORCED_UNKNOWNS; k++)
-            l->slopes[i * FORCED_UNKNOWNS + k] = slope_at(w, i, k);
+            l->slopes[i * ALL + k] = slope_at(w, i, k);
     }
-    return ss_least_linear(l->slopes, l->residual, rows, FORCED_UNKNOWNS, l->step, &squares, l->inverse);
+    return st;
+}
+
+static ss_status
+solve(linear *l, size_t rows)
+{
+    double squares;
+    return ss_least_linear(l->slopes, l->residual, rows, ALL, l->step, &squares, *l->covariance);
 }
 
 /* Fill in the fit at u, unless it leaves more than it does already. */
@@ -326,13 +329,15 @@ report(fitting *w, const double *u, forced_fit *m)
     if (m->of_samples.compared > 0 && left / w->used >= m->of_samples.left)
         return SS_OK;
     st = linearise(w, &l);
+    if (st == SS_OK)
+        st = solve(&l, r->n);
     free(l.residual);
     if (st != SS_OK)
         return st == SS_EDATA ? SS_OK : st;
     for (size_t k = 0; k < FORCED_UNKNOWNS; k++) {
         unknowns += k >= FORCED_MOVED || moves(w, k);
         for (size_t i = 0; i < FORCED_UNKNOWNS; i++)
-            m->covariance[i][k] = l.inverse[k * FORCED_UNKNOWNS + i] * (i == FORCED_FREQUENCY ? w->o.turn : 1)
+            m->covariance[i][k] = l.covariance[k][i] * (i == FORCED_FREQUENCY ? w->o.turn : 1)
                 * (k == FORCED_FREQUENCY ? w->o.turn : 1);
     }
     for (size_t i = 0; i < r->n; i++)
@@ -444,18 +449,21 @@ fit_start(forced_fit *m, forced *c, const forced_start *start, const rank_record
 }
 
 ss_status
-ss_forced_fit(forced_fit *best, double *rival, forced *c, const forced_start start[], size_t n, double power,
+ss_forced_fit(forced_fit *best, double *rival, forced *c, const cycle *goal, size_t points, size_t keep,
               const rank_record *r)
 {
     const ss_stretch whole = c->progress;
+    forced_start start[FORCED_KEPT];
     forced_fit found[FORCED_KEPT] = { { .left_all = 0 } };
-    size_t lowest = 0, fits = 0;
-    ss_status st = SS_OK;
+    size_t lowest = 0, fits = 0, n;
+    c->progress = ss_stretch_part(&whole, 0, 0.5);
+    ss_status st = ss_forced_search(start, &n, c, goal, points, keep);
     for (; st == SS_OK && fits < n; fits++) {
-        if (fits > 0 && (start[fits].misfit > LITTLE * power
+        if (fits > 0 && (start[fits].misfit > LITTLE * goal->power
                          || (rival == NULL && ss_residue_explains(&found[lowest].of_samples, r->noise))))
             break;
-        c->progress = ss_stretch_part(&whole, (double)fits / (double)n, (double)(fits + 1) / (double)n);
+        c->progress = ss_stretch_part(&whole, 0.5 + 0.5 * (double)fits / (double)n,
+                                      0.5 + 0.5 * (double)(fits + 1) / (double)n);
         st = fit_start(&found[fits], c, &start[fits], r, found, fits);
         lowest = found[fits].of_samples.left < found[lowest].of_samples.left ? fits : lowest;
     }
@@ -498,24 +506,16 @@ ss_forced_refit(forced_fit *m, forced *c, const forced_fit *from, const rank_rec
 
 /* --- terms that are held ------------------------------------------------------------------- */
 
-/* How much less the sum of squares of what l leaves would be with one unknown more, whose slopes are l->extra, and
- * how far it would go.  (Near the least residual the sum of squares is quadratic: no other fit is needed.) */
-static double
-find_gain(const linear *l, size_t rows, double *far)
+/* How much less the sum of squares would be with the EXTRA unknown, and how far it would go.  (Near the least residual
+ * the sum of squares is quadratic: no other fit is needed.) */
+static ss_status
+find_gain(linear *l, size_t rows, double *gain, double *far)
 {
-    enum { n = FORCED_UNKNOWNS };
-    double along[n] = { 0 }, all = 0, product = 0;
-    for (size_t i = 0; i < rows; i++) {
-        for (size_t k = 0; k < n; k++)
-            along[k] += l->slopes[i * n + k] * l->extra[i];
-        all += l->extra[i] * l->extra[i];
-        product += l->extra[i] * l->residual[i];
-    }
-    double own = all;                   /* of the slopes, what no other unknown makes up for */
-    for (size_t k = 0; k < n * n; k++)
-        own -= along[k / n] * l->inverse[k] * along[k % n];
-    *far = -product / own;              /* residuals fall by slope times step */
-    return own > DBL_EPSILON * all ? product * product / own : 0;
+    ss_status st = solve(l, rows);
+    const double variance = l->covariance[EXTRA][EXTRA];
+    *far = -l->step[EXTRA];             /* residuals fall by slope times step */
+    *gain = variance > 0 ? *far * *far / variance : 0;
+    return st;
 }
 
 /* Change a term of the scene; returns what it becomes. */
@@ -536,7 +536,7 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
     forced_fit unused;
     fitting w;
     linear l = { .residual = NULL };
-    double far, y;
+    double far, gain, y;
     own.progress.progress.function = NULL;
     for (forced_term term = 0; term < HELD_TERMS; term++)
         of[term] = (forced_held){ 0, NAN };
@@ -546,18 +546,18 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
         st = move_to(&w, m->u);
     if (st == SS_OK)
         st = linearise(&w, &l);
-    for (size_t i = 0; st == SS_OK && i < r->n * FORCED_UNKNOWNS; i++)
-        l.residual[i / FORCED_UNKNOWNS] -= l.slopes[i] * l.step[i % FORCED_UNKNOWNS];
     for (forced_term term = 0; st == SS_OK && term < HELD_LAG; term++) {
         const double h = step_of(&w, 0);
         change_term(&own.scene, term, h);
-        st = run(&w, w.at, l.extra, NULL);
+        st = run(&w, w.at, w.clear, NULL);
         own.scene = c->scene;
+        for (size_t i = 0; i < r->n; i++)
+            l.slopes[i * ALL + EXTRA] = -sqrt(w.weight[i]) * w.size * (w.clear[i] - w.motion[i]) / h;
+        if (st == SS_OK)
+            st = find_gain(&l, r->n, &gain, &far);
         if (st != SS_OK)
             break;
-        for (size_t i = 0; i < r->n; i++)
-            l.extra[i] = -sqrt(w.weight[i]) * w.size * (l.extra[i] - w.motion[i]) / h;
-        of[term].gain = find_gain(&l, r->n, &far) / unit;
+        of[term].gain = gain / unit;
         of[term].nearer = change_term(&own.scene, term, far);
         own.scene = c->scene;
     }
@@ -567,9 +567,10 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
         y = x[0];
         for (size_t i = 0; i < r->n; i++) {
             y = i > 0 ? keep * y + (1 - part) * x[i] + (part - keep) * x[i - 1] : y;
-            l.extra[i] = -sqrt(w.weight[i]) * w.size * (y - x[i]);
+            l.slopes[i * ALL + EXTRA] = -sqrt(w.weight[i]) * w.size * (y - x[i]);
         }
-        of[HELD_LAG].gain = fmax(of[HELD_LAG].gain, find_gain(&l, r->n, &far) / unit);
+        st = find_gain(&l, r->n, &gain, &far);
+        of[HELD_LAG].gain = fmax(of[HELD_LAG].gain, gain / unit);
     }
     free(l.residual);
     free(w.motion);

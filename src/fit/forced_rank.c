@@ -218,18 +218,13 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
     const double spread = w->opts->spread, factor = (1 + spread) / (1 - spread);
     const double usual = (1 + RANK_SPREAD) / (1 - RANK_SPREAD), wider = log(factor) / log(usual);
     const double more = fmax(1, fmin(wider * wider, FORCED_KEPT / KEEP));
-    forced_start start[FORCED_KEPT];
-    size_t n;
     observation l = { .map = NULL };
     f->scene = ss_forced_of(scene, (int)w->opts->quantity, factor);
     f->scene.period = w->goal.period;
     f->scene.budget = more * BUDGET;
-    f->scene.progress = ss_stretch_part(progress, 0, 0.5);
-    ss_status st = ss_forced_search(start, &n, &f->scene, &w->goal, (size_t)(more * POINTS),
-                                    (size_t)(more * KEEP));
-    f->scene.progress = ss_stretch_part(progress, 0.5, 1);
-    if (st == SS_OK)
-        st = ss_forced_fit(&f->fit, NULL, &f->scene, start, n, w->goal.power, &w->record);
+    f->scene.progress = *progress;
+    ss_status st = ss_forced_fit(&f->fit, NULL, &f->scene, &w->goal, (size_t)(more * POINTS), (size_t)(more * KEEP),
+                                 &w->record);
     if (st == SS_OK && f->scene.steps > f->scene.budget)
         return ss_fail(err, SS_EBUDGET, "scene %zu takes more than %.0e integration steps to be "
                        "adjusted: it is too stiff to be ranked", row->scene + 1, f->scene.budget);
