@@ -69,29 +69,21 @@ fold(cycle *c, char *why, size_t size, const double *x, const char *missing, siz
         snprintf(why, size, "what repeats is no more than the noise");
 }
 
-/* The power of the mean cycle; that of its mean is in it, which is the same for every period. */
-static double
-repeating(const double *x, const char *missing, size_t n, double samples)
-{
-    double sum[CYCLE_MOST], count[CYCLE_MOST], power = 0;
-    size_t bins = bins_of(samples);
-    gather(sum, count, bins, x, missing, n, 1 / samples);
-    for (size_t i = 0; i < bins; i++)
-        power += count[i] > 0 ? sum[i] * sum[i] / count[i] : 0;
-    return power;
-}
-
 /* The period within 1 % of the given one at which most power repeats. */
 static double
 refine(const double *x, const char *missing, size_t n, double period)
 {
-    double best = period;
+    double best = period, sum[CYCLE_MOST], count[CYCLE_MOST];
     /* jumps repeat within a bin or two: the first steps are no wider than that over 8 cycles */
     for (double width = 0.01; width > 1e-6; width /= GRID) {
         double middle = best, most = -1;
         for (int i = -GRID; i <= GRID; i++) {
-            double p = middle * (1 + width * i / GRID);
-            double power = repeating(x, missing, n, p);
+            const double p = middle * (1 + width * i / GRID);
+            const size_t bins = bins_of(p);
+            double power = 0;   /* of the mean cycle; that of its mean is in it, which is the same for every period */
+            gather(sum, count, bins, x, missing, n, 1 / p);
+            for (size_t b = 0; b < bins; b++)
+                power += count[b] > 0 ? sum[b] * sum[b] / count[b] : 0;
             if (power > most)
                 most = power, best = p;
         }

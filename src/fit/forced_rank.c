@@ -167,12 +167,31 @@ map_distance(const observation *a, const observation *b)
     return sqrt(sum / (double)a->map->n_scales);
 }
 
-/* Write the model's values to the row, and their distances from the signal's. */
-static void
-compare(ss_rank_row *row, const observation *signal, const observation *model)
+/* --- a scene ------------------------------------------------------------------------------- */
+
+/* Write to the row what the signal's window would show of the adjusted scene, its gaps included, and the distances
+ * from the signal's. */
+static ss_status
+compare(ss_rank_row *row, const comparison *w, ss_error *err)
 {
-    for (size_t i = SS_BY_MAXIMUM; i < SS_CRITERIA; i++) {
-        const double a = signal->value[i], b = row->value[i] = model->value[i];
+    const observation *signal = &w->observation;
+    observation model = { .map = NULL };
+    ss_signal *run = NULL;
+    size_t column = (size_t)w->opts->quantity;
+    const char *gaps = ss_header_find_note(w->signal->head, "gaps");
+    ss_status st = ss_sim_signal(&run, &row->adjusted, err);
+    if (st != SS_OK)
+        return st;
+    run->head->start = w->signal->head->start;
+    st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps, NULL) : SS_OK;
+    if (st == SS_OK)
+        st = ss_noise_add_once(run->values + column * run->n, run->n, sqrt(w->record.noise), 1, NULL);
+    for (size_t c = 0; c < run->head->n_columns; c++)
+        ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
+    if (st == SS_OK)
+        st = observe(&model, run, column, w->goal.period, err);
+    for (size_t i = SS_BY_MAXIMUM; st == SS_OK && i < SS_CRITERIA; i++) {
+        const double a = signal->value[i], b = row->value[i] = model.value[i];
         const int is_ratio = i == SS_BY_FREQUENCY || i == SS_BY_DAMPING || i == SS_BY_STIFFNESS;
         row->distance[i] = isnan(a) && isnan(b) ? 0 : fabs(is_ratio ? log(a / b) : a - b);
     }
@@ -183,29 +202,9 @@ compare(ss_rank_row *row, const observation *signal, const observation *model)
         row->value[SS_BY_STIFFNESS] = NAN;
         row->distance[SS_BY_STIFFNESS] = 0;
     }
-    row->value[SS_BY_MAP] = row->distance[SS_BY_MAP] = map_distance(signal, model);
-}
-
-/* --- a scene ------------------------------------------------------------------------------- */
-
-/* The adjusted scene as the signal's window would show it, its gaps included. */
-static ss_status
-observe_scene(observation *l, const comparison *w, const ss_scene *adjusted, ss_error *err)
-{
-    ss_signal *run = NULL;
-    size_t column = (size_t)w->opts->quantity;
-    const char *gaps = ss_header_find_note(w->signal->head, "gaps");
-    ss_status st = ss_sim_signal(&run, adjusted, err);
-    if (st != SS_OK)
-        return st;
-    run->head->start = w->signal->head->start;
-    st = gaps != NULL ? ss_header_note(run->head, "gaps", gaps, NULL) : SS_OK;
     if (st == SS_OK)
-        st = ss_noise_add_once(run->values + column * run->n, run->n, sqrt(w->record.noise), 1, NULL);
-    for (size_t c = 0; c < run->head->n_columns; c++)
-        ss_gaps_bridge(run->values + c * run->n, run->n, run->head->rate, w->gap, w->n_gaps);
-    if (st == SS_OK)
-        st = observe(l, run, column, w->goal.period, err);
+        row->value[SS_BY_MAP] = row->distance[SS_BY_MAP] = map_distance(signal, &model);
+    ss_coefficients_free(model.map);
     ss_signal_free(run);
     return st;
 }
@@ -218,7 +217,6 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
     const double spread = w->opts->spread, factor = (1 + spread) / (1 - spread);
     const double usual = (1 + RANK_SPREAD) / (1 - RANK_SPREAD), wider = log(factor) / log(usual);
     const double more = fmax(1, fmin(wider * wider, FORCED_KEPT / KEEP));
-    observation l = { .map = NULL };
     f->scene = ss_forced_of(scene, (int)w->opts->quantity, factor);
     f->scene.period = w->goal.period;
     f->scene.budget = more * BUDGET;
@@ -232,15 +230,11 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
         return ss_fail(err, st, "%s", ss_strerror(st));
     const residue *of = &f->fit.of_samples;
     row->adjusted = f->fit.scene;
-    st = observe_scene(&l, w, &row->adjusted, err);
-    if (st == SS_OK)
-        compare(row, &w->observation, &l);
-    ss_coefficients_free(l.map);
     row->explained = 1 - f->fit.left_all / of->power;
     row->value[SS_BY_RESIDUAL] = 10 * log10(fmax(of->left, 1e-12 * of->power) / of->power);
     row->value[SS_BY_ADJUSTMENT] = ss_forced_distance(&f->scene, f->fit.u);
     row->distance[SS_BY_ADJUSTMENT] = spread > 0 ? row->value[SS_BY_ADJUSTMENT] / log(1 + spread) : 0;
-    return st;
+    return compare(row, w, err);
 }
 
 /* --- the verdict --------------------------------------------------------------------------- */

@@ -198,38 +198,13 @@ name_scene(ss_ranking *r, const trial *t, double noise)
 
 /* --- all ----------------------------------------------------------------------------------- */
 
-static ss_status
-compare_all(ss_ranking *r, const falls *f, const ss_scene *scene, const ss_rank_opts *opts)
-{
-    trial *t = calloc(r->n, sizeof *t);
-    double least = INFINITY;
-    ss_status st = t != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t i = 0; st == SS_OK && i < r->n; i++) {
-        const ss_stretch part = { opts->progress, (double)i / (double)r->n, (double)(i + 1) / (double)r->n };
-        st = try_scene(&t[i], &r->row[i], f, &scene[i], opts->spread, &part);
-        least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
-    }
-    for (size_t i = 0; st == SS_OK && i < r->n; i++)
-        r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
-    if (st == SS_OK) {
-        size_t named = name_scene(r, t, f->noise);
-        ss_ranking_sort(r);
-        for (size_t i = r->n; i-- > 1 && named < r->n;)     /* to the front */
-            if (r->row[i].scene == named) {
-                const ss_rank_row row = r->row[i];
-                r->row[i] = r->row[i - 1];
-                r->row[i - 1] = row;
-            }
-    }
-    free(t);
-    return st;
-}
-
 ss_status
 ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
                 const ss_rank_opts *opts, ss_error *err)
 {
     ss_features *features = NULL;
+    trial *t = NULL;
+    double least = INFINITY;
     falls f;
     for (size_t i = 0; i < r->n; i++) {
         ss_status st = ss_pull_check(signal, column, &scene[i], opts, err);
@@ -243,10 +218,29 @@ ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_
         return st;
     st = ss_falls_gather(&f, r->why, sizeof r->why, features, signal, column, &scene[0]);
     r->noise = f.noise / f.power;
-    if (st == SS_OK && r->why[0] == '\0')
-        st = compare_all(r, &f, scene, opts);
+    const size_t n = r->why[0] == '\0' ? r->n : 0;      /* scenes that are compared */
+    if (st == SS_OK && n > 0)
+        st = (t = calloc(n, sizeof *t)) != NULL ? SS_OK : SS_ENOMEM;
+    for (size_t i = 0; st == SS_OK && i < n; i++) {
+        const ss_stretch part = { opts->progress, (double)i / (double)n, (double)(i + 1) / (double)n };
+        st = try_scene(&t[i], &r->row[i], &f, &scene[i], opts->spread, &part);
+        least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
+    }
+    for (size_t i = 0; st == SS_OK && i < n; i++)
+        r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
+    if (st == SS_OK && n > 0) {
+        const size_t named = name_scene(r, t, f.noise);
+        ss_ranking_sort(r);
+        for (size_t i = n; i-- > 1 && named < n;)       /* to the front */
+            if (r->row[i].scene == named) {
+                const ss_rank_row row = r->row[i];
+                r->row[i] = r->row[i - 1];
+                r->row[i - 1] = row;
+            }
+    }
     if (st != SS_OK)
         ss_fail(err, st, "%s", ss_strerror(st));
+    free(t);
     ss_falls_free(&f);
     ss_features_free(features);
     return st;

@@ -113,8 +113,7 @@ write_notes(FILE *out, const ss_ranking *r, const ss_ranking_text *about, const 
     fprintf(out, "# forcing_frequency: %s\n", ss_number_rounded(text, r->forcing_frequency, DIGITS));
     write_criteria(out, "thresholds", 0, SS_CRITERIA, NULL);
     write_criteria(out, "signal", SS_BY_MAXIMUM, SS_BY_MAP, r);
-    fprintf(out, "# noise: %s %% of the power, at most\n",
-            ss_number_rounded(text, 100 * r->noise, DIGITS));
+    fprintf(out, "# noise: %s %% of the power, at most\n", ss_number_rounded(text, 100 * r->noise, DIGITS));
 }
 
 /* --- rows ---------------------------------------------------------------------------------- */

@@ -399,20 +399,6 @@ middle(const path *p, size_t k)
     return k > 0 ? (p->line[k].first + p->line[k].end) / 2 : 0;
 }
 
-/* The slide from which on the way to the middle of a later one is known: that before it, or itself, as behind a
- * hold with which a record begins. */
-static size_t
-history(const path *p, int which, size_t at)
-{
-    const size_t held = at > 1 && p->line[at - 1].speed < STILL * p->line[at - 2].speed;
-    const size_t before = at > 0 ? at - 1 - held : 0;
-    const double from = p->t[middle(p, before)], to = p->t[middle(p, at)];
-    size_t corners = 0;
-    for (size_t i = 0; i < p->corners[which]; i++)
-        corners += p->corner[which][i].t > from && p->corner[which][i].t < to;
-    return corners >= at - before && p->line[before].speed > STILL * p->line[at].speed ? before : at;
-}
-
 /* Lay the places of the load point under the rows of a step, each the mean of so many of the record.  Where
  * friction bends, at and behind corners, each row has a place, else each mean.  The slide before is passed first,
  * since it may not be forgotten in the middle of this one.  SS_ENOMEM. */
@@ -420,7 +406,14 @@ static ss_status
 lay(track *r, const path *p, int which, size_t at, size_t apart)
 {
     const corner *c = p->corner[which], *end = c + p->corners[which];
-    const size_t from = history(p, which, at), first = middle(p, at), start = middle(p, from);
+    /* the way from the slide before is known, but behind a hold with which a record begins */
+    const size_t held = at > 1 && p->line[at - 1].speed < STILL * p->line[at - 2].speed;
+    const size_t before = at > 0 ? at - 1 - held : 0, first = middle(p, at);
+    size_t corners = 0;
+    for (const corner *k = c; k < end; k++)
+        corners += k->t > p->t[middle(p, before)] && k->t < p->t[first];
+    const int is_known = corners >= at - before && p->line[before].speed > STILL * p->line[at].speed;
+    const size_t from = is_known ? before : at, start = middle(p, from);
     const double *x = p->moved[which];
     place *to = r->place = malloc((r->n * apart + p->corners[which] + 1) * sizeof *to);
     if (to == NULL)

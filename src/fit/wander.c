@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/gauss.h"
+#include "fit/verdict.h"
 
 enum { COLUMNS = 8, STEPS = 60 };
 
@@ -77,31 +78,6 @@ unlikely(const gsl_vector *u, void *user)
     return isfinite(logarithms) ? logarithms : DBL_MAX;      /* columns that explain each other, or no noise */
 }
 
-/* Find the noise whose memory counts time or rows; *lowest, if it is likelier than that. */
-static void
-find(wander *w, double *lowest, search *s, gsl_multimin_fminimizer *nelder_mead)
-{
-    const double span = s->by_rows ? (double)s->n : s->t[s->n - 1] - s->t[0], least = log(span / (double)s->n);
-    double u[2], best[2] = { 0, least }, height = GSL_POSINF, width[2] = { 1, 1 };
-    gsl_vector_view at = gsl_vector_view_array(u, 2), of = gsl_vector_view_array(best, 2);
-    gsl_vector_view step = gsl_vector_view_array(width, 2);
-    gsl_multimin_function f = { unlikely, 2, s };
-    for (u[1] = least; u[1] < log(span); u[1] += 2)
-        for (u[0] = -4; u[0] <= 4; u[0] += 2) {
-            double here = unlikely(&at.vector, s);
-            if (here < height)
-                memcpy(best, u, sizeof best);
-            height = fmin(here, height);
-        }
-    gsl_multimin_fminimizer_set(nelder_mead, &f, &of.vector, &step.vector);
-    for (int i = 0; i < STEPS && gsl_multimin_fminimizer_size(nelder_mead) > 1e-2; i++)
-        gsl_multimin_fminimizer_iterate(nelder_mead);
-    if (nelder_mead->fval < *lowest) {
-        *lowest = nelder_mead->fval;
-        *w = noise_of(s, nelder_mead->x);
-    }
-}
-
 ss_status
 ss_wander_find(wander *w, const double *t, const double *in, size_t n, size_t columns)
 {
@@ -113,8 +89,27 @@ ss_wander_find(wander *w, const double *t, const double *in, size_t n, size_t co
         shortest = fmin(shortest, t[i] - t[i - 1]);
         longest = fmax(longest, t[i] - t[i - 1]);
     }
-    for (s.by_rows = 1; is_room && s.by_rows >= (longest < 1.01 * shortest); s.by_rows--)
-        find(w, &lowest, &s, nelder_mead);
+    for (s.by_rows = 1; is_room && s.by_rows >= (longest < 1.01 * shortest); s.by_rows--) {
+        const double span = s.by_rows ? (double)n : t[n - 1] - t[0], least = log(span / (double)n);
+        double u[2], best[2] = { 0, least }, height = GSL_POSINF, width[2] = { 1, 1 };
+        gsl_vector_view at = gsl_vector_view_array(u, 2), of = gsl_vector_view_array(best, 2);
+        gsl_vector_view step = gsl_vector_view_array(width, 2);
+        gsl_multimin_function f = { unlikely, 2, &s };
+        for (u[1] = least; u[1] < log(span); u[1] += 2)
+            for (u[0] = -4; u[0] <= 4; u[0] += 2) {
+                const double here = unlikely(&at.vector, &s);
+                if (here < height)
+                    memcpy(best, u, sizeof best);
+                height = fmin(here, height);
+            }
+        gsl_multimin_fminimizer_set(nelder_mead, &f, &of.vector, &step.vector);
+        for (int i = 0; i < STEPS && gsl_multimin_fminimizer_size(nelder_mead) > FAINT; i++)
+            gsl_multimin_fminimizer_iterate(nelder_mead);
+        if (nelder_mead->fval < lowest) {
+            lowest = nelder_mead->fval;
+            *w = noise_of(&s, nelder_mead->x);
+        }
+    }
     free(s.white);
     if (nelder_mead != NULL)
         gsl_multimin_fminimizer_free(nelder_mead);
