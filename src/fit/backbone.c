@@ -275,8 +275,7 @@ follow(decay *d)
         d->block = grown;
         block *b = &grown[d->n_blocks], *last = d->n_blocks > 0 ? b - 1 : NULL;
         double level = last != NULL ? last->y[LEVEL] - at.s * ((double)first - last->t) : 0;
-        size_t length = last != NULL ? block_length(d, at, exp(level), noise)
-            : block_length(d, at, 1, 0);
+        size_t length = last != NULL ? block_length(d, at, exp(level), noise) : block_length(d, at, 1, 0);
         if (first + length > d->n)
             return SS_OK;
         int found = last != NULL ? ss_block_fit(b, d->x, first, first + length, at, &d->beside, 0)

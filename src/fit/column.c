@@ -45,8 +45,7 @@ ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts
     if (column >= signal->head->n_columns)
         return ss_fail(err, SS_EINVAL, "there is no column %zu", column + 1);
     if (!(opts->forcing_frequency >= 0 && isfinite(opts->forcing_frequency)))
-        return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range",
-                       opts->forcing_frequency);
+        return ss_fail(err, SS_EINVAL, "forcing frequency %g is out of range", opts->forcing_frequency);
     for (size_t i = 0; i < signal->n; i++)
         if (!isfinite(signal->values[column * signal->n + i]))
             return ss_fail(err, SS_EDATA, "row %zu is not finite", i + 1);

@@ -22,11 +22,9 @@ typedef struct rank_record {
 /* own becomes the caller's options, or the defaults for NULL.  SS_EINVAL. */
 ss_status ss_rank_opts_take(ss_rank_opts *own, const ss_rank_opts *given, ss_error *err);
 /* SS_OK for a column that is there, has finite values and suits the options. */
-ss_status ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts,
-                          ss_error *err);
+ss_status ss_column_check(const ss_signal *signal, size_t column, const ss_rank_opts *opts, ss_error *err);
 /* SS_OK for a column that has no unit, or the unit that scenes have: the sizes of both are compared. */
-ss_status ss_column_check_unit(const ss_signal *signal, size_t column, ss_quantity quantity,
-                               ss_error *err);
+ss_status ss_column_check_unit(const ss_signal *signal, size_t column, ss_quantity quantity, ss_error *err);
 /* The variance of the samples. */
 double ss_record_power(const rank_record *r);
 /* Set r->noise and r->steps of a record that repeats after so many samples; 0: nothing repeats. */

@@ -244,8 +244,7 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     if (fit == NULL || signal == NULL || start == NULL)
         return SS_FAIL_NULL(err);
     if (start->model == NULL || !start->model->has_contact)
-        return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s",
-                       ss_model_name(start->model));
+        return ss_fail(err, SS_EINVAL, "only compliant scenes are fitted, not %s", ss_model_name(start->model));
     ss_status st = ss_rank_opts_take(&own, given, err);
     if (st == SS_OK)
         st = ss_column_check(signal, column, opts, err);

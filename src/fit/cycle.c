@@ -25,8 +25,7 @@ bins_of(double samples)
 
 /* Find sum and count of each bin; returns the sum of the squares. */
 static double
-gather(double *sum, double *count, size_t bins, const double *x, const char *missing, size_t n,
-       double cycles)
+gather(double *sum, double *count, size_t bins, const double *x, const char *missing, size_t n, double cycles)
 {
     double squares = 0;
     memset(sum, 0, bins * sizeof *sum);

@@ -313,8 +313,7 @@ judge(ss_ranking *r, const comparison *w, const found *f)
         ss_print_to(r->why, sizeof r->why, "each leaves at least %.3g %% of the signal's power, "
                     "%.3g times the noise", 100 * best->left / best->power, ss_residue_excess(best, noise));
     } else if (ss_residue_explains(&sinusoid, noise)) {
-        snprintf(r->why, sizeof r->why, "a sinusoid explains the signal as well: it shows no "
-                 "transitions");
+        snprintf(r->why, sizeof r->why, "a sinusoid explains the signal as well: it shows no transitions");
     } else if (ss_residue_lead(best, own, noise) > RESIDUE_DECISIVE) {
         ss_print_to(r->why, sizeof r->why, "the scene that comes first leaves %.3g %% of the signal's "
                     "power, and another, which leaves %.3g %%, shows other transitions",

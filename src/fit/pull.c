@@ -117,8 +117,7 @@ fit_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *st
 
 /* Fit by simulation to the falls. */
 static ss_status
-fit_falls(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start,
-          const ss_rank_opts *opts)
+fit_falls(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts)
 {
     const ss_stretch all = { opts->progress, 0, 1 };
     const ss_fitted *vague = NULL;
@@ -132,8 +131,7 @@ fit_falls(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *st
     if (!is_usable || st != SS_OK)
         return st;
     if (!fit.slips) {
-        snprintf(p->why, sizeof p->why, "the scene does not stick and slip, or not within the steps of "
-                 "a fit");
+        snprintf(p->why, sizeof p->why, "the scene does not stick and slip, or not within the steps of a fit");
         return SS_OK;
     }
     fill_left(p, &fit.of_samples, r.noise, r.power);

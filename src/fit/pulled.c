@@ -354,8 +354,7 @@ report(problem *f, const double *u, const double *residual, double *covariance)
 }
 
 ss_status
-ss_pulled_fit(pulled_fit *out, const falls *r, const ss_scene *scene, double spread,
-              const ss_stretch *progress)
+ss_pulled_fit(pulled_fit *out, const falls *r, const ss_scene *scene, double spread, const ss_stretch *progress)
 {
     /* first the frictions alone are free, then also mass and speed, then all keys */
     static const size_t free_keys[] = { 0, SPEED + 1, PULLED_KEYS };
