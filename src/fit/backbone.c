@@ -476,8 +476,6 @@ add_line(decay *d, int *found)
     return st;
 }
 
-/* --- behind it ------------------------------------------------------------------------------- */
-
 /* Fit what is behind the last block, if that is no other motion, as if it went on at its frequency: it is too
  * small for a block of its own, and laws differ in how small it is. */
 static ss_status
@@ -559,8 +557,6 @@ find_levels(decay *d, const double *x, size_t n)
     share_noise(d);
     return ss_blocks_smooth(d->block, d->n_blocks, d->source);
 }
-
-/* --- the whole ------------------------------------------------------------------------------- */
 
 static const ss_backbone_opts defaults = { .size = sizeof defaults };
 SS_OPTIONS(ss_backbone_opts, defaults)

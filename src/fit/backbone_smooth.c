@@ -190,8 +190,6 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
     return best + log(whole / WALKS);
 }
 
-/* --- with no mechanism in mind --------------------------------------------------------------- */
-
 /* Move (ln A, l = asinh(s / small), p) on by a time t: l grows by p an e-fold, so that atan(s / small) grows by p
  * small a time.  lost: the e-folds of that time, and their integral over it. */
 static void

@@ -22,19 +22,14 @@ ss_motion_order(const char *unit, double *size)
 static void
 write_mechanism(struct rows *rows, const ss_backbone *b)
 {
-    char text[256] = "";            /* longer than all names */
-    size_t length = 0;
-    if (b->why != NULL) {
-        snprintf(text, sizeof text, "none: %s", b->why);
-        ss_rows_whole_word(rows, "decay", text);
-        return;
-    }
-    if (b->n_mechanisms > 1)
-        length = (size_t)sprintf(text, "cannot tell: ");
+    char names[128] = "", text[256];        /* longer than all names */
     for (size_t i = 0; i < b->n_mechanisms; i++)
-        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i > 0 ? ", " : "",
-                                   ss_mechanism_names[b->mechanism[i]]);
-    ss_rows_whole_word(rows, "mechanism", b->n_mechanisms > 0 ? text : "other");
+        ss_verdict_append(names, sizeof names, ss_mechanism_names[b->mechanism[i]]);
+    snprintf(text, sizeof text, "%s%s", b->why != NULL ? "none: " : b->n_mechanisms > 1 ? "cannot tell: " : "",
+             b->why != NULL ? b->why : b->n_mechanisms > 0 ? names : "other");
+    ss_rows_whole_word(rows, b->why != NULL ? "decay" : "mechanism", text);
+    if (b->why != NULL)
+        return;
     if (b->other != NULL)
         ss_rows_whole_word(rows, "other", b->other);
     for (size_t i = 0; i < b->n_numbers; i++)

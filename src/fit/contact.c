@@ -40,8 +40,6 @@ typedef struct fitting {
     double rival;                       /* residual of the best of other parameters; infinite: none */
 } fitting;
 
-/* --- fits ---------------------------------------------------------------------------------- */
-
 /* Give the scene the contact's stiffness and damping that the transitions show, if they do. */
 static ss_status
 take_features(ss_scene *scene, const ss_signal *signal, size_t column, ss_error *err)
@@ -61,8 +59,6 @@ take_features(ss_scene *scene, const ss_signal *signal, size_t column, ss_error 
     ss_features_free(f);
     return SS_OK;
 }
-
-/* --- the scene ----------------------------------------------------------------------------- */
 
 /* The numbers that are adjusted.  Each is the product of so many unknowns of a fit. */
 static const struct {
@@ -197,8 +193,6 @@ judge(ss_fit *fit, const fitting *w)
     fit->conclusive = fit->why[0] == '\0';
     return st;
 }
-
-/* --- all ----------------------------------------------------------------------------------- */
 
 static ss_status
 fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, const ss_rank_opts *opts,

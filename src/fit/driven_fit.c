@@ -329,8 +329,6 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT])
     return SS_OK;
 }
 
-/* --- errors -------------------------------------------------------------------------------- */
-
 /* Find the covariance of the unknowns and the amplitudes of the fit of all rows, whose columns are filled in.
  * slopes: room for a row of them for each row. */
 static void
@@ -385,8 +383,6 @@ find_covariance(problem *p, driven_result *r, double *slopes)
             for (size_t l = 0; l < m; l++)
                 r->covariance[of[k]][of[l]] += score[b][k] * score[b][l];
 }
-
-/* --- the fit ------------------------------------------------------------------------------- */
 
 /* Fit without a fold, from the best of the starts, and add up what it leaves of that fold. */
 static ss_status

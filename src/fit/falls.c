@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include "find/drops.h"
+#include "find/judgement.h"
 #include "scene/model.h"
 
 enum { WINDOW = 512 };          /* the most samples of a fall */
@@ -86,7 +87,7 @@ copy_force(falls *out, const ss_features *f, const double *x, size_t n, double d
     return st;
 }
 
-/* Slips of a Coulomb slider are surely falls: if three quarters are such slips, the others are left out.  Of
+/* Slips of a Coulomb slider are surely falls: if most are such slips, the others are left out.  Of
  * the usable falls at most FALLS_MOST are chosen, evenly over the record. */
 static ss_status
 choose_falls(falls *out, const ss_features *f, size_t n)
@@ -98,7 +99,7 @@ choose_falls(falls *out, const ss_features *f, size_t n)
     for (size_t i = 0; i < f->n; i++)
         slips += (size_t)is_slip(f, i);
     for (size_t i = 0; i < f->n; i++)
-        if (!f->transition[i].gap && (4 * slips < 3 * f->n || is_slip(f, i)))
+        if (!f->transition[i].gap && ((double)slips < MOSTLY * (double)f->n || is_slip(f, i)))
             usable[n_usable++] = i;
     size_t most = n_usable < FALLS_MOST ? n_usable : FALLS_MOST;
     for (size_t i = 0; i < most; i++)

@@ -135,8 +135,6 @@ ss_forced_key_name(const forced *c, size_t key)
         : ss_key_of_field(c->model, c->model->parameter[key - FORCED_OWN].offset)->name;
 }
 
-/* --- the search ---------------------------------------------------------------------------- */
-
 typedef struct search {
     forced *c;
     const cycle *cycle;

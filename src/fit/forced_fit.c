@@ -365,8 +365,6 @@ are_same(const forced_fit *m, const double a[], const double b[])
     return 1;
 }
 
-/* --- all ----------------------------------------------------------------------------------- */
-
 /* Prepare a fit that explains nothing yet: the residual is the record. */
 static ss_status
 begin(fitting *w, forced_fit *m, forced *c, const rank_record *r)

@@ -167,8 +167,6 @@ map_distance(const observation *a, const observation *b)
     return sqrt(sum / (double)a->map->n_scales);
 }
 
-/* --- a scene ------------------------------------------------------------------------------- */
-
 /* Write to the row what the signal's window would show of the adjusted scene, its gaps included, and the distances
  * from the signal's. */
 static ss_status
@@ -406,8 +404,6 @@ conclude(ss_ranking *r, comparison *w, const found *f)
     }
     return st;
 }
-
-/* --- all ----------------------------------------------------------------------------------- */
 
 /* Compare the scenes with the middle of the signal. */
 static ss_status

@@ -180,8 +180,6 @@ search(start best[STARTS], law *l, const law *other, double stiffness)
     return st;
 }
 
-/* --- fits ---------------------------------------------------------------------------------- */
-
 static ss_status
 fit(law *l, double u[UNKNOWNS], double noise, double *squares)
 {

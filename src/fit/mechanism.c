@@ -514,8 +514,6 @@ add_numbers(ss_backbone *out, const fitted *f, const decay_source *of, double ab
     }
 }
 
-/* --- what is smooth about it ----------------------------------------------------------------- */
-
 /* Of a block, weighed over mechanisms: ln A, and mean and square of its rates and of what damping takes from
  * w^2. */
 typedef struct mixed {

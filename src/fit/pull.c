@@ -23,7 +23,6 @@
 #include "scene/model.h"
 
 enum { FITTED = 4 };            /* parameters of a slip */
-#define MOST 0.75               /* the least part of the falls that must be such slips */
 
 ss_status
 ss_pull_check(const ss_signal *signal, size_t column, const ss_scene *start, const ss_rank_opts *opts,
@@ -91,7 +90,7 @@ fit_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *st
         n += l->n;
     }
     ss_falls_doubt(p->why, sizeof p->why, f, signal, column, start);
-    if (p->why[0] == '\0' && (double)p->n_slips < MOST * (double)f->n) {
+    if (p->why[0] == '\0' && (double)p->n_slips < MOSTLY * (double)f->n) {
         snprintf(p->why, sizeof p->why, "%zu of %zu falls are no slips of a pulled Coulomb slider",
                  f->n - p->n_slips, f->n);
         p->verdict = SS_NONE_FITS;
@@ -112,8 +111,6 @@ fit_slips(ss_pull *p, const ss_signal *signal, size_t column, const ss_scene *st
     p->left = left / power;
     return st;
 }
-
-/* --- any scene ----------------------------------------------------------------------------- */
 
 /* Fit by simulation to the falls. */
 static ss_status

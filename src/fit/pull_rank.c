@@ -47,7 +47,7 @@ change_of_friction(const char *name, ss_number found, double given)
 static void
 measure_change(trial *t, ss_rank_row *row, const ss_scene *scene, double known, double limit)
 {
-    change c[PULLED_KEYS + 3];
+    change c[SS_FIT_KEYS + 3];
     double sum = 0, powers = 1, squares = 0, errors = 0;        /* the stiffness has a power of 1, frictions none */
     size_t n = 0;
     for (; n < t->fit.n_keys; n++) {
@@ -195,8 +195,6 @@ name_scene(ss_ranking *r, const trial *t, double noise)
     r->verdict = SS_NAMED;
     return nearest;
 }
-
-/* --- all ----------------------------------------------------------------------------------- */
 
 ss_status
 ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,

@@ -17,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/least.h"
+#include "find/judgement.h"
 #include "find/medians.h"
 #include "fit/samples.h"
 #include "scene/model.h"
@@ -25,7 +26,6 @@
 #define FAR 5                   /* spreads: a scene whose key changes by more is another scene */
 #define FARTHEST 1e3            /* the largest factor of a key if there is no spread */
 #define DIFFERENCE 1e-4         /* of an unknown, for its slopes */
-#define NEARLY 0.05             /* relative error of a fall's height from which the fit may start */
 enum { SETTLED = 4 };           /* the fall that is settled: a contact may ring for long */
 #define PATIENCE (2 * SETTLED)  /* times as long as a fall should take, for these to come */
 
@@ -39,8 +39,6 @@ typedef struct problem {
     double spread, steps, time[FALLS_MOST];     /* at which the scene of each fall falls, of the last residuals */
     const ss_stretch *progress;
 } problem;
-
-/* --- unknowns ------------------------------------------------------------------------------ */
 
 static void
 add_key(pulled_fit *out, const ss_scene *scene, size_t offset, int power, double own)
@@ -284,7 +282,7 @@ start_fall(problem *f, size_t i, double *u, double *row)
             low = fmin(low, y), high = fmax(high, y);
         }
         double part = 2 * height / (high - low);
-        if (st == SS_OK && fabs(part - 1) < NEARLY)
+        if (st == SS_OK && fabs(part - 1) < SLIGHT)
             break;
         if (st == SS_EDATA) {
             slides = half;
@@ -357,7 +355,7 @@ ss_status
 ss_pulled_fit(pulled_fit *out, const falls *r, const ss_scene *scene, double spread, const ss_stretch *progress)
 {
     /* first the frictions alone are free, then also mass and speed, then all keys */
-    static const size_t free_keys[] = { 0, SPEED + 1, PULLED_KEYS };
+    static const size_t free_keys[] = { 0, SPEED + 1, SS_FIT_KEYS };
     const double far = fmin(FAR * spread, log(FARTHEST));
     problem f = { .r = r, .scene = scene, .out = out, .spread = spread, .progress = progress };
     *out = (pulled_fit){ .of_samples = { r->power, r->power, r->noise, 0 } };

@@ -9,8 +9,7 @@
 
 enum {
     FALLS_MOST = 16,                /* falls that are fitted */
-    FALLS_FEWEST = 5,               /* whose median and scatter are given */
-    PULLED_KEYS = SS_FIT_KEYS
+    FALLS_FEWEST = 5                /* whose median and scatter are given */
 };
 #define PULLED_BUDGET 1e7           /* integration steps of a fit */
 
@@ -47,7 +46,7 @@ typedef struct pulled_fit {
     int unfinished;                 /* 1: it took too many steps, so that a better fit may exist */
     ss_scene scene;                 /* of the medians; its slips begin with those of the record */
     size_t n_keys;                  /* the mass, the speed of the pull, and others */
-    pulled_key key[PULLED_KEYS];
+    pulled_key key[SS_FIT_KEYS];
     ss_number static_friction, friction;
     residue of_samples;
 } pulled_fit;

@@ -1,6 +1,7 @@
 # A load point without a step, or with wrong options, is one line and no rows.
 awk 'BEGIN { print "time (s),load (um),mu,p (MPa)"; for (i = 0; i < 100; i++) print i "," i ",.6,1" }' > flat.csv
 ss-rank --load load --column mu flat.csv || echo $?
+ss-rank --share --load load --column mu flat.csv || echo $?
 ss-rank --load mu --column load flat.csv || echo $?
 ss-rank --load load --column load flat.csv || echo $?
 ss-rank --load load --column p flat.csv || echo $?
