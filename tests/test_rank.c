@@ -501,17 +501,18 @@ ask(forced_held of[HELD_TERMS], double *part, const ss_scene *rig, double lag_sa
     const double period = 1 / scene.base_frequency;
     ss_signal *signal = record_of(rig, 300);
     forced c = ss_forced_of(&scene, SS_ACCELERATION, 2);
-    forced_start start = { .size = 1, .shift = remainder(-scene.settle / period, 1) };
     rank_record r = { .x = signal->values, .n = signal->n, .rate = scene.rate };
     forced_fit m;
+    cycle goal;
+    char why[128] = "";
     c.period = period;
-    memcpy(start.key, c.own, sizeof start.key);
     c.range[FORCED_STIFFNESS] = (ss_range){ c.own[FORCED_STIFFNESS], c.own[FORCED_STIFFNESS] };
     if (lag_samples > 0)
         lag(signal->values, signal->n, lag_samples);
     ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, 40), 5, NULL);
     assert_int_equal(ss_record_noise(&r, period * r.rate), SS_OK);
-    assert_int_equal(ss_forced_fit(&m, NULL, &c, &start, 1, 1, &r), SS_OK);
+    assert_int_equal(ss_cycle_find(&goal, why, sizeof why, r.x, NULL, r.n, r.rate, scene.base_frequency), SS_OK);
+    assert_int_equal(ss_forced_fit(&m, NULL, &c, &goal, 16, 1, &r), SS_OK);
     assert_int_equal(ss_forced_gains(of, &c, &m, &r), SS_OK);
     assert_true(m.of_samples.compared > 0);
     *part = m.of_samples.left / m.of_samples.power;

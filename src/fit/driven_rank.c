@@ -137,31 +137,25 @@ fill_terms(double term[TERMS], const driven *d, const double range[2], size_t i)
     term[PLACES + 2] = d->a[i];
 }
 
-/* What a spring of any shape and a damper leave of what the null leaves, in blocks of time to which they were not
- * fitted. */
-static void
+/* The mean square that a spring of any shape and a damper leave of what the null leaves, and its parts of blocks of
+ * time, to which they were not fitted. */
+static double
 find_spring(double spring[BLOCKS], const driven *d, const double *left)
 {
-    double sum[BLOCKS][TERMS + 1][TERMS] = { { { 0 } } }, range[2], term[TERMS], count = 0;
+    double range[2], term[TERMS], sum = 0, count = 0;
     gsl_stats_minmax(&range[0], &range[1], d->x, 1, d->n);
-    for (size_t i = 0; i < d->n; i++) {
-        double (*to)[TERMS] = sum[i * BLOCKS / d->n];
-        fill_terms(term, d, range, i);
-        for (int k = 0; k < TERMS && d->used[i]; k++) {
-            for (int l = 0; l <= k; l++)
-                to[k][l] += term[k] * term[l];
-            to[TERMS][k] += term[k] * left[i];
-        }
+    for (size_t i = 0; i < d->n; i++)
         count += d->used[i];
-    }
     for (size_t b = 0; b < BLOCKS; b++) {
         double h[TERMS * TERMS] = { 0 }, c[1][UNKNOWNS + COLUMNS] = { { 0 } };
-        for (size_t i = 0; i < BLOCKS; i++)
-            for (int k = 0; k < TERMS && i != b; k++) {
+        for (size_t i = 0; i < d->n; i++) {
+            fill_terms(term, d, range, i);
+            for (int k = 0; k < TERMS && d->used[i] && i * BLOCKS / d->n != b; k++) {
                 for (int l = 0; l <= k; l++)
-                    h[k * TERMS + l] += sum[i][k][l];
-                c[0][k] += sum[i][TERMS][k];
+                    h[k * TERMS + l] += term[k] * term[l];
+                c[0][k] += term[k] * left[i];
             }
+        }
         ss_driven_solve(h, TERMS, c, 1);
         spring[b] = 0;
         for (size_t i = (b * d->n + BLOCKS - 1) / BLOCKS; i * BLOCKS / d->n == b; i++) {
@@ -171,7 +165,9 @@ find_spring(double spring[BLOCKS], const driven *d, const double *left)
                 rest -= c[0][k] * term[k];
             spring[b] += d->used[i] * rest * rest / count;
         }
+        sum += spring[b];
     }
+    return sum;
 }
 
 /* The mean square at most of noise with these second differences, if its memory is at most MEMORY of a cycle: of
@@ -414,8 +410,7 @@ judge(ss_motion_ranking *out, const driven *d, const driven *rows, const driven 
     }
     out->n = n;
     if (st == SS_OK) {
-        find_spring(spring, rows, r[0].left);
-        c[n] = (candidate){ .left = ss_verdict_sum(spring) / power, .block = spring };
+        c[n] = (candidate){ .left = find_spring(spring, rows, r[0].left) / power, .block = spring };
         out->verdict = ss_verdict_find(out->answer, sizeof out->answer, c, n, power, &best);
         for (size_t i = 0; i < n; i++) {
             out->row[i].tied = c[i].tied;

@@ -414,11 +414,7 @@ fit_start(forced_fit *m, forced *c, const forced_start *start, const rank_record
     memcpy(u, start->key, sizeof start->key);
     u[FORCED_PHASE] = 2 * M_PI * (r->from / c->period - start->shift + cycles / 2);
     set_ranges(&w, u);
-    m->scene = ss_forced_scene(c, start->key, c->period);
-    m->scene.phase = 2 * M_PI * (r->from / c->period - start->shift);
-    m->scene.rate = r->rate;
-    m->scene.duration = (double)r->n / r->rate;
-    m->scene = ss_forced_resized(c, m->scene, start->size > 0 ? start->size : 1);
+    m->scene = ss_forced_resized(c, scene_of(&w, u), start->size > 0 ? start->size : 1);
     memcpy(m->u, u, sizeof m->u);
     if (st == SS_OK && start->size > 0 && start->misfit < LITTLE * power)
         st = minimise(&w, u);

@@ -55,15 +55,6 @@ ss_residue_equals(const residue *r, const residue *other, double noise)
 /* --- laws ---------------------------------------------------------------------------------- */
 
 double
-ss_verdict_sum(const double a[BLOCKS])
-{
-    double sum = 0;
-    for (size_t k = 0; k < BLOCKS; k++)
-        sum += a[k];
-    return sum;
-}
-
-double
 ss_verdict_error(const double a[BLOCKS], const double b[BLOCKS])
 {
     double sum = 0, squares = 0;
@@ -84,9 +75,9 @@ ss_verdict_append(char *text, size_t room, const char *word)
 
 /* Why the best law is none, or NULL. */
 static const char *
-find_fault(const candidate c[], size_t n, const candidate *best)
+find_fault(const candidate c[], size_t n, const candidate *best, double power)
 {
-    const double surely = 1 - 2 * ss_verdict_error(best->block, NULL) / ss_verdict_sum(best->block);
+    const double surely = 1 - 2 * ss_verdict_error(best->block, NULL) / (best->left * power);
     return c[0].tied ? "no law explains more than the null"
         : c[n].tied ? "no law explains more than a spring of any shape and a damper"
         : 1 - best->left < EXPLAINED ? "too little is explained"
@@ -126,7 +117,7 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         snprintf(answer, room, "none of these: no law explains any of the force that was held out");
         return SS_NONE_FITS;
     }
-    const char *fault = find_fault(c, n, most);
+    const char *fault = find_fault(c, n, most, power);
     if (fault != NULL) {
         snprintf(answer, room, "none of these: %s; %s explains %s of the force that was held out, and leaves %s "
                  "times the noise", fault, most->name, number, ss_number_rounded(times, most->excess, 4));

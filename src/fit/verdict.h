@@ -49,7 +49,6 @@ typedef struct candidate {
 /* Find the answer; the first of the n candidates, simplest first, is the null, and another null, a spring of any
  * shape, stands behind them.  *best becomes the law that is named, or that explains most. */
 ss_verdict ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power, size_t *best);
-double ss_verdict_sum(const double a[BLOCKS]);
 /* The standard error of a sum over blocks, or of the difference of two; b may be NULL. */
 double ss_verdict_error(const double a[BLOCKS], const double b[BLOCKS]);
 /* Append a word to a list. */
