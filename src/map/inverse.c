@@ -70,16 +70,6 @@ norm2(const double *x, size_t n)
     return sum[0];
 }
 
-/* w becomes the coefficients that are given, a part of scale i, less w. */
-static ss_status
-subtract(const solver *s, size_t i, span part, double *w, ss_error *err)
-{
-    ss_status st = ss_map_read(s->coef, &(ss_map_part){ i, part.first, part.n, s->given, NULL }, 1, err);
-    for (size_t k = 0; st == SS_OK && k < 2 * part.n; k++)
-        w[k] = s->given[k] * s->unit[0] * s->unit[1] - w[k];
-    return st;
-}
-
 /* Add the adjoint of a part of scale i to samples, those of blocks not before the sums' end. */
 static void
 add_adjoint(solver *s, size_t i, span part, const double *w, double *to)
@@ -96,39 +86,35 @@ add_adjoint(solver *s, size_t i, span part, const double *w, double *to)
         }
 }
 
-/* What `transform` says, for scale i of the record, part by part. */
-static ss_status
-one_scale(solver *s, size_t i, const transformed *of, int rest, double *to, double *norm, ss_error *err)
-{
-    const ss_scale *sc = &s->plan->scale[i];
-    double sum = 0;
-    for (size_t k = 0, n; k < sc->n; k += n) {
-        n = ss_morlet_part_length(s->plan, i, k);
-        span part = { k, n < sc->n - k ? n : sc->n - k };
-        ss_status st = ss_morlet_part(s->plan, of, s->scratch, &(ss_map_part){ i, k, part.n, s->part, NULL }, err);
-        if (st == SS_OK && rest)
-            st = subtract(s, i, part, s->part, err);
-        if (st != SS_OK)
-            return st;
-        sum += norm2(s->part, 2 * part.n);
-        add_adjoint(s, i, part, s->part, to);
-    }
-    *norm += weight_of(s, sc) * sum;
-    return SS_OK;
-}
-
 /* The coefficients of x, or with rest the given ones less those: *norm becomes the weighted sum of their
  * squares, and `to` the adjoint of the transform applied to them.  No more than a part of them is in memory
  * at a time. */
 static ss_status
 transform(solver *s, const double *x, int rest, double *to, double *norm, ss_error *err)
 {
+    const double unit[2] = { s->unit[0], s->unit[1] };
     transformed of;
     ss_status st = ss_morlet_begin(s->plan, x, &of, err);
     memset(to, 0, s->plan->n * sizeof *to);
     *norm = 0;
-    for (size_t i = 0; st == SS_OK && i < s->plan->n_scales; i++)
-        st = one_scale(s, i, &of, rest, to, norm, err);
+    for (size_t i = 0; st == SS_OK && i < s->plan->n_scales; i++) {
+        const ss_scale *sc = &s->plan->scale[i];
+        double sum = 0;
+        for (size_t k = 0, n; st == SS_OK && k < sc->n; k += n) {
+            n = ss_morlet_part_length(s->plan, i, k);
+            n = n < sc->n - k ? n : sc->n - k;
+            st = ss_morlet_part(s->plan, &of, s->scratch, &(ss_map_part){ i, k, n, s->part, NULL }, err);
+            if (st == SS_OK && rest)
+                st = ss_map_read(s->coef, &(ss_map_part){ i, k, n, s->given, NULL }, 1, err);
+            for (size_t c = 0; st == SS_OK && rest && c < 2 * n; c++)
+                s->part[c] = s->given[c] * unit[0] * unit[1] - s->part[c];
+            if (st == SS_OK) {
+                sum += norm2(s->part, 2 * n);
+                add_adjoint(s, i, (span){ k, n }, s->part, to);
+            }
+        }
+        *norm += weight_of(s, sc) * sum;
+    }
     if (st == SS_OK && s->sums != NULL)
         st = ss_block_sums_end(s->sums, to);
     ss_morlet_end(&of);
@@ -155,19 +141,11 @@ level(solver *s)
     return product;
 }
 
-/* Round x up to two digits. */
-static double
-round_up(double x)
-{
-    double unit = pow(10, floor(log10(x)) - 1);
-    return ceil(x / unit) * unit;
-}
-
 /* power: of the passes, with which the residual falls. */
 static ss_status
 refuse(double tol, double residual, int passes, double power, int stays, ss_error *err)
 {
-    double takes = round_up(residual);
+    double unit = pow(10, floor(log10(residual)) - 1), takes = ceil(residual / unit) * unit;    /* rounded up */
     if (stays || takes > 0.1)
         return ss_fail(err, SS_ETOL, "no signal has these coefficients within %g: %.2g of them is "
                        "left after %d passes, and stays", tol, takes, passes);
@@ -175,14 +153,6 @@ refuse(double tol, double residual, int passes, double power, int stays, ss_erro
                    "which would take some %.0g passes: what lies at the edge of the scales and beyond is found "
                    "slowly; an accuracy of %.2g can be had, or more with scales that reach further", passes,
                    takes, tol, passes * pow(residual / tol, 1 / power), takes);
-}
-
-/* The progress of the search: every pass lowers the rest by about the same factor. */
-static ss_status
-report(const solver *s, double left, double tol, int pass)
-{
-    double done = fmax(log(left) / (2 * log(tol)), (double)pass / PASSES);
-    return ss_stretch_at(&s->progress, fmin(1, fmax(0, done)));
 }
 
 /* Go along the step to the least rest, whose squares were *left. */
@@ -216,7 +186,9 @@ solve(solver *s, double tol, double *residual, ss_error *err)
     memcpy(s->step, s->levelled, n * sizeof *s->step);
     left = fresh = then = all;
     for (; st == SS_OK && left > tol * tol * all && slope > 0 && pass < PASSES && !stays; pass++) {
-        if ((st = report(s, left / all, tol, pass)) == SS_OK)
+        /* every pass lowers the rest by about the same factor */
+        double done = fmax(log(left / all) / (2 * log(tol)), (double)pass / PASSES);
+        if ((st = ss_stretch_at(&s->progress, fmin(1, fmax(0, done)))) == SS_OK)
             st = advance(s, slope, &left, err);
         if (st == SS_OK && (left <= FRESH * FRESH * fresh || left <= tol * tol * all)) {
             st = transform(s, s->x, 1, s->gradient, &left, err);
@@ -271,16 +243,6 @@ set_gains(solver *s, double tol)
         s->gain[k] = 1 / (s->gain[k] + faint * most);
 }
 
-/* The largest step of translations in units of their scale. */
-static double
-largest_step(const ss_morlet *plan)
-{
-    double most = 0;
-    for (size_t i = 0; i < plan->n_scales; i++)
-        most = fmax(most, plan->scale[i].b_num / plan->scale[i].b_den / plan->scale[i].a);
-    return most;
-}
-
 /* The ratio of the frame bounds after Daubechies (1990), theorem 2.7, for frequencies between those of the
  * longest and the shortest scale.  The lower bound is the smallest sum of |H|^2 minus the aliases that
  * translations step a apart make; the upper one is the largest sum plus these aliases. */
@@ -291,9 +253,11 @@ find_bounds(solver *s)
     const ss_scale *longest = &s->plan->scale[0];
     const ss_scale *shortest = &s->plan->scale[s->plan->n_scales - 1];
     double lowest = 2 * M_PI * longest->f, ratio = shortest->f / longest->f;
-    double step = largest_step(s->plan), least = INFINITY, most = 0;
+    double step = 0, least = INFINITY, most = 0;            /* the largest step in units of its scale */
     double beta[2 * SHIFTS] = { 0 }, alias = 0;
     size_t n = PER_SCALE * s->plan->n_scales;
+    for (const ss_scale *sc = longest; sc <= shortest; sc++)
+        step = fmax(step, sc->b_num / sc->b_den / sc->a);
     for (size_t i = 0; i <= n; i++) {
         double w = lowest * pow(ratio, (double)i / (double)n), sum = overlap(s, w, 0);
         least = fmin(least, sum);

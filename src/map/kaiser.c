@@ -7,10 +7,10 @@
  * the band ends in a Gaussian the images near its edge are as weak as the band is there, so kernels
  * with a lower cutoff than the band's edge are tried too, and the shortest is taken. */
 #include <math.h>
-#include "base/versions.h"
 #include "map/kaiser.h"
 
-/* Bessel's I0 of sqrt(4 y), by its series: all terms are positive, so it is exact to rounding. */
+/* Bessel's I0 of sqrt(4 y), by its series: all terms are positive, so it is exact to rounding.  (GSL's is not, as the
+ * argument is rounded: it is some 20 here, and so is the factor of its error.) */
 static double
 bessel_i0(double y)
 {
@@ -48,22 +48,16 @@ envelope(int taps, double beta, double nu)
 }
 
 static double
-series_size(const kaiser_band *band, double s)
-{
-    double v = band->reach * s, u = fmax(0, v - band->center);
-    return fmax(exp(-v * v / 2), band->second * exp(-u * u / 2));
-}
-
-static double
 worst_image(const kaiser_band *band, int taps, double beta)
 {
     enum { PLACES = 16 };
     double worst = 0;
     for (int i = 0; i <= PLACES; i++) {
-        double s = (double)i / PLACES, nu = s * band->edge, images = 0;
+        double s = (double)i / PLACES, nu = s * band->edge, v = s * band->reach, u = fmax(0, v - band->center);
+        double size = fmax(exp(-v * v / 2), band->second * exp(-u * u / 2)), images = 0;
         for (int m = 1; m <= 2; m++)
             images += envelope(taps, beta, m - nu) + envelope(taps, beta, m + nu);
-        worst = fmax(worst, series_size(band, s) * images / envelope(taps, beta, nu));
+        worst = fmax(worst, size * images / envelope(taps, beta, nu));
     }
     return worst;
 }
@@ -86,72 +80,39 @@ ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound)
     return 0;
 }
 
-/* --- tables: polynomials through Chebyshev nodes ------------------------------ */
-
-static double
-node(int i, int n)
-{
-    return cos(M_PI * (i + 0.5) / n);
-}
-
-/* Replace the n values c at the nodes x by the coefficients of Newton's form. */
-static void
-divided_differences(double *c, const double *x, int n)
-{
-    for (int order = 1; order < n; order++)
-        for (int i = n - 1; i >= order; i--)
-            c[i] = (c[i] - c[i - 1]) / (x[i] - x[i - order]);
-}
-
-/* Replace the coefficients of Newton's form by those of powers. */
-static void
-expand(double *c, const double *x, int n)
-{
-    for (int order = n - 1; order > 0; order--)
-        for (int i = order - 1; i < n - 1; i++)
-            c[i] -= x[order - 1] * c[i + 1];
-}
-
-static void
-prepare_part(kaiser *ker, int part)
-{
-    double c[KAISER_NODES], y[KAISER_NODES];
-    for (int i = 0; i < ker->taps; i++) {
-        for (int m = 0; m < KAISER_NODES; m++) {
-            y[m] = node(m, KAISER_NODES);
-            double f = (part + (1 + y[m]) / 2) / KAISER_PARTS;
-            c[m] = ss_kaiser_at(ker->taps, ker->beta, f + (ker->taps / 2 - 1 - i));
-        }
-        divided_differences(c, y, KAISER_NODES);
-        expand(c, y, KAISER_NODES);
-        for (int m = 0; m < KAISER_NODES; m++)
-            ker->table[part][m][i] = c[m];
-    }
-}
-
+/* The polynomials go through the kernel at Chebyshev's nodes. */
 void
 ss_kaiser_prepare(kaiser *ker)
 {
+    double c[KAISER_NODES], y[KAISER_NODES];
     for (int part = 0; part < KAISER_PARTS; part++)
-        prepare_part(ker, part);
+        for (int i = 0; i < ker->taps; i++) {
+            for (int m = 0; m < KAISER_NODES; m++) {
+                y[m] = cos(M_PI * (m + 0.5) / KAISER_NODES);
+                double f = (part + (1 + y[m]) / 2) / KAISER_PARTS;
+                c[m] = ss_kaiser_at(ker->taps, ker->beta, f + (ker->taps / 2 - 1 - i));
+            }
+            for (int order = 1; order < KAISER_NODES; order++)          /* divided differences */
+                for (int m = KAISER_NODES - 1; m >= order; m--)
+                    c[m] = (c[m] - c[m - 1]) / (y[m] - y[m - order]);
+            for (int order = KAISER_NODES - 1; order > 0; order--)      /* coefficients of powers */
+                for (int m = order - 1; m < KAISER_NODES - 1; m++)
+                    c[m] -= y[order - 1] * c[m + 1];
+            for (int m = 0; m < KAISER_NODES; m++)
+                ker->table[part][m][i] = c[m];
+        }
     ker->prepared = 1;
-}
-
-VERSIONS static void
-weights_of(const kaiser *ker, double f, double weight[])
-{
-    int part = (int)(f * KAISER_PARTS);
-    part = part < KAISER_PARTS ? part : KAISER_PARTS - 1;
-    double y = 2 * (f * KAISER_PARTS - part) - 1;
-    for (int i = 0; i < ker->taps; i++)
-        weight[i] = ker->table[part][KAISER_NODES - 1][i];
-    for (int m = KAISER_NODES - 2; m >= 0; m--)
-        for (int i = 0; i < ker->taps; i++)
-            weight[i] = weight[i] * y + ker->table[part][m][i];
 }
 
 void
 ss_kaiser_weights(const kaiser *ker, double f, double weight[])
 {
-    weights_of(ker, f, weight);
+    int part = (int)(f * KAISER_PARTS);
+    part = part < KAISER_PARTS ? part : KAISER_PARTS - 1;
+    double y = 2 * (f * KAISER_PARTS - part) - 1;
+    for (int i = 0; i < ker->taps; i++) {
+        weight[i] = ker->table[part][KAISER_NODES - 1][i];
+        for (int m = KAISER_NODES - 2; m >= 0; m--)
+            weight[i] = weight[i] * y + ker->table[part][m][i];
+    }
 }

@@ -105,44 +105,6 @@ only_zero(double b[], int degree, double error)
     return hi;
 }
 
-static void
-halve(const double b[], int degree, double left[], double right[])
-{
-    memcpy(right, b, (size_t)(degree + 1) * sizeof *b);
-    for (int n = degree; n >= 0; n--) {
-        left[degree - n] = right[0];
-        for (int i = 0; i < n; i++)
-            right[i] = (right[i] + right[i + 1]) / 2;
-    }
-}
-
-/* The result that the signs of the coefficients give. */
-typedef struct signs {
-    int first;                      /* the first coefficient beyond rounding of 0; 0 if none */
-    int changes;
-    int flat;                       /* the guard may touch 0 after its start and before its end */
-} signs;
-
-static signs
-signs_of(const double b[], int degree, double error)
-{
-    signs s = { 0, 0, 0 };
-    int last = 0, undecided = 0;
-    for (int i = 0; i <= degree; i++) {
-        int now = fabs(b[i]) <= error ? 0 : sign(b[i]);
-        undecided = now == 0 ? undecided + 1 : 0;
-        if (now == 0)
-            s.flat |= last > 0 && (i < degree || undecided > 1);
-        if (now == 0 || now == last)
-            continue;
-        s.changes += last != 0;
-        if (last == 0)
-            s.first = now;
-        last = now;
-    }
-    return s;
-}
-
 /* The first x in [0, 1] after which b is negative; 0 if there is none.  At the start of a step b may
  * be 0. */
 static int
@@ -150,21 +112,35 @@ first_zero(double b[], int degree, double error, int at_start, int halvings, dou
            int *unresolved)
 {
     double left[MOST_DEGREE + 1], right[MOST_DEGREE + 1];
-    signs s = signs_of(b, degree, error);
-    if (s.changes == 0 && s.first >= 0 && !s.flat) {
-        *unresolved |= s.first == 0 && !at_start;
+    int first = 0, last = 0, changes = 0, undecided = 0;    /* first: the sign of the first beyond rounding of 0 */
+    int flat = 0;                       /* the guard may touch 0 after its start and before its end */
+    for (int i = 0; i <= degree; i++) {
+        int now = fabs(b[i]) <= error ? 0 : sign(b[i]);
+        undecided = now == 0 ? undecided + 1 : 0;
+        flat |= now == 0 && last > 0 && (i < degree || undecided > 1);
+        changes += now != 0 && last != 0 && now != last;
+        first = first == 0 ? now : first;
+        last = now != 0 ? now : last;
+    }
+    if (changes == 0 && first >= 0 && !flat) {
+        *unresolved |= first == 0 && !at_start;
         return 0;
     }
-    if (s.changes == (s.first > 0)) {
+    if (changes == (first > 0)) {
         *x = only_zero(b, degree, error);
         return 1;
     }
     if (halvings == 0) {
         *unresolved = 1;
         *x = 1;
-        return s.changes > 0;
+        return changes > 0;
     }
-    halve(b, degree, left, right);
+    memcpy(right, b, (size_t)(degree + 1) * sizeof *b);
+    for (int n = degree; n >= 0; n--) {
+        left[degree - n] = right[0];
+        for (int i = 0; i < n; i++)
+            right[i] = (right[i] + right[i + 1]) / 2;
+    }
     if (first_zero(left, degree, error, at_start, halvings - 1, x, unresolved)) {
         *x /= 2;
         return 1;

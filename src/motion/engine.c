@@ -196,5 +196,8 @@ ss_engine_accept(engine *e)
     memcpy(m->q, e->q1, sizeof m->q);
     memcpy(e->dq0, e->dq1, sizeof e->dq0);
     m->u += e->h;
-    e->type->go_on(e);
+    if (e->type->go_on != NULL)
+        e->type->go_on(e);
+    else
+        ss_motion_rebase(e->m);
 }

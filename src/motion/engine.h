@@ -44,7 +44,8 @@ struct engine_type {
     /* Keep another tolerance from the next step on.  NULL if the engine cannot change its
      * tolerance, or has none. */
     void (*keep)(engine *e, double tol);
-    /* The motion has reached the end of the step: let u have a new origin if the engine needs one. */
+    /* The motion has reached the end of the step: let u have a new origin if the engine needs one.  NULL: u counts
+     * from there. */
     void (*go_on)(engine *e);
     /* Free all that the engine holds, but not the engine.  May be NULL. */
     void (*release)(engine *e);

@@ -299,13 +299,6 @@ radau_step(engine *e, double h_max, ss_error *err)
     return SS_OK;
 }
 
-static void
-radau_go_on(engine *e)
-{
-    ss_motion_rebase(e->m);
-}
-
 const struct engine_type ss_radau_engine = {
-    .size = sizeof(radau), .make = radau_make, .begin = radau_begin, .step = radau_step, .at = radau_at,
-    .go_on = radau_go_on
+    .size = sizeof(radau), .make = radau_make, .begin = radau_begin, .step = radau_step, .at = radau_at
 };

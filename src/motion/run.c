@@ -65,12 +65,6 @@ flush(sampler *r)
     return SS_OK;
 }
 
-static turn
-base_turns(const ss_scene *scene)
-{
-    return turn_of(2 * M_PI * instant_cycles(instant_sample(1, scene->rate), scene->base_frequency));
-}
-
 /* Report that t seconds of settling and record are done. */
 static ss_status
 report(const sampler *r, double t)
@@ -109,27 +103,21 @@ fill_sample(ss_sample *sample, sampler *r, const walk *w, double s)
     sample->t = (double)r->i / r->scene->rate;
 }
 
+/* SS_ERANGE unless all numbers of the sample are finite.  They are if their sum is. */
 static ss_status
-check_each(const sampler *r, const ss_sample *s, ss_error *err)
+check_sample(const sampler *r, const ss_sample *s, ss_error *err)
 {
     static const char name[] = "xvafsyz";
     const double value[] = { s->x, s->v, s->a, s->f, s->s, s->y, s->z };
     int i = 0;
+    if (isfinite(s->x + s->v + s->a + s->f + s->s + s->y + s->z))
+        return SS_OK;
     while (name[i] != '\0' && isfinite(value[i]))
         i++;
     if (name[i] == '\0')
         return SS_OK;
     return ss_fail(err, SS_ERANGE, "%c is not finite at t = %.9g s after %.9g s of settling: numbers "
                    "of this scene lie beyond double precision", name[i], s->t, r->scene->settle);
-}
-
-/* SS_ERANGE unless all numbers of the sample are finite.  They are if their sum is. */
-static inline ss_status
-check_sample(const sampler *r, const ss_sample *s, ss_error *err)
-{
-    if (isfinite(s->x + s->v + s->a + s->f + s->s + s->y + s->z))
-        return SS_OK;
-    return check_each(r, s, err);
 }
 
 /* Write all samples of a leg. */
@@ -184,19 +172,6 @@ write_event(sampler *r, const motion *m, ss_event *e)
 #define WORK_SAMPLE 1e4
 #define WORK_SECOND 1e6
 #define WORK_MOST 1e11
-
-static double
-work_allowed(const ss_scene *scene)
-{
-    double length = scene->settle + scene->duration;
-    return fmin(WORK_ALWAYS + length * (WORK_SAMPLE * scene->rate + WORK_SECOND), WORK_MOST);
-}
-
-static int
-has_budget(const sampler *r, const engine *e)
-{
-    return r->opts->max_steps > 0 ? e->steps < r->opts->max_steps : (double)e->rhs < r->work;
-}
 
 /* SS_EBUDGET, with the reason why the run was too long and an estimate of the steps that it needs. */
 static ss_status
@@ -257,7 +232,7 @@ run(sampler *r, walk *w, ss_error *err)
         ss_event event;
         int is_event, steps = now->mode != 0 || now->model->still == NULL;
         double longest = r->scene->base != NULL ? now->u_knot - now->u : INFINITY;
-        if (steps && !has_budget(r, e))
+        if (steps && (r->opts->max_steps > 0 ? e->steps >= r->opts->max_steps : (double)e->rhs >= r->work))
             return over_budget(r, e, fmin(w->cap, longest), err);
         if (steps && e->lands_on_samples && r->i < r->n) {
             double s = until_sample(r, m, r->i);
@@ -307,11 +282,14 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *given, ss_sim_stats *stats,
     if (st != SS_OK)
         return st;
     ss_sample buffer[BUFFERED];
+    const double length = scene->settle + scene->duration;
     sampler r = { .scene = scene, .opts = opts, .buffer = buffer,
                  .n = opts->samples != NULL ? ss_scene_samples(scene) : 0,
                  .end = instant_sum(scene->settle, scene->duration),
-                 .interval = 1 / scene->rate, .work = work_allowed(scene),
-                 .base_further = base_turns(scene) };
+                 .interval = 1 / scene->rate,
+                 .work = fmin(WORK_ALWAYS + length * (WORK_SAMPLE * scene->rate + WORK_SECOND), WORK_MOST),
+                 .base_further = turn_of(2 * M_PI * instant_cycles(instant_sample(1, scene->rate),
+                                                                   scene->base_frequency)) };
     walk w;
     st = ss_walk_begin(&w, scene, opts, err);
     if (st == SS_OK)

@@ -39,13 +39,6 @@ typedef struct taylor {
     int taken;                              /* samples taken from the batch; BATCH: none are left */
 } taylor;
 
-static int
-order_of(double tol)
-{
-    int order = 2 * (int)ceil(2 - log10(tol) * 2 / 3);
-    return order < LEAST_ORDER ? LEAST_ORDER : order > MOST_ORDER ? MOST_ORDER : order;
-}
-
 /* The longest step [unit] that keeps the tolerance; 0 if the series is not finite.  The step is near 1, so
  * one root serves for the last two orders, and seven digits of it suffice. */
 static double
@@ -192,16 +185,11 @@ taylor_at(engine *e, reading where, double s, turn base, double q[], double dqdt
 }
 
 static void
-taylor_go_on(engine *e)
-{
-    ss_motion_rebase(e->m);
-}
-
-static void
 taylor_keep(engine *e, double tol)
 {
     taylor *t = (taylor *)e;
-    t->order = order_of(tol);
+    int order = 2 * (int)ceil(2 - log10(tol) * 2 / 3);
+    t->order = order < LEAST_ORDER ? LEAST_ORDER : order > MOST_ORDER ? MOST_ORDER : order;
     e->tol = tol;
     t->relative = ss_motion_relative(&e->m->now, tol) / tol;
 }
@@ -219,5 +207,5 @@ taylor_make(engine *e, ss_error *err)
 
 const struct engine_type ss_taylor_engine = {
     .size = sizeof(taylor), .make = taylor_make, .begin = taylor_begin, .step = taylor_step, .at = taylor_at,
-    .keep = taylor_keep, .go_on = taylor_go_on
+    .keep = taylor_keep
 };

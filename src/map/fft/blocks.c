@@ -87,14 +87,6 @@ band_around(double center, double half, double a, double rate, double points)
     return b;
 }
 
-/* Cycles a point that the band reaches from its middle with L points. */
-static double
-edge_of(const band *b, size_t length)
-{
-    double most = (double)(b->hi - b->mid > b->mid - b->lo ? b->hi - b->mid : b->mid - b->lo);
-    return most / (double)length;
-}
-
 /* --- which scales, in what windows ------------------------------------------------------------ */
 
 static double
@@ -134,16 +126,6 @@ choose_windows(stage *st, size_t n, size_t reach, size_t margin)
     *st = best;
 }
 
-/* The same for level l of a stream.  The lower levels make most of the coefficients, and have long
- * windows, which cost less; the higher levels delay most, and have short ones. */
-static void
-stream_windows(stage *st, int l, size_t reach, size_t margin)
-{
-    *st = (stage){ .margin = margin, .overlap = 2 * reach };
-    st->length = 16 * reach >> (l < 2 ? l : 2);
-    st->hop = st->length - st->overlap;
-}
-
 static ss_status
 make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, double a, size_t length)
 {
@@ -168,17 +150,6 @@ make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, double
     return SS_OK;
 }
 
-/* M of a scale on its level; 0 if its steps do not repeat in a window. */
-static size_t
-points_of(const stage *st, const ss_scale *scale, int l, double rate)
-{
-    double parts = ss_scale_parts(scale, rate), apart = ldexp(scale->b_num, -l);
-    double points = parts * (double)st->length / apart;
-    if (parts == 0 || (double)st->overlap < apart || points > LONGEST)
-        return 0;
-    return (size_t)points;
-}
-
 /* M where translations lie between points: the least power of two that the kernel needs, and no less than `least`. */
 static size_t
 points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, const ss_scale *scale,
@@ -187,49 +158,47 @@ points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, c
     const ss_morlet_opts *opts = &plan->opts;
     band of = band_around(opts->center, half_width(opts), ldexp(scale->a, -l), plan->rate,
                           (double)st->length);
+    double most = (double)(of.hi - of.mid > of.mid - of.lo ? of.hi - of.mid : of.mid - of.lo);
     size_t points = 4 * PLACES_MARGIN;
-    while (points < least || edge_of(&of, points) > b->kernel->edge)
+    while (points < least || most / (double)points > b->kernel->edge)
         points *= 2;
     return points <= LONGEST ? points : 0;
 }
 
-/* Choose the level and M of scale i.  M is 0 if the scale cannot be computed here. */
-static void
-choose_points(struct blocks *b, const ss_morlet *plan, size_t i)
-{
-    block_scale *r = &b->scale[i];
-    const ss_scale *scale = &plan->scale[i];
-    r->level = level_of(plan, scale);
-    if (r->level < 0)
-        return;
-    const stage *st = &b->stage[r->level];
-    r->points = points_of(st, scale, r->level, plan->rate);
-    r->hop = r->points - r->points / (st->length / st->overlap);
-    size_t least = plan->opts.dense ? st->circle / DENSE_PHASES_MAX : 0;
-    r->kind = plan->opts.dense && r->level > 0 && least <= LONGEST ? EACH : r->points == 0 ? BETWEEN : AT_POINTS;
-    if (r->kind != AT_POINTS)
-        r->points = points_between(b, plan, st, scale, r->level, r->kind == EACH ? least : 0);
-    if (r->kind == EACH)
-        r->hop = st->hop << r->level;
-}
-
-/* Choose the scales that are computed here: those that can be. */
+/* Choose the scales that are computed here, those that can be, and their level and M. */
 static void
 choose_rows(struct blocks *b, const ss_morlet *plan)
 {
     for (size_t i = 0; i < b->n_scales; i++) {
         block_scale *r = &b->scale[i];
-        choose_points(b, plan, i);
+        const ss_scale *scale = &plan->scale[i];
+        if ((r->level = level_of(plan, scale)) < 0)
+            continue;
+        stage *st = &b->stage[r->level];
+        /* M where the steps repeat in a window */
+        double parts = ss_scale_parts(scale, plan->rate), apart = ldexp(scale->b_num, -r->level);
+        double points = parts * (double)st->length / apart;
+        int repeats = parts > 0 && (double)st->overlap >= apart && points <= LONGEST;
+        size_t least = plan->opts.dense ? st->circle / DENSE_PHASES_MAX : 0;
+        r->kind = plan->opts.dense && r->level > 0 && least <= LONGEST ? EACH : repeats ? AT_POINTS : BETWEEN;
+        r->points = repeats ? (size_t)points : 0;
+        r->hop = r->points - r->points / (st->length / st->overlap);
+        if (r->kind != AT_POINTS)
+            r->points = points_between(b, plan, st, scale, r->level, r->kind == EACH ? least : 0);
+        if (r->kind == EACH)
+            r->hop = st->hop << r->level;
         if (r->points == 0) {
             r->level = -1;
             continue;
         }
-        b->stage[r->level].used = 1;
+        st->used = 1;
         b->longest = r->points > b->longest ? r->points : b->longest;
         b->levels = (size_t)r->level + 1 > b->levels ? (size_t)r->level + 1 : b->levels;
     }
 }
 
+/* In a stream the lower levels make most of the coefficients, and have long windows, which cost less; the higher
+ * levels delay most, and have short ones. */
 static void
 choose_stages(struct blocks *b, const ss_morlet *plan)
 {
@@ -239,10 +208,11 @@ choose_stages(struct blocks *b, const ss_morlet *plan)
         reach *= 2;
     for (int l = 0; l < LEVELS; l++) {
         stage *st = &b->stage[l];
-        if (plan->window)
-            stream_windows(st, l, reach, (size_t)b->margin);
-        else
-            choose_windows(st, n, reach, (size_t)b->margin);
+        choose_windows(st, n, reach, (size_t)b->margin);
+        if (plan->window) {
+            st->length = 16 * reach >> (l < 2 ? l : 2);
+            st->hop = st->length - st->overlap;
+        }
         st->windows = 1 + windows_for(st, n + 2 * st->margin);
         st->stride = st->length + ALIGN;
         st->circle = st->length << l;
@@ -272,22 +242,6 @@ places_of(struct blocks *b, block_scale *r)
     return SS_OK;
 }
 
-static ss_status
-make_filter(stage *st)
-{
-    size_t half = st->length / 4;
-    double s = (M_PI / 2 - BAND / 2) / FILTER_CUT;
-    st->filter = malloc(2 * (half + 1) * sizeof *st->filter);
-    if (st->filter == NULL)
-        return SS_ENOMEM;
-    for (size_t k = 0; k <= half; k++) {
-        double x = (2 * M_PI * (double)k / (double)st->length - M_PI / 2) / (sqrt(2) * s);
-        st->filter[k] = erfc(x) / 2 / (double)st->length;
-        st->filter[half + 1 + k] = erfc(-x) / 2 / (double)st->length;
-    }
-    return SS_OK;
-}
-
 size_t
 ss_blocks_room(const struct blocks *b)
 {
@@ -297,7 +251,7 @@ ss_blocks_room(const struct blocks *b)
 ss_status
 ss_blocks_new(ss_morlet *plan)
 {
-    double margin = ceil(REACH / ((M_PI / 2 - BAND / 2) / FILTER_CUT));
+    double s = (M_PI / 2 - BAND / 2) / FILTER_CUT, margin = ceil(REACH / s);
     if (plan->opts.engine == SS_ENGINE_QUADRATURE
         || plan->n > INT_MAX / 2)
         return SS_OK;
@@ -327,8 +281,16 @@ ss_blocks_new(ss_morlet *plan)
         if (st == SS_OK && r->level >= 0)
             st = places_of(b, r);
     }
-    for (size_t l = 0; st == SS_OK && l + 1 < b->levels; l++)
-        st = make_filter(&b->stage[l]);
+    for (stage *of = b->stage; st == SS_OK && of + 1 < b->stage + b->levels; of++) {
+        size_t half = of->length / 4;
+        if ((of->filter = malloc(2 * (half + 1) * sizeof *of->filter)) == NULL)
+            st = SS_ENOMEM;
+        for (size_t k = 0; st == SS_OK && k <= half; k++) {
+            double x = (2 * M_PI * (double)k / (double)of->length - M_PI / 2) / (sqrt(2) * s);
+            of->filter[k] = erfc(x) / 2 / (double)of->length;
+            of->filter[half + 1 + k] = erfc(-x) / 2 / (double)of->length;
+        }
+    }
     return st == SS_OK ? ss_blocks_plans_make(b, ss_blocks_room(b)) : st;
 }
 

@@ -33,17 +33,6 @@ copy_samples(const samples *s, ptrdiff_t first, size_t n, double *to)
     memset(to + (hi - first), 0, (size_t)(end - hi) * sizeof *to);
 }
 
-/* The terms of a window.  Its samples follow at x[overlap/2]; before them x has the overlap/2 samples that
- * precede the window.  v has room for a window. */
-static void
-transform(const stage *st, const double *x, double *v, double *terms)
-{
-    size_t before = st->overlap / 2;
-    memcpy(v, x + before, (st->length - before) * sizeof *v);
-    memcpy(v + st->length - before, x, before * sizeof *v);
-    fftw_execute_dft_r2c(st->forward, v, (fftw_complex *)terms);
-}
-
 /* The terms k <= L/4 of the same window on the next level, from those on this one. */
 VERSIONS static void
 filter_terms(const stage *st, const double *restrict x, double *restrict y)
@@ -54,15 +43,6 @@ filter_terms(const stage *st, const double *restrict x, double *restrict y)
         y[2 * k] = f[k] * x[2 * k] + g[k] * *(z - 2 * k);
         y[2 * k + 1] = f[k] * x[2 * k + 1] - g[k] * *(z - 2 * k + 1);
     }
-}
-
-/* The hop/2 samples of the next level that a window determines; to[0] becomes the first.  spare has room
- * for a window. */
-static void
-decimate(const stage *st, const double *terms, double *spare, double *to)
-{
-    filter_terms(st, terms, spare);
-    fftw_execute_dft_c2r(st->back, (fftw_complex *)spare, to);
 }
 
 /* The doubles needed for a window of any level: its samples, its spectrum and the next level's samples. */
@@ -130,20 +110,6 @@ ss_cascade_new(const struct blocks *b)
     return c;
 }
 
-static cascade *
-copy_of(const cascade *c)
-{
-    cascade *to = empty_cascade(c->b);
-    for (size_t l = 0; to != NULL && l < c->b->levels; l++) {
-        filling *f = &to->level[l];
-        f->have = c->level[l].have;
-        f->window = c->level[l].window;
-        f->skip = c->level[l].skip;
-        memcpy(f->x, c->level[l].x, f->have * sizeof *f->x);
-    }
-    return to;
-}
-
 void
 ss_cascade_free(cascade *c)
 {
@@ -164,14 +130,18 @@ finish_window(cascade *c, size_t l, window_sink *sink, void *user)
     const stage *st = &c->b->stage[l];
     filling *f = &c->level[l];
     double *terms = c->v + st->stride;
-    transform(st, f->x, c->v, terms);
+    size_t before = st->overlap / 2;            /* so many samples of x precede the window */
+    memcpy(c->v, f->x + before, (st->length - before) * sizeof *c->v);
+    memcpy(c->v + st->length - before, f->x, before * sizeof *c->v);
+    fftw_execute_dft_r2c(st->forward, c->v, (fftw_complex *)terms);
     ss_status status = st->used ? sink(l, f->window, terms, user) : SS_OK;
     memmove(f->x, f->x + st->hop, st->overlap * sizeof *f->x);
     f->have = st->overlap;
     f->window++;
     if (status != SS_OK || l + 1 == c->b->levels)
         return status;
-    decimate(st, terms, c->v, f->made);
+    filter_terms(st, terms, c->v);
+    fftw_execute_dft_c2r(st->back, (fftw_complex *)c->v, f->made);
     return append(c, l + 1, f->made, st->hop / 2, sink, user);
 }
 
@@ -233,13 +203,17 @@ ss_status
 ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
 {
     const struct blocks *b = now->b;
-    cascade *c = copy_of(now);
+    cascade *c = empty_cascade(b);
     ss_status st = c != NULL ? SS_OK : SS_ENOMEM;
     size_t windows[LEVELS] = { 0 };
     for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
         const stage *s = &b->stage[l];
+        const filling *from = &now->level[l];
+        filling *f = &c->level[l];
+        memcpy(f->x, from->x, from->have * sizeof *f->x);
+        *f = (filling){ .made = f->made, .x = f->x, .have = from->have, .window = from->window, .skip = from->skip,
+                        .end = (ptrdiff_t)(n + (l > 0 ? s->margin : 0)) };
         windows[l] = 1 + windows_for(s, n + 2 * s->margin);
-        c->level[l].end = (ptrdiff_t)(n + (l > 0 ? s->margin : 0));
         n = n / 2 + 1;
     }
     for (size_t l = 0; st == SS_OK && l < b->levels; l++)
@@ -313,14 +287,6 @@ ss_morlet_spectra_free(spectra *s)
 
 /* --- the adjoint ------------------------------------------------------------------------------ */
 
-static ss_status
-samples_new(samples *s, const stage *st)
-{
-    *s = (samples){ .lo = -(ptrdiff_t)st->margin, .hi = (ptrdiff_t)(st->n + st->margin) };
-    s->x = calloc((size_t)(s->hi - s->lo), sizeof *s->x);
-    return s->x != NULL ? SS_OK : SS_ENOMEM;
-}
-
 /* Sample first + i += v[i]. */
 static void
 add_samples(const samples *s, ptrdiff_t first, size_t n, const double *v)
@@ -374,14 +340,14 @@ sums_window(const block_sums *s, size_t l, size_t i, const samples *next, const 
 ss_status
 ss_block_sums_end(block_sums *s, double *x)
 {
-    samples next = { 0 }, now;
+    samples next = { 0 };
     ss_status status = SS_OK;
     for (size_t l = s->b->levels; status == SS_OK && l-- > 0;) {
         const stage *st = &s->b->stage[l];
-        if (l > 0)
-            status = samples_new(&now, st);
-        else
-            now = (samples){ x, 0, (ptrdiff_t)st->n };
+        ptrdiff_t margin = l > 0 ? (ptrdiff_t)st->margin : 0;
+        samples now = { x, -margin, (ptrdiff_t)st->n + margin };
+        if (l > 0 && (now.x = calloc((size_t)(now.hi - now.lo), sizeof *now.x)) == NULL)
+            status = SS_ENOMEM;
         for (size_t i = 0; status == SS_OK && i < st->windows; i++)
             sums_window(s, l, i, next.x != NULL ? &next : NULL, &now);
         free(next.x);

@@ -22,12 +22,8 @@ typedef struct course {
     int cycles;
     size_t n, done;                 /* of samples */
     double interval;                /* [s] */
-    double *value[COURSE_COLUMNS];
+    double **value;                 /* as ss_columns_new */
 } course;
-
-/* Make an empty course with room for so many cycles; to be freed with ss_course_free. */
-ss_status ss_course_begin(course *c, int n, double cycle);
-void ss_course_free(course *c);
 
 /* Extrema of a within one transition. */
 typedef struct ring {

@@ -8,7 +8,6 @@
 #include "study/sweep/cycles.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum { RANGE = 1u << SS_AMPLITUDE | 1u << SS_X_MAX | 1u << SS_FORCE_DROP,
        FAST = 1u << SS_V_MAX | 1u << SS_PEAK_VELOCITY };
@@ -131,22 +130,6 @@ leave_transition(meter *r)
     r->now.n = 0;
 }
 
-/* Count the last transition and the one at the start, which are parts of one if the cycles close. */
-static void
-end_transition(meter *r, int closes)
-{
-    ring joined = r->now;
-    if (r->in_first || r->begun_in.n == 0 || !closes) {
-        count_ring(r, &r->now);
-        count_ring(r, &r->begun_in);
-        return;
-    }
-    joined.first = r->now.n > 0 ? r->now.first : r->begun_in.first + r->time;
-    joined.last = r->begun_in.last + r->time;
-    joined.n += r->begun_in.n;
-    count_ring(r, &joined);
-}
-
 static double
 work_between(walk *w, double lo, double hi)
 {
@@ -189,28 +172,6 @@ static int
 force_varies(const state *m)
 {
     return (m->model->force_varies & (m->mode == 0 ? IN_STICK : IN_SLIP)) != 0;
-}
-
-/* --- courses ------------------------------------------------------------------------------- */
-
-ss_status
-ss_course_begin(course *c, int n, double cycle)
-{
-    ss_course_free(c);
-    *c = (course){ .cycles = n, .n = (size_t)n * COURSE_A_CYCLE, .interval = cycle / COURSE_A_CYCLE };
-    for (int i = 0; i < COURSE_COLUMNS; i++)
-        if ((c->value[i] = malloc(c->n * sizeof **c->value)) == NULL)
-            return SS_ENOMEM;
-    return SS_OK;
-}
-
-void
-ss_course_free(course *c)
-{
-    for (int i = 0; i < COURSE_COLUMNS; i++) {
-        free(c->value[i]);
-        c->value[i] = NULL;
-    }
 }
 
 void
@@ -266,7 +227,16 @@ ss_meter_end(meter *r, int n, int closes, double value[])
 {
     if (closes && r->first_slip != 0 && r->first_slip == r->slip)
         r->microslips++;
-    end_transition(r, closes);
+    ring joined = r->now;
+    if (r->in_first || r->begun_in.n == 0 || !closes) {
+        count_ring(r, &r->now);
+        count_ring(r, &r->begun_in);
+    } else {                            /* the last transition and that at the start are parts of one */
+        joined.first = r->now.n > 0 ? r->now.first : r->begun_in.first + r->time;
+        joined.last = r->begun_in.last + r->time;
+        joined.n += r->begun_in.n;
+        count_ring(r, &joined);
+    }
     value[SS_STOPS] = (double)r->stops / n;
     value[SS_STICK_FRACTION] = r->stick / r->time;
     value[SS_AMPLITUDE] = (r->x_hi - r->x_lo) / 2;

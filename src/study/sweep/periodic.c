@@ -8,7 +8,9 @@
 #include "study/sweep/cycles.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include "base/columns.h"
 
 /* --- measuring cycles that begin at the present state ----------------------------------------- */
 
@@ -40,7 +42,11 @@ measure_cycles(finder *f, int n, int period)
     section at = ss_section_of(&start);
     ss_meter_begin(&r, o->measures, &start.now);
     if (c->status == SS_OK && (o->measures & MODEL_ERRORS)) {
-        c->status = ss_course_begin(&f->course, n, 1 / c->scene->base_frequency);
+        free(f->course.value);
+        f->course = (course){ .cycles = n, .n = (size_t)n * COURSE_A_CYCLE,
+                              .interval = 1 / c->scene->base_frequency / COURSE_A_CYCLE };
+        if ((f->course.value = ss_columns_new(COURSE_COLUMNS, f->course.n)) == NULL)
+            c->status = SS_ENOMEM;
         r.course = &f->course;
     }
     ss_cycles_go(c, n, &r);
@@ -294,25 +300,10 @@ crawls_to(cycles *c, const motion *from, const motion *at, const tangent *t, int
  * its derivative predicts; or one that it crawls to, too slowly for the cycles that there are. */
 typedef enum which_motion { STABLE, APPROACHED, CRAWLED_TO } which_motion;
 
-/* Measure the motion that Newton's method has found, which misses its start by a part of tol.  Returns its
- * period; 0 if it cannot be measured: at a limit where a contact only touches, which the motion approaches
- * from one side, only simulation shows how many events a cycle has. */
-static int
-measure_found(finder *f, const motion *at, int n)
-{
-    cycles *c = &f->c;
-    double most = 2 * c->opts->tol;
-    ss_cycles_begin_at(c, at);
-    int period = n > 1 ? ss_cycles_return(c, n, most) : 1;
-    if (period == 0)
-        return 0;
-    ss_cycles_begin_at(c, at);
-    measure_cycles(f, period, period);
-    return f->missed > most || f->unresolved > 0 ? 0 : period;
-}
-
 /* From the present state, find a state that repeats after so many cycles, and measure it, if it is one that is
- * accepted.  Returns its period; 0 if there is none. */
+ * accepted; it misses its start by a part of tol.  Returns its period; 0 if there is none, or it cannot be measured:
+ * at a limit where a contact only touches, which the motion approaches from one side, only simulation shows how
+ * many events a cycle has. */
 static int
 shoot(finder *f, which_motion which, int n)
 {
@@ -326,8 +317,16 @@ shoot(finder *f, which_motion which, int n)
         wanted = is_approached(c, &from, &at, &t, n);
     else if (wanted && which == CRAWLED_TO)
         wanted = crawls_to(c, &from, &at, &t, n);
-    if (wanted && c->status == SS_OK)
-        period = measure_found(f, &at, n);
+    const double most = 2 * c->opts->tol;
+    if (wanted && c->status == SS_OK) {
+        ss_cycles_begin_at(c, &at);
+        period = n > 1 ? ss_cycles_return(c, n, most) : 1;
+    }
+    if (period > 0) {
+        ss_cycles_begin_at(c, &at);
+        measure_cycles(f, period, period);
+        period = f->missed > most || f->unresolved > 0 ? 0 : period;
+    }
     c->multiplier = 0;
     ss_cycles_keep(c, 0);
     if (c->status == SS_EDATA) {        /* a step has led to a state without cycles */
@@ -357,25 +356,18 @@ distance_before(const finder *f, int a, int b)
                                f->last[(f->recorded - 1 - (unsigned long)b) % SECTIONS]);
 }
 
-static int
-has_period(const finder *f, int p)
-{
-    double now = distance_before(f, 0, p), before = distance_before(f, p, 2 * p), ratio = now / before;
-    if (now <= ROUNDING || !(now <= f->c.opts->tol) || !isfinite(before))
-        return now <= ROUNDING;
-    return ratio < 1 && now * ratio / (1 - ratio) <= f->c.opts->tol;
-}
-
 /* The first period that the motion has; 0 if it has none yet.  A state within tol of its limit is within
  * 2 tol of itself after any multiple of its period.  So the search ends at a p after which the state is
  * near itself, but has not the period p: it may still come to have it. */
 static int
 find_period(const finder *f)
 {
+    const double tol = f->c.opts->tol;
     for (int p = 1; p <= f->c.opts->max_period; p++) {
-        if (has_period(f, p))
+        double now = distance_before(f, 0, p), before = distance_before(f, p, 2 * p), ratio = now / before;
+        if (now <= ROUNDING || (now <= tol && isfinite(before) && ratio < 1 && now * ratio / (1 - ratio) <= tol))
             return p;
-        if (distance_before(f, 0, p) <= 10 * f->c.opts->tol)
+        if (now <= 10 * tol)
             return 0;
     }
     return 0;
@@ -429,23 +421,6 @@ settle(finder *f, int may_shoot)
         f->out->value[SS_CYCLES] = (double)(f->recorded - 1);
 }
 
-/* Simulate the cycles that the options give.  Then find the period, the number of cycles after which the motion
- * returns to the same state, and measure it. */
-static void
-settle_as_asked(finder *f)
-{
-    cycles *c = &f->c;
-    const ss_steady_opts *o = c->opts;
-    for (unsigned long i = 0; c->status == SS_OK && i < o->settle; i++)
-        ss_cycles_go(c, 1, NULL);
-    const motion here = c->w.m;
-    int period = ss_cycles_return(c, o->max_period, o->tol);
-    if (c->status == SS_OK)
-        ss_cycles_begin_at(c, &here);
-    measure_cycles(f, period > 0 ? period : o->max_period, period);
-    f->out->value[SS_CYCLES] = (double)o->settle;
-}
-
 /* --- either ---------------------------------------------------------------------------------- */
 
 /* Cycles simulated before Newton's first step where shooting is asked for. */
@@ -479,10 +454,18 @@ ss_periodic_find(finder *f)
         ss_walk_end(&c->w);
         ss_cycles_begin(c);
     }
-    if (c->status == SS_OK && o->settle > 0)
-        settle_as_asked(f);
-    else if (c->status == SS_OK)
+    if (c->status == SS_OK && o->settle == 0)
         settle(f, may_shoot);
+    if (c->status != SS_OK || o->settle == 0)
+        return c->status;
+    for (unsigned long i = 0; c->status == SS_OK && i < o->settle; i++)
+        ss_cycles_go(c, 1, NULL);
+    const motion here = c->w.m;         /* the period is the number of cycles after which it returns to this state */
+    int period = ss_cycles_return(c, o->max_period, o->tol);
+    if (c->status == SS_OK)
+        ss_cycles_begin_at(c, &here);
+    measure_cycles(f, period > 0 ? period : o->max_period, period);
+    f->out->value[SS_CYCLES] = (double)o->settle;
     return c->status;
 }
 
@@ -490,5 +473,5 @@ void
 ss_periodic_free(finder *f)
 {
     ss_walk_end(&f->c.w);
-    ss_course_free(&f->course);
+    free(f->course.value);
 }

@@ -123,22 +123,8 @@ ss_steady_check(const ss_steady_opts *given, const ss_scene *scene, ss_error *er
 
 /* --- the model in the limit ------------------------------------------------------------------ */
 
-/* Compare two courses.  If one of them has one cycle, there is one way to lay them side by side; two
- * courses of several cycles each have no common phase. */
-static ss_status
-compare_courses(const course *limit, const course *ref, double value[], ss_error *err)
-{
-    if (limit->cycles > 1 && ref->cycles > 1)
-        return ss_fail(err, SS_EDATA, "periods of %d cycles, and of %d in the limit, have no common phase",
-                       ref->cycles, limit->cycles);
-    for (int c = 0; c < COURSE_COLUMNS; c++) {
-        curve_error e = curve_compare(limit->value[c], limit->n, ref->value[c], ref->n);
-        value[SS_MODEL_ERROR_X + 2 * c] = e.largest;
-        value[SS_MODEL_ERROR_X + 2 * c + 1] = e.rms;
-    }
-    return SS_OK;
-}
-
+/* Compare the course with that of the model in the limit.  If one of them has one cycle, there is one way to lay them
+ * side by side; two courses of several cycles each have no common phase. */
 static ss_status
 compare_with_limit(const finder *f)
 {
@@ -154,8 +140,15 @@ compare_with_limit(const finder *f)
     if (st == SS_OK && limit.value[SS_PERIOD] == 0)
         st = ss_fail(err, SS_EDATA, "model %s in its place has no period up to %d within %lu cycles",
                      ss_model_name(scene.model), opts.max_period, opts.max_cycles);
-    if (st == SS_OK)
-        st = compare_courses(&g.course, &f->course, f->out->value, err);
+    const course *ref = &f->course, *other = &g.course;
+    if (st == SS_OK && other->cycles > 1 && ref->cycles > 1)
+        st = ss_fail(err, SS_EDATA, "periods of %d cycles, and of %d in the limit, have no common phase", ref->cycles,
+                     other->cycles);
+    for (int c = 0; st == SS_OK && c < COURSE_COLUMNS; c++) {
+        curve_error e = curve_compare(other->value[c], other->n, ref->value[c], ref->n);
+        f->out->value[SS_MODEL_ERROR_X + 2 * c] = e.largest;
+        f->out->value[SS_MODEL_ERROR_X + 2 * c + 1] = e.rms;
+    }
     ss_periodic_free(&g);
     return st;
 }

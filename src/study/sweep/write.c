@@ -14,34 +14,28 @@
 #include "scene/value.h"
 #include "study/sweep/grid.h"
 
-static int
-is_varied(const ss_sweep_opts *opts, const char *key)
-{
-    size_t i = 0;
-    while (i < opts->n_axes && strcmp(key, opts->axis[i].key) != 0)
-        i++;
-    return i < opts->n_axes;
-}
-
-/* Write the keys of the motion that are the same in all rows. */
+/* Write what the rows have in common: the keys of the motion that are not varied, the axes, and the options. */
 static ss_status
-write_scene(struct rows *rows, const ss_sweep_text *sweep)
-{
-    ss_status st = ss_scene_check(sweep->scene, NULL);
-    const scene_key *k;
-    char room[SS_NUMBER_MAX];
-    for (size_t i = 0; st == SS_OK && (k = ss_key_next(sweep->scene, &i)) != NULL;)
-        if (!is_varied(sweep->opts, k->name) && !ss_key_is_of_record(k->name))
-            ss_rows_note(rows, "%s: %s", k->name, ss_value_text(sweep->scene, k, room));
-    return st;
-}
-
-static void
-write_options(struct rows *rows, const ss_steady_opts *s, const ss_scene *scene)
+write_notes(struct rows *rows, const ss_sweep_text *sweep)
 {
     static const char *const search[] = { "simulation, then shooting", "simulation", "shooting" };
-    char tol[SS_NUMBER_MAX];
-    ss_rows_note(rows, "tolerance: %s", ss_number_text(tol, s->tol));
+    const ss_axis *axes = sweep->opts->axis, *end = axes + sweep->opts->n_axes;
+    const ss_steady_opts *s = sweep->opts->steady;
+    ss_status st = ss_scene_check(sweep->scene, NULL);
+    const scene_key *k;
+    char room[SS_NUMBER_MAX], to[SS_NUMBER_MAX];
+    ss_rows_note(rows, "scene: %s", sweep->name);
+    for (size_t i = 0; st == SS_OK && (k = ss_key_next(sweep->scene, &i)) != NULL;) {
+        const ss_axis *a = axes;
+        while (a < end && strcmp(k->name, a->key) != 0)
+            a++;
+        if (a == end && !ss_key_is_of_record(k->name))
+            ss_rows_note(rows, "%s: %s", k->name, ss_value_text(sweep->scene, k, room));
+    }
+    for (const ss_axis *a = axes; a < end; a++)
+        ss_rows_note(rows, "vary: %s=%s:%s:%zu%s", a->key, ss_number_text(room, a->from), ss_number_text(to, a->to),
+                     a->n, a->log ? ":log" : "");
+    ss_rows_note(rows, "tolerance: %s", ss_number_text(room, s->tol));
     if (s->settle > 0)
         ss_rows_note(rows, "settle_cycles: %lu", s->settle);
     else
@@ -51,7 +45,8 @@ write_options(struct rows *rows, const ss_steady_opts *s, const ss_scene *scene)
         ss_rows_note(rows, "strobe: %d", s->strobe);
     ss_rows_note(rows, "max_steps: %lu", s->max_steps);
     ss_rows_note(rows, "search: %s", (unsigned)s->search < 3 ? search[s->search] : "");
-    ss_rows_note(rows, "method: %s", s->method != NULL ? s->method : ss_method_best_names(scene));
+    ss_rows_note(rows, "method: %s", s->method != NULL ? s->method : ss_method_best_names(sweep->scene));
+    return st;
 }
 
 /* Write a row.  strobe is the start of its cycle; NULL: that of the first cycle. */
@@ -77,16 +72,20 @@ write_row(struct rows *rows, const ss_sweep_text *sweep, const ss_sweep_row *row
     ss_rows_end(rows);
 }
 
-/* A text with options as the library takes them. */
-typedef struct own_text {
-    ss_sweep_text text;
+typedef struct writing {
+    ss_sweep_text text;         /* with options as the library takes them */
     ss_sweep_opts opts;
     ss_steady_opts steady;
-} own_text;
+    FILE *out;
+    const char *name;           /* of a file that is gone on with, or NULL */
+    ss_sweep_done *done;
+    ss_status status;
+    ss_error *err;
+} writing;
 
 /* SS_EINVAL: something is missing. */
 static ss_status
-take(own_text *own, const ss_sweep_text *given, ss_error *err)
+take(writing *own, const ss_sweep_text *given, ss_error *err)
 {
     if (given == NULL || given->name == NULL || given->scene == NULL
         || (given->measure == NULL && given->n_measures > 0))
@@ -110,7 +109,6 @@ static ss_status
 make_header(char **out, const ss_sweep_text *sweep, ss_error *err)
 {
     struct rows rows;
-    char from[SS_NUMBER_MAX], to[SS_NUMBER_MAX];
     size_t size;
     *out = NULL;
     FILE *text = open_memstream(out, &size);
@@ -118,12 +116,7 @@ make_header(char **out, const ss_sweep_text *sweep, ss_error *err)
         return ss_fail_memory(err, NULL);
     ss_status st = ss_rows_begin(&rows, text, sweep->format, SS_KIND_SWEEP, err);
     if (st == SS_OK) {
-        ss_rows_note(&rows, "scene: %s", sweep->name);
-        st = write_scene(&rows, sweep);
-        for (const ss_axis *a = sweep->opts->axis; a < sweep->opts->axis + sweep->opts->n_axes; a++)
-            ss_rows_note(&rows, "vary: %s=%s:%s:%zu%s", a->key, ss_number_text(from, a->from),
-                         ss_number_text(to, a->to), a->n, a->log ? ":log" : "");
-        write_options(&rows, sweep->opts->steady, sweep->scene);
+        st = write_notes(&rows, sweep);
         write_row(&rows, sweep, &(ss_sweep_row){ .index = 0 }, NULL);           /* the names */
     }
     int whole = !ferror(text);
@@ -234,47 +227,20 @@ find_end(const ss_sweep_text *sweep, FILE *in, const char *name, const char *hea
 
 /* --- the whole ----------------------------------------------------------------------------- */
 
-typedef struct writing {
-    own_text own;
-    FILE *out;
-    const char *name;           /* of a file that is gone on with, or NULL */
-    ss_sweep_done *done;
-    ss_status status;
-    ss_error *err;
-} writing;
-
-static void
-write_point(FILE *out, const ss_sweep_text *sweep, const ss_sweep_row *row)
-{
-    struct rows rows = { .out = out, .format = ss_format_table(sweep->format) };
-    size_t n = sweep->opts->steady->strobe > 0 ? row->steady.n_strobes : 0;
-    for (size_t i = 0; i < (n > 0 ? n : 1); i++)
-        write_row(&rows, sweep, row, n > 0 ? &row->steady.strobe[i] : NULL);
-}
-
 /* Rows of a file that is gone on with must outlive a kill. */
 static int
 take_point(const ss_sweep_row *row, void *user)
 {
     writing *w = user;
+    struct rows rows = { .out = w->out, .format = ss_format_table(w->text.format) };
+    size_t n = w->steady.strobe > 0 ? row->steady.n_strobes : 0;
+    for (size_t i = 0; i < (n > 0 ? n : 1); i++)
+        write_row(&rows, &w->text, row, n > 0 ? &row->steady.strobe[i] : NULL);
     w->done->rows++;
     w->done->failed += row->status != SS_OK;
-    write_point(w->out, &w->own.text, row);
     if (ferror(w->out) || (w->name != NULL && fflush(w->out) != 0))
         w->status = ss_fail_errno(w->err, "write error", errno);
     return w->status != SS_OK;
-}
-
-/* Go to where the file is gone on with, and let it end there. */
-static ss_status
-go_on(writing *w, const char *header, long *end)
-{
-    if (!ss_format_table(w->own.text.format)->has_notes)
-        return ss_fail(w->err, SS_EINVAL, "%s: this format has no notes, which say of what sweep it is", w->name);
-    ss_status st = find_end(&w->own.text, w->out, w->name, header, &w->done->kept, end, w->err);
-    w->own.opts.first = w->done->kept;
-    return st != SS_OK || (fseek(w->out, *end, SEEK_SET) == 0 && ftruncate(fileno(w->out), *end) == 0) ? st
-        : ss_fail_errno(w->err, w->name, errno);
 }
 
 ss_status
@@ -286,16 +252,22 @@ ss_sweep_write(const ss_sweep_text *given, FILE *out, const char *resumed, ss_sw
     if (out == NULL || done == NULL)
         return SS_FAIL_NULL(err);
     *done = (ss_sweep_done){ 0, 0, 0 };
-    ss_status st = take(&w.own, given, err);
+    ss_status st = take(&w, given, err);
     if (st == SS_OK)
-        st = make_header(&header, &w.own.text, err);
-    if (st == SS_OK && resumed != NULL)
-        st = go_on(&w, header, &end);
+        st = make_header(&header, &w.text, err);
+    if (st == SS_OK && resumed != NULL && !ss_format_table(w.text.format)->has_notes)
+        st = ss_fail(err, SS_EINVAL, "%s: this format has no notes, which say of what sweep it is", resumed);
+    else if (st == SS_OK && resumed != NULL)
+        st = find_end(&w.text, out, resumed, header, &done->kept, &end, err);
+    /* the file is gone on with there, and ends there */
+    if (st == SS_OK && resumed != NULL && (fseek(out, end, SEEK_SET) != 0 || ftruncate(fileno(out), end) != 0))
+        st = ss_fail_errno(err, resumed, errno);
     if (st == SS_OK) {
         fputs(end == 0 ? header : "", out);
-        w.own.opts.sink = take_point;
-        w.own.opts.user = &w;
-        st = ss_sweep_run(w.own.text.scene, &w.own.opts, err);
+        w.opts.first = resumed != NULL ? done->kept : w.opts.first;
+        w.opts.sink = take_point;
+        w.opts.user = &w;
+        st = ss_sweep_run(w.text.scene, &w.opts, err);
     }
     free(header);
     return w.status != SS_OK ? w.status : st;
