@@ -102,6 +102,37 @@ bands_hold_and_mechanisms_are_named(void **state)
     assert_true((double)tenth <= .16 * (double)rows);       /* of errors that are twice too wide: .16, not .08 */
 }
 
+/* A gap of two periods, filled with zeros: rows are within their errors of the truth, as without it. */
+static void
+gaps_are_left_out(void **state)
+{
+    (void)state;
+    seed = 8;
+    for (size_t k = 0; k < 2; k++) {
+        decay_turn *turn;
+        size_t turns, rows = 0;
+        ss_signal *signal = record(&rigs[k], .003, "m", &turn, &turns);
+        for (size_t i = 400; i < 480; i++)
+            signal->values[i] = 0;
+        assert_int_equal(ss_header_note(signal->head, "gaps", "101:101.2", NULL), SS_OK);
+        ss_backbone *b = find(signal, NULL);
+        for (size_t r = 0; r < b->n; r++) {
+            double f, zeta, a;
+            if (!decay_truth(turn, turns, (long double)b->row[r].t, &f, &zeta, &a))
+                continue;
+            rows++;
+            if (!(fabs(b->row[r].damping_ratio.value - zeta) <= 5 * b->row[r].damping_ratio.error))
+                fail_msg("rig %zu, %g s: %g +- %g, not %g", k, b->row[r].t, b->row[r].damping_ratio.value,
+                         b->row[r].damping_ratio.error, zeta);
+        }
+        assert_true(rows >= 5);
+        assert_true(b->n_mechanisms >= 1 && b->mechanism[0] == mechanisms[k]);
+        ss_backbone_free(b);
+        ss_signal_free(signal);
+        free(turn);
+    }
+}
+
 /* Where a beat of a second mode lets the amplitude grow for some blocks, no row has half the damping of the one before it.
  * Rows that a search left where it began had a third: 32 of 616. */
 static void
@@ -545,6 +576,10 @@ drag_beside_viscous_friction_is_no_microslip(void **state)
         ss_backbone *b = find(signal, NULL);
         assert_int_equal(b->n_mechanisms, 0);
         assert_non_null(b->other);
+        ss_scene scene;
+        ss_error err = { 0 };
+        assert_int_equal(ss_backbone_scene(&scene, b, signal, 0, 1, &err), SS_EDATA);
+        assert_non_null(strstr(err.text, b->other));
         ss_backbone_free(b);
         ss_signal_free(signal);
         free(turn);
@@ -580,6 +615,10 @@ what_is_no_mechanism_is_another(void **state)
         assert_true(b->n > 0);
         assert_int_equal(b->n_mechanisms, 0);
         assert_non_null(b->other);
+        ss_scene scene;
+        ss_error err = { 0 };
+        assert_int_equal(ss_backbone_scene(&scene, b, signal, 0, 1, &err), SS_EDATA);
+        assert_non_null(strstr(err.text, b->other));
         ss_backbone_free(b);
         ss_signal_free(signal);
     }
@@ -868,6 +907,7 @@ main(void)
         cmocka_unit_test(rows_without_noise_are_those_of_a_closed_form),
         cmocka_unit_test(the_decay_need_not_be_the_strongest_line),
         cmocka_unit_test(long_decays_without_noise_have_their_damping),
+        cmocka_unit_test(gaps_are_left_out),
         cmocka_unit_test(rows_are_smooth_where_the_amplitude_grows), cmocka_unit_test(bands_hold_and_mechanisms_are_named),
         cmocka_unit_test(parameters_and_scenes_are_those_of_the_rig),
         cmocka_unit_test(a_mode_of_near_frequency_stands_beside),

@@ -250,6 +250,30 @@ shares_what_steps_have_in_common(void **state)
     ss_signal_free(s);
 }
 
+/* The same friction along a fault that is a million times as long. */
+static void
+scales_do_not_matter(void **state)
+{
+    const double by = 1e6;
+    uint64_t seed = 5;
+    ss_steps *small = NULL, *large = NULL;
+    (void)state;
+    ss_signal *s = rock_signal(&usual, &seed);
+    assert_int_equal(ss_steps_new(&small, s, 0, 1, -1, 0, 0, NULL), SS_OK);
+    for (size_t i = 0; i < s->n; i++)
+        s->values[i] *= by;
+    assert_int_equal(ss_steps_new(&large, s, 0, 1, -1, 0, 0, NULL), SS_OK);
+    assert_int_equal(large->n, small->n);
+    const ss_step_law *is = large->step[0].law, *was = small->step[0].law;
+    near("a", is->direct_effect.value, was->direct_effect.value, 1e-3 * was->direct_effect.error);
+    near("Dc", is->critical_slip_distance.value, by * was->critical_slip_distance.value,
+         1e-3 * by * was->critical_slip_distance.error);
+    near("k", is->stiffness.value, was->stiffness.value / by, 1e-3 * was->stiffness.error / by);
+    ss_steps_free(small);
+    ss_steps_free(large);
+    ss_signal_free(s);
+}
+
 /* A record that begins with a hold knows of no slide before it. */
 static void
 begins_in_a_hold(void **state)
@@ -355,6 +379,7 @@ main(void)
         cmocka_unit_test(knows_whether_a_memory_counts_rows),
         cmocka_unit_test(finds_the_truth_of_simulated_rocks),
         cmocka_unit_test(shares_what_steps_have_in_common),
+        cmocka_unit_test(scales_do_not_matter),
         cmocka_unit_test(begins_in_a_hold),
         cmocka_unit_test(says_what_is_none),
         cmocka_unit_test(answers_the_basalt),
