@@ -76,25 +76,6 @@ is_scene(const char *p, const char *end)
     return p < end && *p == '=';
 }
 
-/* A table has a separator of columns in its first line; a scene has none before its "=" or comment. */
-static int
-is_table(const char *p, const char *end)
-{
-    for (; p < end && *p != '#' && *p != '=' && *p != '\n'; p++)
-        if (*p == ',' || *p == ';' || *p == '\t')
-            return 1;
-    return 0;
-}
-
-/* Text that another version of this library wrote has the same kind: the version is not compared. */
-static int
-has_magic(ss_kind kind, const char *bytes, size_t n)
-{
-    const char *magic = kinds[kind].magic;
-    size_t length = magic != NULL ? strlen(magic) - (magic[0] == '#') : 0;
-    return magic != NULL && n >= length && memcmp(bytes, magic, length) == 0;
-}
-
 const char *
 ss_kind_magic(ss_kind kind)
 {
@@ -104,15 +85,23 @@ ss_kind_magic(ss_kind kind)
 ss_status
 ss_fail_kind(ss_error *err, const char *name, const char *bytes, size_t n, ss_kind wanted)
 {
+    /* a table has a separator of columns in its first line; a scene has none before its "=" or comment */
+    size_t i = 0;
+    while (i < n && memchr("#=\n,;\t", bytes[i], 6) == NULL)
+        i++;
+    const int is_table = i < n && memchr(",;\t", bytes[i], 3) != NULL;
     ss_kind found = is_scene(bytes, bytes + n) ? SS_KIND_SCENE
-        : wanted == SS_KIND_SCENE && is_table(bytes, bytes + n) ? SS_KIND_TABLE : SS_KIND_UNKNOWN;
+        : wanted == SS_KIND_SCENE && is_table ? SS_KIND_TABLE : SS_KIND_UNKNOWN;
     const char *what = kinds[found].what, *remedy = "";
-    for (int i = 0; i < KINDS; i++)
-        if (has_magic((ss_kind)i, bytes, n)) {
-            found = (ss_kind)i;
-            what = kinds[i].what;
+    for (int k = 0; k < KINDS; k++) {   /* another version of this library wrote the same kind: that is not compared */
+        const char *magic = kinds[k].magic;
+        const size_t length = magic != NULL ? strlen(magic) - (magic[0] == '#') : n + 1;
+        if (length <= n && memcmp(bytes, magic, length) == 0) {
+            found = (ss_kind)k;
+            what = kinds[k].what;
         }
-    for (size_t i = 0; what == NULL && i < sizeof foreign / sizeof *foreign; i++)
+    }
+    for (i = 0; what == NULL && i < sizeof foreign / sizeof *foreign; i++)
         if (n >= strlen(foreign[i].magic) && memcmp(bytes, foreign[i].magic, strlen(foreign[i].magic)) == 0) {
             what = foreign[i].what;
             remedy = foreign[i].remedy;

@@ -3,11 +3,11 @@
  * While the slider sticks, the drive loads the force along a line.  A first line is fitted to the
  * middle half of the rise from one fall to the next.  The median slope of these lines is used to fit
  * slips to the falls (slip.c).  The stick is the part of the rise that is in no slip and within SIGMAS
- * standard deviations of the line, but for two in a row.  The line is then fitted to the whole stick.  A fall that the fit
- * of a slip does not explain has no drop, duration and friction, and a stick beside it has no length.
- * Nor has any fall, unless the falls show the inertia of a mass (inertia.c).
+ * standard deviations of the line, but for two in a row.  The line is then fitted to the whole stick.  A fall that
+ * the fit of a slip does not explain has no drop, duration and friction, and a stick beside it has no length.
+ * Nor has any fall, unless the falls show the inertia of a mass (slip.c).
  * Samples of a measured force are not independent, so the standard error of the slope counts fewer of
- * them (colour.c).
+ * them (medians.c).
  *
  * The slope of the force over time is the stiffness times the speed of the drive.  Where there is a
  * column of displacement, the slope against it is the stiffness itself. */

@@ -58,21 +58,6 @@ find_bars(const search *s, int events, double f, ss_window **out, size_t *n_bars
     return SS_OK;
 }
 
-/* Does a jump or kink lie in the window, farther from its ends than the scale that shows it? */
-static int
-crosses_event(const search *s, ss_window win, double f)
-{
-    const ss_spikes *found = s->out->spikes;
-    double from = (double)win.first / s->rate, to = (double)win.end / s->rate;
-    size_t i = ss_list_from(found->spike, found->n, sizeof *found->spike, from);
-    for (; i < found->n && found->spike[i].t < to; i++) {
-        double a = ROW_CENTER / (2 * M_PI * found->spike[i].f), t = found->spike[i].t;
-        if (cuts(&found->spike[i], f) && t > from + a && t < to - a)
-            return 1;
-    }
-    return 0;
-}
-
 /* Two periods into the longest stretch without jumps and kinks from sample `anchor` to sample `next`: the stick
  * behind a train of micro-slips. */
 static size_t
@@ -104,11 +89,18 @@ judge(const search *s, const ringdown *r, double f, size_t cycles)
 {
     size_t used = 0, crossed = 0;
     const ss_value w = r->all[0];
-    for (size_t i = 0; i < r->n_anchors; i++)
-        if (ss_window_length(r->window[i]) > 0) {
-            used++;
-            crossed += (size_t)crosses_event(s, r->window[i], f);
+    for (size_t i = 0; i < r->n_anchors; i++) {
+        const ss_spikes *found = s->out->spikes;
+        const double from = (double)r->window[i].first / s->rate, to = (double)r->window[i].end / s->rate;
+        int is_crossed = 0;     /* a jump or kink lies in it, farther from its ends than the scale that shows it */
+        for (size_t k = ss_list_from(found->spike, found->n, sizeof *found->spike, from);
+             k < found->n && found->spike[k].t < to; k++) {
+            const double a = ROW_CENTER / (2 * M_PI * found->spike[k].f), t = found->spike[k].t;
+            is_crossed |= cuts(&found->spike[k], f) && t > from + a && t < to - a;
         }
+        used += to > from;
+        crossed += (size_t)is_crossed;
+    }
     if (isnan(w.value) || used < FEW || fabs(log2(w.value * s->rate / (2 * M_PI * f))) > NEAR)
         return "what recurs lasts under 2 periods or is no damped oscillation";
     if (r->is_train)
@@ -188,26 +180,10 @@ fit_together(search *s, ringdown *r, double f)
             *why = judge(s, r, f, cycles);
     }
     r->anchor = anchor;
+    if (st == SS_OK && *why == NULL)
+        st = ss_identity_of(s, r, why);
     free(bar);
     free(moved);
-    return st;
-}
-
-/* Fit all sticks together, after a hum beside the oscillation is subtracted. */
-static ss_status
-fit_without_hum(search *s, ringdown *r, double f)
-{
-    ss_hum hum = SS_HUM_NONE;
-    double repeats = s->out->number[SS_REPETITION_FREQUENCY].value;
-    ss_status st = isnan(repeats) ? SS_OK
-        : ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / repeats, &hum);
-    if (st == SS_OK)
-        st = fit_together(s, r, f);
-    if (st == SS_OK && s->out->number[SS_TRANSITION_FREQUENCY].why == NULL)
-        st = ss_identity_of(s, r, &s->out->number[SS_TRANSITION_FREQUENCY].why);
-    s->is_cleaned |= hum == SS_HUM_SUBTRACTED;
-    if (hum == SS_HUM_HIDDEN)
-        say(s->out, SS_TRANSITION_FREQUENCY, "a steady hum beside a harmonic of what repeats is in its band");
     return st;
 }
 
@@ -279,9 +255,15 @@ ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly)
                    .is = s->part->known != NULL ? s->part->known->slow : SLOW_EITHER };
     r.window = malloc((out->n + 1) * sizeof *r.window);
     r.each = malloc((out->n + 1) * sizeof *r.each);
-    ss_status st = SS_ENOMEM;
-    if (r.window != NULL && r.each != NULL)
-        st = singly ? fit_singly(s, &r, f) : fit_without_hum(s, &r, f);
+    ss_status st = r.window != NULL && r.each != NULL ? SS_OK : SS_ENOMEM;
+    ss_hum hum = SS_HUM_NONE;
+    if (st == SS_OK && !singly && !isnan(forcing))
+        st = ss_hum_subtract(s->x, s->n, f / s->rate, s->rate / forcing, &hum);
+    if (st == SS_OK)
+        st = singly ? fit_singly(s, &r, f) : fit_together(s, &r, f);
+    s->is_cleaned |= hum == SS_HUM_SUBTRACTED;
+    if (hum == SS_HUM_HIDDEN)
+        say(out, SS_TRANSITION_FREQUENCY, "a steady hum beside a harmonic of what repeats is in its band");
     if (st == SS_OK) {
         if (out->number[SS_TRANSITION_FREQUENCY].why != NULL)
             ss_ringdown_clear(&r);

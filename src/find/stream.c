@@ -148,24 +148,9 @@ count_due(const ss_features_stream *s, const ss_features *f, int lone, double st
     return n;
 }
 
-/* Give lone maxima the extent and the ringing that the last search found there: a fit of few transitions leaves out
- * now one, now another. */
-static void
-recall(const ss_features_stream *s, ss_features *f, double start)
-{
-    double off = s->before_start - start, same = SAME / s->head->rate;
-    for (size_t i = 0, k = 0; s->before != NULL && i < f->n; i++) {
-        const ss_transition *old = s->before->transition, *now = &f->transition[i];
-        while (k < s->before->n && old[k].end + off < now->onset - same)
-            k++;
-        if (!is_lone(now) || k == s->before->n || is_lone(&old[k]) || old[k].onset + off > now->onset + same)
-            continue;
-        f->transition[i] = old[k];
-        f->transition[i].onset += off, f->transition[i].end += off, f->transition[i].maximum.t += off;
-    }
-}
-
-/* Find the features of the last n samples, which begin at *start [s], in place of those that are there. */
+/* Find the features of the last n samples, which begin at *start [s], in place of those that are there.  Give lone
+ * maxima the extent and the ringing that the last search found there: a fit of few transitions leaves out now one, now
+ * another. */
 static ss_status
 find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features **f, double *start, ss_error *err)
 {
@@ -180,8 +165,17 @@ find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features 
         memcpy(now->values + c * n, s->x[c] + s->n - n, n * sizeof *now->values);
     st = ss_features_of_part(f, now, s->column, &s->opts, part, err);
     ss_signal_free(now);
-    if (st == SS_OK)
-        recall(s, *f, *start);
+    const double off = s->before_start - *start, same = SAME / s->head->rate;
+    for (size_t i = 0, k = 0; st == SS_OK && s->before != NULL && i < (*f)->n; i++) {
+        const ss_transition *old = s->before->transition;
+        ss_transition *tr = &(*f)->transition[i];
+        while (k < s->before->n && old[k].end + off < tr->onset - same)
+            k++;
+        if (!is_lone(tr) || k == s->before->n || is_lone(&old[k]) || old[k].onset + off > tr->onset + same)
+            continue;
+        *tr = old[k];
+        tr->onset += off, tr->end += off, tr->maximum.t += off;
+    }
     return st;
 }
 
