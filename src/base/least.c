@@ -95,26 +95,7 @@ residuals(const gsl_vector *w, void *user, gsl_vector *out)
     return d->is_old ? REFRESH : ++d->refused < REFUSED ? GSL_SUCCESS : AT_LEAST;
 }
 
-/* Find the slopes by one unknown from a step to either side, whichever has a model. */
-static ss_status
-differentiate(descent *d, size_t k, double *changed)
-{
-    const least *fit = d->fit;
-    const double u = d->u[k];
-    double h = fit->difference[k];
-    d->u[k] = u + h;
-    ss_status st = fit->model(d->u, changed, NULL, fit->user);
-    if (st == SS_EDATA) {
-        h = -h;
-        d->u[k] = u + h;
-        st = fit->model(d->u, changed, NULL, fit->user);
-    }
-    d->u[k] = u;
-    for (size_t i = 0; st == SS_OK && i < fit->rows; i++)
-        d->slopes[i * fit->unknowns + k] = (changed[i] - d->residual[i]) / h;
-    return st;
-}
-
+/* Find the slopes; by differences: from a step by each unknown to either side, whichever has a model. */
 static ss_status
 find_slopes(descent *d)
 {
@@ -124,8 +105,21 @@ find_slopes(descent *d)
         return fit->model(d->u, d->residual, d->slopes, fit->user);
     double *changed = malloc(fit->rows * sizeof *changed);
     ss_status st = changed != NULL ? SS_OK : SS_ENOMEM;
-    for (size_t i = 0; st == SS_OK && i < d->n; i++)
-        st = differentiate(d, d->free[i], changed);
+    for (size_t n = 0; st == SS_OK && n < d->n; n++) {
+        const size_t k = d->free[n];
+        const double u = d->u[k];
+        double h = fit->difference[k];
+        d->u[k] = u + h;
+        st = fit->model(d->u, changed, NULL, fit->user);
+        if (st == SS_EDATA) {
+            h = -h;
+            d->u[k] = u + h;
+            st = fit->model(d->u, changed, NULL, fit->user);
+        }
+        d->u[k] = u;
+        for (size_t i = 0; st == SS_OK && i < fit->rows; i++)
+            d->slopes[i * fit->unknowns + k] = (changed[i] - d->residual[i]) / h;
+    }
     free(changed);
     return st;
 }

@@ -37,18 +37,12 @@ product(uint64_t a, uint64_t b)
 #endif
 }
 
-/* floor(log2(10^e)) for |e| < 1233, and floor(log10(f 2^q)) for |q| < 1500, f = 1 or 3/4.  They are
- * computed in fixed point; >> must keep the sign, as it does with every compiler that we know. */
+/* floor(log2(10^e)) for |e| < 1233, in fixed point; >> must keep the sign, as it does with every compiler that we
+ * know. */
 static int
 log2_pow10(int e)
 {
     return e * 1741647 >> 19;
-}
-
-static int
-log10_pow2(int q, int three_quarters)
-{
-    return (q * 1262611 - (three_quarters ? 524031 : 0)) >> 22;
 }
 
 /* --- writing ------------------------------------------------------------------------------- */
@@ -68,7 +62,8 @@ round_to_odd(struct pow10 g, uint64_t c)
 static uint64_t
 shortest(uint64_t c, int q, int irregular, int *exponent)
 {
-    int k = log10_pow2(q, irregular), h = q + log2_pow10(-k) + 1;
+    /* k: floor(log10(f 2^q)) for |q| < 1500, f = 1 or 3/4 */
+    int k = (q * 1262611 - (irregular ? 524031 : 0)) >> 22, h = q + log2_pow10(-k) + 1;
     struct pow10 g = pow10_table[-k - POW10_FIRST];
     g.lo += -k < 0 || -k > 55;                  /* rounded up, unless 10^-k is exact */
     uint64_t odd = c & 1;

@@ -51,18 +51,6 @@ find_level(const double *x, size_t n, double *level, double *deviation)
     return SS_OK;
 }
 
-/* Does the signal not go beyond its level, on one side, and is this no level of 0?  So a converter clips. */
-static int
-is_end_of_range(const double *x, size_t n, const ss_rests *r)
-{
-    size_t above = 0, below = 0;
-    for (size_t i = 0; i < n; i++) {
-        above += x[i] > r->level + r->band;
-        below += x[i] < r->level - r->band;
-    }
-    return (above == 0 || below == 0) && fabs(r->level) > SLIGHT;
-}
-
 ss_status
 ss_rests_find(const double *x, size_t n, ss_rests *out)
 {
@@ -92,7 +80,12 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
     }
     out->level = level;
     out->band = SURELY * deviation;
-    out->is_doubtful |= is_end_of_range(x, n, out);
+    size_t above = 0, below = 0;        /* with none on one side it is the end of a range, where a converter clips */
+    for (size_t i = 0; i < n; i++) {
+        above += x[i] > level + out->band;
+        below += x[i] < level - out->band;
+    }
+    out->is_doubtful |= (above == 0 || below == 0) && fabs(level) > SLIGHT;
     out->is_doubtful |= out->band > SLIGHT;     /* of the largest sample */
     return st;
 }

@@ -115,28 +115,20 @@ grow_windows(fitter *k, ss_window *core, int *ok)
     return fit_shared(k, FIT_FINE, ok);
 }
 
-/* The number of samples in all windows. */
-static size_t
-samples_in(const fitter *k)
-{
-    size_t sum = 0;
-    for (size_t i = 0; i < k->n; i++)
-        sum += ss_window_length(k->window[i]);
-    return sum;
-}
-
 /* Cut all windows at a place, or empty the worst of them, until no micro-slip shows in them.  In a
  * small part of a train of them none shows, though all of it is one. */
 static ss_status
 leave_out_slips(fitter *k, int *ok)
 {
-    const double grown = (double)samples_in(k);
-    for (;;) {
-        size_t at = 0;
+    for (double grown = 0;;) {
+        size_t at = 0, samples = 0;
+        for (size_t i = 0; i < k->n; i++)
+            samples += ss_window_length(k->window[i]);
+        grown = grown > 0 ? grown : (double)samples;
         ss_status st = fit_shared(k, FIT_FINE, ok);
         if (st == SS_OK && *ok)
             st = ss_slips_find(k, &at);
-        *ok = *ok && (double)samples_in(k) >= KEPT * grown;
+        *ok = *ok && (double)samples >= KEPT * grown;
         if (st == SS_OK && *ok && at > 0 && !ss_sticks_split(k, at))
             st = ss_slips_drop_worst(k, at);
         if (st != SS_OK || !*ok || at == 0)
@@ -154,7 +146,7 @@ fit_all(fitter *k, ringdown *r, double forcing)
         return SS_ENOMEM;
     ss_ringdown_clear(r);
     k->window = r->window;
-    ss_varpro_start(&k->fit, r->w, START * r->w, forcing);
+    k->fit.w = r->w, k->fit.s = START * r->w, k->fit.forcing = forcing;
     ss_status st = grow_windows(k, core, &ok);
     free(core);
     for (size_t i = 0; st == SS_OK && ok && i < k->n; i++)
@@ -241,7 +233,7 @@ ss_ringdown_fit_each(ringdown *r, double *scatter)
     ss_status st = ss_varpro_init(&k.fit, r->x, room);
     if (v == NULL)
         st = SS_ENOMEM;
-    ss_varpro_start(&k.fit, r->w, START * r->w, 0);
+    k.fit.w = r->w, k.fit.s = START * r->w;
     for (size_t i = 0; st == SS_OK && i < k.n; i++) {
         ss_window win = ss_sticks_place(&k, r->anchor[i], FIT_LEAST);
         linear fitted = fit_one(&k, win, r->each[i]);

@@ -212,17 +212,6 @@ repeat_slips(search *s, times slip, size_t each)
     }
 }
 
-/* Are the samples within a time of t all on one side of the level of rests? */
-static int
-is_off_level(const search *s, const ss_rests *rests, double t, double within)
-{
-    double low = INFINITY, high = -INFINITY;
-    size_t end = (size_t)fmin((t + within) * s->rate, (double)s->n - 1);
-    for (size_t i = (size_t)fmax((t - within) * s->rate, 0); i <= end; i++)
-        low = fmin(low, s->x[i]), high = fmax(high, s->x[i]);
-    return low > rests->level + rests->band || high < rests->level - rests->band;
-}
-
 /* Does one of four slips or more, at this rate [Hz], have a jump or kink in a range [dB] that is none of the places,
  * in time order, at which a rest or a transition begins or ends?  So a motion shows that stops too briefly to be
  * seen at rest.  One that turns while it slides keeps off the level of rests. */
@@ -236,8 +225,13 @@ hides_stops(const search *s, times place, const ss_rests *rests, double rate, do
         double reach = 2 * ROW_CENTER / (2 * M_PI * spike->f), within = JITTER / rate + reach;
         while (i < place.n && place.t[i] < spike->t - within)
             i++;
-        off += is_event(spike) && spike->level >= -range && (i == place.n || place.t[i] > spike->t + within)
-            && !is_off_level(s, rests, spike->t, reach + EVEN / rate);
+        if (!is_event(spike) || spike->level < -range || (i < place.n && place.t[i] <= spike->t + within))
+            continue;
+        double low = INFINITY, high = -INFINITY, about = reach + EVEN / rate;
+        size_t end = (size_t)fmin((spike->t + about) * s->rate, (double)s->n - 1);
+        for (size_t m = (size_t)fmax((spike->t - about) * s->rate, 0); m <= end; m++)
+            low = fmin(low, s->x[m]), high = fmax(high, s->x[m]);
+        off += low <= rests->level + rests->band && high >= rests->level - rests->band;
     }
     return (double)off >= (1 - MOSTLY) * rate * (double)s->n / s->rate;
 }

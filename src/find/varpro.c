@@ -38,14 +38,6 @@ ss_varpro_free(varpro *v)
     free(v->table.sum);
 }
 
-void
-ss_varpro_start(varpro *v, double w, double s, double forcing)
-{
-    v->w = w, v->s = s;
-    v->forcing = forcing;
-    v->is_bent = 0;
-}
-
 size_t
 ss_varpro_columns(const varpro *v)
 {

@@ -66,9 +66,6 @@ typedef struct linear {         /* the fit of the amplitudes to one window, or t
 ss_status ss_varpro_init(varpro *v, const double *x, size_t room);
 void ss_varpro_free(varpro *v);
 
-/* Start from w and s with this slow part, which does not bend. */
-void ss_varpro_start(varpro *v, double w, double s, double forcing);
-
 /* m: the number of columns of the slow part and the oscillation. */
 size_t ss_varpro_columns(const varpro *v);
 

@@ -238,15 +238,9 @@ ss_gaps_near(const ss_span *gap, size_t n, double t, double margin)
 {
     if (gap == NULL)
         return 0;
-    size_t lo = 0, hi = n;                      /* the last gap that begins before t + margin */
-    while (lo < hi) {
-        size_t middle = lo + (hi - lo) / 2;
-        if (gap[middle].from <= t || gap[middle].from < t + margin)
-            lo = middle + 1;
-        else
-            hi = middle;
-    }
-    return lo > 0 && gap[lo - 1].to > t - margin;
+    /* behind the last gap that begins at t or before t + margin */
+    size_t behind = ss_list_from(gap, n, sizeof *gap, fmax(t + margin, nextafter(t, INFINITY)));
+    return behind > 0 && gap[behind - 1].to > t - margin;
 }
 
 /* --- within a record ----------------------------------------------------------------------- */
