@@ -50,13 +50,6 @@ difference(ss_value a, ss_value b)
 
 /* --- lines and slips ------------------------------------------------------------------------- */
 
-/* Does friction fall with speed? */
-static int
-is_falling(const ss_number *damping)
-{
-    return damping->value < -SIGMAS * damping->error;
-}
-
 /* Fit lines to the rises and slips to the falls of y, which the drops give.  A line that contains a part of
  * a slip is too steep or too flat.  The slips that are fitted with such lines are wrong, too, but less: three
  * passes are enough.  The damping is one for all slips: the median of what each shows in the second pass.
@@ -104,7 +97,8 @@ find_falls(fall *f, const search *s, const double *y, const ss_drop *drop, size_
         }
         if (pass == FREE) {
             *damping = ss_median_of(v, n, scratch);
-            used.from = used.to = isfinite(damping->value) && !is_falling(damping) ? damping->value : 0;
+            used.from = used.to = isfinite(damping->value) && !(damping->value < -SIGMAS * damping->error)
+                ? damping->value : 0;
         }
     }
     for (size_t i = 0; st == SS_OK && i < n; i += n / JUDGED + 1) {
@@ -310,7 +304,7 @@ ss_loading_find(search *s, const double *y, const ss_drop *drop, size_t n)
     if (st == SS_OK) {
         shape rises = shape_of(y, f, n);
         double common = common_misfit(f, n), shared[SLIP_NUMBERS] = { 0 }, all[SLIP_NUMBERS] = { 0 };
-        double unused = is_falling(&damping) ? damping.value : 0;
+        double unused = damping.value < -SIGMAS * damping.error ? damping.value : 0;
         double damping_error = isfinite(damping.error) ? hypot(damping.error, unused) : 0;
         for (size_t i = 0; i < n; i++) {
             const int is_slip = f[i].slip.n > 0;

@@ -152,26 +152,9 @@ snap_to_spikes(const search *s, ss_transition *tr, double period)
     }
 }
 
-/* What recurs may be the rig's own oscillation, while it slips.  A contact rings faster; it must show that it is
- * one, as nothing else speaks for it. */
-static ss_status
-fit_faster(search *s, const size_t *anchor, double f)
-{
-    const char **why = &s->out->number[SS_TRANSITION_FREQUENCY].why, *first = *why;
-    ss_status st = SS_OK;
-    s->must_show = 1;
-    for (int third = 1; st == SS_OK && s->rings_as != OF_CONTACT && third <= 3 * OCTAVES; third++)
-        st = ss_oscillation_fit(s, anchor, exp2(third / 3.) * f, 0);
-    if (s->rings_as == OF_CONTACT) {
-        know(s->out, SS_TRANSITION_FREQUENCY_RAW, unknown);
-        s->label = 0;
-    } else
-        *why = first;
-    return st;
-}
-
 /* Refine transitions of which only swells are known: fit their oscillation, then move their ends from the
- * fit, or from the swell, to the jumps and kinks beside them. */
+ * fit, or from the swell, to the jumps and kinks beside them.  What recurs may be the rig's own oscillation, while it
+ * slips.  A contact rings faster; it must show that it is one, as nothing else speaks for it. */
 static ss_status
 refine(search *s, const ss_maximum *swell, double f)
 {
@@ -182,8 +165,17 @@ refine(search *s, const ss_maximum *swell, double f)
     for (size_t i = 0; i < out->n; i++)
         anchor[i] = (size_t)(swell[i].t * s->rate);
     ss_status st = ss_oscillation_fit(s, anchor, f, 0);
-    if (st == SS_OK && s->rings_as == OF_NOTHING && s->part->known == NULL)
-        st = fit_faster(s, anchor, f);
+    if (st == SS_OK && s->rings_as == OF_NOTHING && s->part->known == NULL) {
+        const char **why = &out->number[SS_TRANSITION_FREQUENCY].why, *first = *why;
+        s->must_show = 1;
+        for (int third = 1; st == SS_OK && s->rings_as != OF_CONTACT && third <= 3 * OCTAVES; third++)
+            st = ss_oscillation_fit(s, anchor, exp2(third / 3.) * f, 0);
+        if (s->rings_as == OF_CONTACT) {
+            know(out, SS_TRANSITION_FREQUENCY_RAW, unknown);
+            s->label = 0;
+        } else
+            *why = first;
+    }
     free(anchor);
     for (size_t i = 0; st == SS_OK && i < out->n; i++) {
         ss_transition *tr = &out->transition[i];

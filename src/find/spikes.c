@@ -12,6 +12,7 @@
 #include "base/sort.h"
 #include "find/breakpoint.h"
 #include "find/events.h"
+#include "find/judgement.h"
 #include "signal/gaps.h"
 
 #define DEEPEST 5.0             /* octaves in which the first spike is sought: 100 samples are smooth */
@@ -154,26 +155,8 @@ search_rows(spike_search *s, double f)
 
 /* --- times and the whole ------------------------------------------------------------------- */
 
-/* Find the time of spike i by a fit, which sees no farther than its neighbours. */
-static double
-refined(const spike_search *s, size_t i)
-{
-    const ss_spikes *found = s->found;
-    const ss_spike *spike = &found->spike[i];
-    double rate = s->source->rate;
-    double a = ROW_CENTER / (2 * M_PI * spike->f) * rate, at = spike->t * rate;
-    double lo = fmax(at - NEAR * a, 0), hi = fmin(at + NEAR * a, (double)(s->source->n - 1));
-    if (!is_event(spike))
-        return spike->t;
-    if (i > 0)
-        lo = fmax(lo, found->spike[i - 1].t * rate + 1);
-    if (i + 1 < found->n)
-        hi = fmin(hi, found->spike[i + 1].t * rate - 1);
-    return ss_breakpoint(s->source->x, (size_t)ceil(lo), (size_t)floor(hi), at, 0.75 * a) / rate;
-}
-
-/* Their kinds by their slopes, and then their times.  A pulse of some length falls towards longer scales, but does not
- * stand out at the shortest ones: it is smooth. */
+/* Their kinds by their slopes, and then their times, by a fit which sees no farther than the neighbours.  A pulse of
+ * some length falls towards longer scales, but does not stand out at the shortest ones: it is smooth. */
 static void
 finish(spike_search *s)
 {
@@ -192,8 +175,18 @@ finish(spike_search *s)
             found->floor = fmin(found->floor, 20 * log10(s->threshold / clearest));
         found->f = fmax(found->f, spike->f);
     }
-    for (size_t i = 0; i < found->n; i++)
-        found->spike[i].t = refined(s, i);
+    for (size_t i = 0; i < found->n; i++) {
+        ss_spike *spike = &found->spike[i];
+        double rate = s->source->rate, a = ROW_CENTER / (2 * M_PI * spike->f) * rate, at = spike->t * rate;
+        double lo = fmax(at - NEAR * a, 0), hi = fmin(at + NEAR * a, (double)(s->source->n - 1));
+        if (!is_event(spike))
+            continue;
+        if (i > 0)
+            lo = fmax(lo, found->spike[i - 1].t * rate + 1);
+        if (i + 1 < found->n)
+            hi = fmin(hi, found->spike[i + 1].t * rate - 1);
+        spike->t = ss_breakpoint(s->source->x, (size_t)ceil(lo), (size_t)floor(hi), at, MOSTLY * a) / rate;
+    }
     sort(found);
     found->conclusive = found->floor <= -EVENT_CLEAR;
 }

@@ -150,25 +150,6 @@ write_summary(struct rows *rows, const char *file, const char *unit, const ss_va
     return st;
 }
 
-/* All that is said about the numbers, as one text. */
-static char *
-all_reasons(const ss_features *f)
-{
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    const char *then = "";
-    for (size_t k = 0; out != NULL && k < SS_FEATURE_NUMBERS; k++)
-        if (f->number[k].why != NULL) {
-            fprintf(out, "%s%s: %s", then, ss_feature_numbers[k].about, f->number[k].why);
-            then = "; ";
-        }
-    if (out == NULL || fclose(out) == 0)
-        return text;
-    free(text);
-    return NULL;
-}
-
 ss_status
 ss_summary_write(const char *file, const ss_features *f, const ss_signal *signal, size_t column,
                  const char *reason, FILE *out, ss_error *err)
@@ -181,7 +162,21 @@ ss_summary_write(const char *file, const ss_features *f, const ss_signal *signal
         return ss_fail_column(err, column, signal->head->n_columns);
     for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++)
         number[k] = f != NULL ? (ss_value){ f->number[k].value, f->number[k].error } : unknown;
-    char *said = f != NULL ? all_reasons(f) : strdup(reason);
+    char *said = NULL;
+    size_t size;
+    FILE *all = open_memstream(&said, &size);   /* of what is said about the numbers */
+    const char *then = "";
+    if (all != NULL && f == NULL)
+        fputs(reason, all);
+    for (size_t k = 0; all != NULL && f != NULL && k < SS_FEATURE_NUMBERS; k++)
+        if (f->number[k].why != NULL) {
+            fprintf(all, "%s%s: %s", then, ss_feature_numbers[k].about, f->number[k].why);
+            then = "; ";
+        }
+    if (all != NULL && fclose(all) != 0) {
+        free(said);
+        said = NULL;
+    }
     ss_status st = said != NULL ? ss_rows_begin(&rows, out, SS_TSV, SS_KIND_SUMMARIES, err) : SS_ENOMEM;
     for (int i = 0; st == SS_OK && i < 2; i++)          /* the names and the row */
         st = write_summary(&rows, file, f != NULL ? signal->head->column[column].unit : "", number, said);
