@@ -43,8 +43,6 @@ ask_to_stop(int number)
     }
 }
 
-/* --- progress ------------------------------------------------------------------------------ */
-
 static int progress_shown;
 
 void
@@ -271,8 +269,6 @@ tool_show(int help)
     tool_end();
     exit(0);
 }
-
-/* --- the end ------------------------------------------------------------------------------- */
 
 /* Note the CPU time, including gnuplot's, and the larger peak of memory of the two processes. */
 static void

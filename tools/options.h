@@ -16,7 +16,7 @@ struct tool_option {
     const char *name;
     void (*set)(const tool_option *option, char *text);     /* text: the value; NULL if it has none */
     void *to;
-    ss_range range;             /* of a number */
+    ss_range range;             /* of a number; of formats, { 1, 1 }: of those that hold words */
     const char *const *word;    /* NULL-terminated, of a choice */
     const char *(*known)(size_t i);     /* the i-th name that it may be; NULL after the last */
     int has_value;
@@ -49,7 +49,8 @@ struct tool_option {
 /* Options that many tools have. */
 #define TOOL_OUTPUT(to) TOOL_TEXT('o', "output", to)
 #define TOOL_FORMAT(to) TOOL_VALUE(0, "format", tool_set_format, TOOL_TO(tool_kind, to))
-#define TOOL_FORMAT_OF_WORDS(to) TOOL_VALUE(0, "format", tool_set_format_of_words, TOOL_TO(tool_kind, to))
+#define TOOL_FORMAT_OF_WORDS(to) \
+    { 0, "format", tool_set_format, TOOL_TO(tool_kind, to), { 1, 1 }, NULL, NULL, 1 }
 #define TOOL_METHOD(letter, to) TOOL_NAME(letter, "method", to, ss_sim_method_name)
 #define TOOL_STYLE(to) TOOL_CHOICE(0, "style", TOOL_TO(ss_plot_style, to), tool_styles)
 #define TOOL_THREADS(letter, to) TOOL_WHOLE(letter, "threads", to, ((ss_range){ 1, SS_THREADS_MAX }))
@@ -63,7 +64,6 @@ void tool_set_count(const tool_option *option, char *text);
 void tool_set_choice(const tool_option *option, char *text);
 void tool_set_name(const tool_option *option, char *text);
 void tool_set_format(const tool_option *option, char *text);            /* in output.c */
-void tool_set_format_of_words(const tool_option *option, char *text);
 extern const char *const tool_styles[];
 
 /* Values in the functions of a tool, which give the row's name; wrong ones are wrong usage. */

@@ -46,31 +46,18 @@ tool_output_kind(const char *path, unsigned allowed, tool_kind fallback)
     tool_usage("--output: the ending of '%s' gives the form and must be one of%s", path, list);
 }
 
-/* Read the value of --format; words: only formats that hold words are allowed. */
-static void
-set_format(const tool_option *o, const char *text, int words)
+void
+tool_set_format(const tool_option *o, char *text)
 {
     enum { MOST = 32 };
     const char *name[MOST + 1] = { NULL };
     ss_format_info known[MOST];
     for (size_t i = 0, n = 0; n < MOST && ss_format_at(&known[n], i); i++)
-        if (!words || known[n].has_words) {
+        if (!(o->range.from > 0) || known[n].has_words) {
             name[n] = known[n].name;
             n++;
         }
     *(tool_kind *)o->to = (tool_kind)(TOOL_STREAM + known[tool_choice("--format", text, name)].format);
-}
-
-void
-tool_set_format(const tool_option *o, char *text)
-{
-    set_format(o, text, 0);
-}
-
-void
-tool_set_format_of_words(const tool_option *o, char *text)
-{
-    set_format(o, text, 1);
 }
 
 /* --- files of signals, coefficients and events ------------------------------------------------ */

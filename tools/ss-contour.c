@@ -56,8 +56,6 @@ draw_contours(const drawing *d, const char *path, ss_plot_opts *opts)
     tool_drawn(script, ss_plot_contour(script, d->coefficients, &d->opts, opts, &tool_error));
 }
 
-/* --- coefficients, or a recording in one pass ------------------------------------------------- */
-
 /* The lowest frequency of a recording whose length is not known: a useful one has some cycles of it. */
 #define LOWEST 5e-4             /* of the rate */
 
@@ -140,8 +138,6 @@ find_signal(drawing *d)
     d->opts.column = tool_column(signal->head, path, column);
     return signal;
 }
-
-/* --- a signal without end --------------------------------------------------------------------- */
 
 enum { REDRAWN = 8 };           /* pictures while a window passes */
 
@@ -226,8 +222,6 @@ follow(drawing *d, ss_plot_opts *plot)
     free(v.x);
     free(to);
 }
-
-/* --- the whole ----------------------------------------------------------------------------- */
 
 static const char *const detrends[] = { "none", "mean", "linear", NULL };
 

@@ -58,31 +58,24 @@ typedef struct found {
     ss_features *features;
 } found;
 
-/* Say who knows more of a friction beside the path of its load point. */
-static void
-refer_to_load(const ss_header *head, size_t column)
-{
-    char dimension;
-    int per_time;
-    for (size_t i = 0; i < head->n_columns; i++) {
-        const ss_column *c = &head->column[i];
-        if (i != column && strncasecmp(c->name, "load", 4) == 0 && ss_unit_size(c->unit, &dimension, &per_time) > 0
-            && dimension == 'm' && per_time == 0)
-            tool_warn("where the speed of %s changes, 'ss-rank --load %s --column %s' gives rate and state",
-                      c->name, c->name, head->column[column].name);
-    }
-}
-
 static found
 find_features(const request *req, const char *path)
 {
     found f = { .opts = req->opts, .signal = tool_read_signal(path, &req->reading.opts) };
     const ss_header *head = f.signal->head;
+    char dimension;
+    int per_time;
     f.column = tool_column(head, path, req->column);
     f.opts.displacement = find_column(head, path, req->displacement, usual_displacement);
     f.opts.force = find_column(head, path, req->force, usual_force);
     tool_check_input(ss_features_find(&f.features, f.signal, f.column, &f.opts, &tool_error), path);
-    refer_to_load(head, f.column);
+    for (size_t i = 0; i < head->n_columns; i++) {      /* is the path of the load point beside a friction? */
+        const ss_column *c = &head->column[i];
+        if (i != f.column && strncasecmp(c->name, "load", 4) == 0
+            && ss_unit_size(c->unit, &dimension, &per_time) > 0 && dimension == 'm' && per_time == 0)
+            tool_warn("where the speed of %s changes, 'ss-rank --load %s --column %s' gives rate and state",
+                      c->name, c->name, head->column[f.column].name);
+    }
     const size_t motion = (size_t)f.opts.displacement;
     if (req->displacement != NULL && motion != f.column && isfinite(f.features->number[SS_FRICTION].value))
         tool_warn("'ss-rank --motion %s --column %s' gives the gap, stiffness and friction of either side, and the "

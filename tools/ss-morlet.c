@@ -107,8 +107,6 @@ check_request(request *req)
     opts->rounded = req->kind == TOOL_H5 && !req->exact_bits && !req->inverse;
 }
 
-/* --- output as it comes ----------------------------------------------------------------------- */
-
 typedef struct flow {
     ss_writer *writer;
     ss_error error;                     /* of the writer */
@@ -154,8 +152,6 @@ check_flow(const flow *f, ss_status status, const char *path)
         fflush(NULL);
     tool_check_input(status, path);
 }
-
-/* --- a record that is there --------------------------------------------------------------------- */
 
 static void
 transform_whole(const request *req, const char *path)
@@ -216,8 +212,6 @@ invert(const request *req, const char *path)
     ss_signal_free(signal);
     ss_coefficients_free(coef);
 }
-
-/* --- streams ------------------------------------------------------------------------------- */
 
 /* Push samples as they come, until there are no more. */
 static void

@@ -75,8 +75,6 @@ set_over(const tool_option *o, char *path)
     *over = path;
 }
 
-/* --- maps ---------------------------------------------------------------------------------- */
-
 /* Find the columns that are named, and return their number. */
 static size_t
 find_columns(const ss_table *t, const char *path, const char *names, size_t column[], size_t most)
@@ -156,8 +154,6 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
     ss_table_free(table);
     free(curve);
 }
-
-/* --- the whole ----------------------------------------------------------------------------- */
 
 /* Choose the columns that are named, or all. */
 static void

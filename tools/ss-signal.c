@@ -39,21 +39,6 @@ static const struct {
     { "seed", SET(SS_NOISE) },
 };
 
-/* Warn of, or refuse, values that are in range but hardly intended. */
-static void
-check_sense(ss_wave wave, const ss_wave_opts *o)
-{
-    double n = round(o->duration * o->rate), highest = o->frequency;
-    if (wave == SS_CHIRP)
-        highest = fmax(highest, o->frequency_end);
-    if ((SET(wave) & only[0].kinds) && highest > o->rate / 2)
-        tool_warn("%g Hz is above half the rate, %g Hz, and folds down", highest, o->rate / 2);
-    if (wave == SS_IMPULSE && tool_given("at")
-        && !(o->at * o->rate > -0.5 && round(o->at * o->rate) < n))
-        tool_usage("--at %g: the record goes from 0 to %g s, so no sample is nearest", o->at,
-                   (n - 1) / o->rate);
-}
-
 int
 main(int argc, char *argv[])
 {
@@ -87,7 +72,13 @@ main(int argc, char *argv[])
     for (size_t i = 0; i < sizeof only / sizeof *only; i++)
         if (tool_given(only[i].name) && !(only[i].kinds & SET(wave)))
             tool_usage("--%s does not apply to kind %s", only[i].name, kinds[wave]);
-    check_sense(wave, &opts);
+    /* values that are in range but hardly intended */
+    double n = round(opts.duration * opts.rate), at = opts.at * opts.rate;
+    double highest = wave == SS_CHIRP ? fmax(opts.frequency, opts.frequency_end) : opts.frequency;
+    if ((SET(wave) & only[0].kinds) && highest > opts.rate / 2)
+        tool_warn("%g Hz is above half the rate, %g Hz, and folds down", highest, opts.rate / 2);
+    if (wave == SS_IMPULSE && tool_given("at") && !(at > -0.5 && round(at) < n))
+        tool_usage("--at %g: the record goes from 0 to %g s, so no sample is nearest", opts.at, (n - 1) / opts.rate);
     kind = tool_output_kind(output, TOOL_SIGNALS, kind);
 
     tool_check(ss_wave_new(&signal, wave, &opts, &tool_error));

@@ -34,14 +34,6 @@ include(scatter *s, size_t row, double seconds, double error, ss_error *err)
     return SS_OK;
 }
 
-/* A point of a line, and of a kind of error. */
-static void
-write_point(const scatter *s, double seconds, double error, size_t line, size_t kind)
-{
-    if (error > 0)
-        ss_print(s->out, "%.4g %.3g %zu %zu\n", seconds / s->unit, error, line, kind);
-}
-
 static ss_status
 begin(const scatter *s, ss_error *err)
 {
@@ -90,8 +82,8 @@ ss_plot_trade(FILE *out, const ss_trade *trade, const ss_plot_opts *opts, ss_err
     for (size_t i = 0, line = 0; i < trade->n; i++) {
         const ss_trade_row *row = &trade->row[i];
         line += i > 0 && strcmp(row->method, row[-1].method) != 0;
-        if (row->status == SS_OK)
-            write_point(&s, row->seconds, row->error_x, line, (size_t)row->frontier);
+        if (row->status == SS_OK && row->error_x > 0)
+            ss_print(out, "%.4g %.3g %zu %d\n", row->seconds / s.unit, row->error_x, line, row->frontier);
     }
     write_axes(&s, trade->transform ? "worst error of W / largest |W| of its scale"
                : "worst error of x / max|x|", "", 7);
@@ -143,9 +135,9 @@ ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_
     if (st != SS_OK)
         return st;
     for (size_t i = 1; i < models->n; i++)
-        for (size_t k = 0; k < KINDS; k++)
-            if (models->row[i].status == SS_OK)
-                write_point(&s, models->row[i].seconds, error_of(&models->row[i], k), i, k);
+        for (size_t k = 0; k < KINDS && models->row[i].status == SS_OK; k++)
+            if (error_of(&models->row[i], k) > 0)
+                ss_print(out, "%.4g %.3g %zu %zu\n", models->row[i].seconds / s.unit, error_of(&models->row[i], k), i, k);
     write_axes(&s, "largest or rms error / max", models->row[0].name, KINDS);
     ss_print(out, "set xrange [%.3g:%.3g]\n%s", s.time.lo / 1.6, s.time.hi * 1.6,
              s.time.hi / s.time.lo > 30 ? "" : "set xtics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20)\n");

@@ -284,7 +284,7 @@ ss_h5_read_header(h5_file *file, hid_t group, ss_header **head)
     struct notes notes = { file, *head };
     unsigned tracked = 0;
     H5Pget_attr_creation_order(how, &tracked);
-    int lost = H5Aexists(root, H5_VERSION_NOTE) < 0;    /* as for find_columns of read.c */
+    int lost = H5Aexists(root, H5_VERSION_NOTE) < 0;    /* as for find_signal of read.c */
     herr_t stopped = lost ? -1 : H5Aiterate2(root, tracked != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,
                                  H5_ITER_INC, NULL, read_note, &notes);
     H5Pclose(how);

@@ -107,7 +107,7 @@ list_dataset(hid_t root, const char *name, const H5O_info_t *info, void *user)
     if (++list->looked_at > LOOKED_AT)
         return 1;
     if (fits && info->type == H5O_TYPE_GROUP) {
-        hid_t group = ss_h5_open_group(root, name);     /* asked for one name first, as in find_columns */
+        hid_t group = ss_h5_open_group(root, name);     /* asked for one name first, as in find_signal */
         int lost = H5Lexists(group, "t", H5P_DEFAULT) < 0;      /* and its names cannot be listed */
         H5Gclose(group);
         return lost;

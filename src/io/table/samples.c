@@ -51,19 +51,12 @@ read_row(struct samples *s, int may_wait, ss_error *err)
     return ss_kept_check(s->rows, err);
 }
 
-/* Report how many of the rows were given before. */
-static void
-report(const struct samples *s)
-{
-    ss_progress_at(&s->progress, (1 + (double)s->base.row / (double)s->rows->n) / 2);
-}
-
 static ss_status
 give_samples(ss_source *base, double *const column[], size_t max, size_t *n, ss_error *err)
 {
     struct samples *s = (struct samples *)base;
     const struct time_column *time = &s->timing.time;
-    report(s);
+    ss_progress_at(&s->progress, (1 + (double)base->row / (double)s->rows->n) / 2);
     for (; *n < max; ++*n, s->given++) {
         if (s->row == NULL) {
             ss_status st = read_row(s, *n == 0, err);
@@ -89,7 +82,7 @@ give_rows(ss_source *base, double *const column[], size_t max, size_t *n, ss_err
 {
     struct samples *s = (struct samples *)base;
     ss_status st = SS_OK;
-    report(s);
+    ss_progress_at(&s->progress, (1 + (double)base->row / (double)s->rows->n) / 2);
     for (; *n < max && (st = read_row(s, 1, err)) == SS_OK && s->row != NULL; ++*n) {
         give_row(s, s->row, column, *n);
         column[s->n - 1][*n] = ss_sheet_stamp(&s->timing.time, s->row);
