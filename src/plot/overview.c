@@ -26,8 +26,6 @@ typedef struct reduction {
     double top;
 } reduction;
 
-/* --- as coefficients come ------------------------------------------------------------------ */
-
 enum { PIECE = 512 };           /* coefficients at a time, which stay in the cache */
 
 /* Add n levels to a row of levels.  Returns the largest. */
@@ -80,36 +78,6 @@ add_rows(const ss_scale *scale, size_t first, size_t n, const double *w, size_t 
     return 0;
 }
 
-/* --- as samples come ----------------------------------------------------------------------- */
-
-/* What is subtracted from sample i: first + mean + slope (i - middle). */
-typedef struct trend {
-    long double first, mean, slope, middle;
-} trend;
-
-/* Find the mean of a column, or its line of least squares, as ss_morlet_execute does, and begin again. */
-static ss_status
-find_trend(trend *t, ss_reader *reader, double *const wanted[], const double *x, ss_detrend detrend,
-           ss_error *err)
-{
-    size_t n = 1, piece = ss_reader_piece(reader);
-    long double sum = 0, moment = 0, count = 0;
-    ss_status st = SS_OK;
-    while (st == SS_OK && n > 0) {
-        st = ss_reader_rows(reader, wanted, piece, &n, err);
-        for (size_t i = 0; st == SS_OK && i < n; i++, count++) {
-            t->first = count == 0 ? x[i] : t->first;
-            sum += x[i] - t->first;
-            moment += count * (x[i] - t->first);
-        }
-    }
-    t->mean = count > 0 ? sum / count : 0;
-    t->middle = (count - 1) / 2;
-    if (detrend == SS_DETREND_LINEAR && count > 1)
-        t->slope = (moment - t->middle * sum) / (count * (count * count - 1) / 12);
-    return st == SS_OK ? ss_reader_rewind(reader, err) : st;
-}
-
 /* Let a reason begin with the name of the recording. */
 static ss_status
 name_it(ss_status st, const ss_reader *reader, ss_error *err)
@@ -120,22 +88,38 @@ name_it(ss_status st, const ss_reader *reader, ss_error *err)
     return ss_fail(err, st, "%s: %s", reader->source->name, why.text);
 }
 
+/* The mean of the column, or its line of least squares, is found before, as ss_morlet_execute does, in a pass of its
+ * own: first + mean + slope (i - middle) is subtracted from sample i. */
 static ss_status
 read_all(reduction *o, ss_reader *reader, size_t column, ss_detrend detrend, ss_error *err)
 {
-    size_t n = 1, piece = ss_reader_piece(reader);
+    size_t n = detrend != SS_DETREND_NONE, piece = ss_reader_piece(reader);
     double *x = malloc(piece * sizeof *x), **wanted = calloc(o->head->n_columns, sizeof *wanted);
-    long double at = 0;
-    trend t = { 0 };
+    long double first = 0, mean = 0, slope = 0, middle = 0, sum = 0, moment = 0, count = 0;
     ss_status st = x != NULL && wanted != NULL ? SS_OK : ss_fail_memory(err, NULL);
     if (st == SS_OK)
         wanted[column] = x;
-    if (st == SS_OK && detrend != SS_DETREND_NONE)
-        st = find_trend(&t, reader, wanted, x, detrend, err);
     while (st == SS_OK && n > 0) {
         st = ss_reader_rows(reader, wanted, piece, &n, err);
+        for (size_t i = 0; st == SS_OK && i < n; i++, count++) {
+            first = count == 0 ? x[i] : first;
+            sum += x[i] - first;
+            moment += count * (x[i] - first);
+        }
+    }
+    if (count > 0) {
+        mean = sum / count;
+        middle = (count - 1) / 2;
+    }
+    if (detrend == SS_DETREND_LINEAR && count > 1)
+        slope = (moment - middle * sum) / (count * (count * count - 1) / 12);
+    if (st == SS_OK && detrend != SS_DETREND_NONE)
+        st = ss_reader_rewind(reader, err);
+    n = 1;
+    for (long double at = 0; st == SS_OK && n > 0;) {
+        st = ss_reader_rows(reader, wanted, piece, &n, err);
         for (size_t i = 0; st == SS_OK && i < n; i++, at++)
-            x[i] = (double)(x[i] - t.first - t.mean - t.slope * (at - t.middle));
+            x[i] = (double)(x[i] - first - mean - slope * (at - middle));
         if (st == SS_OK) {
             ss_extremes_add(&o->samples, x, n);
             st = name_it(ss_stream_push(o->stream, x, n, err), reader, err);
@@ -145,8 +129,6 @@ read_all(reduction *o, ss_reader *reader, size_t column, ss_detrend detrend, ss_
     free(x);
     return st == SS_OK ? name_it(ss_stream_end(o->stream, err), reader, err) : st;
 }
-
-/* --- at the end ---------------------------------------------------------------------------- */
 
 static ss_status
 make_signal(ss_signal **out, const reduction *o, size_t column)
