@@ -124,28 +124,8 @@ add_band(tool_kind kind, ss_noise *noise)
     free(chosen);
 }
 
-/* The rms of the noise of each column of white noise; that of a ratio takes one more reading of its rows. */
-static double *
-find_levels(ss_reader *reader, const double *chosen, double *const x[])
-{
-    const ss_header *head = ss_reader_header(reader);
-    size_t columns = head->n_columns, n;
-    double *level = tool_room(NULL, columns, sizeof *level);
-    ss_variance *variance = tool_room(NULL, columns, sizeof *variance);
-    memset(variance, 0, columns * sizeof *variance);
-    while (!isnan(snr) && (n = tool_rows(reader, x, ss_reader_piece(reader))) > 0)
-        for (size_t c = 0; c < columns; c++)
-            ss_variance_add(&variance[c], x[c], n);
-    if (!isnan(snr))
-        tool_check(ss_reader_rewind(reader, &tool_error));
-    for (size_t c = 0; c < columns; c++)
-        level[c] = chosen[c] == 0 || (isnan(snr) && isnan(rms)) ? 0
-            : report(head, c, isnan(rms) ? ss_variance_noise(&variance[c], snr) : rms);
-    free(variance);
-    return level;
-}
-
-/* Row by row, in constant memory, and as they come unless their variance must be known. */
+/* Row by row, in constant memory, and as they come unless their variance must be known, for a ratio: that takes one
+ * more reading. */
 static void
 change_rows(tool_kind kind, ss_noise *noise)
 {
@@ -156,7 +136,19 @@ change_rows(tool_kind kind, ss_noise *noise)
     ss_header *head = NULL;
     size_t columns = ss_reader_header(reader)->n_columns, piece = ss_reader_piece(reader);
     tool_check(ss_header_select(&head, ss_reader_header(reader), NULL, columns, 0, &tool_error));
-    double **x = tool_columns(columns, piece), *chosen = choose_columns(head), *level = find_levels(reader, chosen, x);
+    double **x = tool_columns(columns, piece), *chosen = choose_columns(head);
+    double *level = tool_room(NULL, columns, sizeof *level);            /* the rms of the noise of each column */
+    ss_variance *variance = tool_room(NULL, columns, sizeof *variance);
+    memset(variance, 0, columns * sizeof *variance);
+    while (!isnan(snr) && (n = tool_rows(reader, x, piece)) > 0)
+        for (size_t c = 0; c < columns; c++)
+            ss_variance_add(&variance[c], x[c], n);
+    if (!isnan(snr))
+        tool_check(ss_reader_rewind(reader, &tool_error));
+    for (size_t c = 0; c < columns; c++)
+        level[c] = chosen[c] == 0 || (isnan(snr) && isnan(rms)) ? 0
+            : report(head, c, isnan(rms) ? ss_variance_noise(&variance[c], snr) : rms);
+    free(variance);
     add_notes(head);
     n = tool_rows(reader, x, piece);            /* if this fails, nothing is written */
     ss_writer *out = tool_writer(output, kind, &(ss_contents){ .signal = head });

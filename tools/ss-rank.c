@@ -66,16 +66,21 @@ quantity_of_unit(const char *unit)
     return dimension != 'N' ? SS_DISPLACEMENT + per_time : per_time == 0 ? SS_FORCE : -1;
 }
 
-/* The quantity that a word of a column's name shows, in upper or lower case, as in friction_force_kip; -1:
- * none does. */
+/* The quantity that the name of a column is, or that a word of it shows, in upper or lower case, as in
+ * friction_force_kip; -1: none does. */
 static int
-quantity_of_word(const char *name)
+quantity_of_name(const char *name)
 {
     static const struct { const char *word; ss_quantity is; } known[] = {
         { "displacement", SS_DISPLACEMENT }, { "position", SS_DISPLACEMENT },
         { "velocity", SS_VELOCITY }, { "speed", SS_VELOCITY },
         { "acceleration", SS_ACCELERATION }, { "acc", SS_ACCELERATION },
         { "force", SS_FORCE } };
+    for (int i = 0; ss_quantity_names[i] != NULL; i++)
+        if (strcmp(name, ss_quantity_names[i]) == 0)
+            return i;
+    if (strcmp(name, "F") == 0)
+        return SS_FORCE;
     for (size_t length; *name != '\0'; name += length + (name[length] != '\0')) {
         length = strcspn(name, "_ -./()[]");
         for (size_t i = 0; i < sizeof known / sizeof *known; i++)
@@ -83,15 +88,6 @@ quantity_of_word(const char *name)
                 return (int)known[i].is;
     }
     return -1;
-}
-
-static int
-quantity_of_name(const char *name)
-{
-    for (int i = 0; ss_quantity_names[i] != NULL; i++)
-        if (strcmp(name, ss_quantity_names[i]) == 0)
-            return i;
-    return strcmp(name, "F") == 0 ? SS_FORCE : quantity_of_word(name);
 }
 
 /* The quantity of a column; *by becomes the reason for it. */

@@ -108,37 +108,29 @@ break_text(label *l)
     l->text[best] = '\n';
 }
 
-/* "name", or "name − offset unit". */
-static label
-quantity_of(const ss_column *column, double offset)
-{
-    label l = { .text = "" };
-    char number[SS_NUMBER_MAX];
-    size_t n = strlen(column->name);
-    add_text(&l, column->name, 0);
-    if (column->unit[0] != '\0' && !is_full(&l)) {     /* a unit at the end of the name is not written twice */
-        ss_unit_of_name(column->name, &n);
-        l.text[n] = '\0';
-    }
-    if (offset == 0)
-        return l;
-    ss_number_format(number, fabs(offset));
-    add(&l, "%s%s%s", offset < 0 ? " + " : " − ", number, column->unit[0] != '\0' ? " " : "");
-    add_text(&l, column->unit, 1);
-    return l;
-}
-
 /* "name / (10^-3 unit)", or "(name − offset unit) / (10^-3 unit)"; if it is wider than its room, two lines, "name"
  * and "(10^-3 unit)", or broken near its middle, in smaller letters; cut where it is longer than any picture. */
 static label
 make_label(const ss_column *column, script_scale scale, double room)
 {
-    const label name = quantity_of(column, scale.offset);
-    label unit = { .text = "" };
+    label name = { .text = "" }, unit = name;
+    char number[SS_NUMBER_MAX];
+    size_t n = strlen(column->name);
+    const char *blank = column->unit[0] != '\0' ? " " : "";
+    add_text(&name, column->name, 0);
+    if (column->unit[0] != '\0' && !is_full(&name)) {   /* a unit at the end of the name is not written twice */
+        ss_unit_of_name(column->name, &n);
+        name.text[n] = '\0';
+    }
+    if (scale.offset != 0) {
+        ss_number_format(number, fabs(scale.offset));
+        add(&name, "%s%s%s", scale.offset < 0 ? " + " : " − ", number, blank);
+        add_text(&name, column->unit, 1);
+    }
     if (scale.exponent != 0) {
         add(&unit, "10");
         add_superscript(&unit, scale.exponent);
-        add(&unit, column->unit[0] != '\0' ? " " : "");
+        add(&unit, "%s", blank);
     }
     add_text(&unit, column->unit, 1);
     int is_square = strchr(column->unit, '(') != NULL;          /* brackets go round round ones */

@@ -170,20 +170,8 @@ falls(const double *level, size_t rows, size_t r, size_t step)
     return least <= at(level, r) - RISE;
 }
 
-/* The label and the level of the top of the parabola through three rows.  In the scale, 1 / f, that of a steady
- * oscillation is a parabola, but for the factor a^1/2 of a norm. */
-static double
-top_of(const contour_map *map, const double *level, size_t r, double *height)
-{
-    double x0 = 1 / map->f[r + 1], x1 = 1 / map->f[r], x2 = 1 / map->f[r - 1];
-    double left = (at(level, r) - at(level, r + 1)) / (x1 - x0);
-    double right = (at(level, r - 1) - at(level, r)) / (x2 - x1);
-    double curve = (right - left) / (x2 - x0);
-    double x = curve < 0 ? fmin(fmax((x0 + x1) / 2 - left / (2 * curve), x0), x2) : x1;
-    *height = at(level, r) + (x - x1) * (left + curve * (x - x0));
-    return 1 / x;
-}
-
+/* A point is the top of the parabola through three rows.  In the scale, 1 / f, that of a steady oscillation is a
+ * parabola, but for the factor a^1/2 of a norm. */
 size_t
 ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
                  void (*visit)(double t, double f, double level, void *user), void *user)
@@ -197,10 +185,14 @@ ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
             if (here < -map->span || here <= at(level, r - 1) || here < at(level, r + 1)
                 || !falls(level, map->rows, r, 1) || !falls(level, map->rows, r, (size_t)-1))
                 continue;
-            double top, f = top_of(map, level, r, &top), cone = wavelet_cone(c->center / (2 * M_PI * f));
+            double x0 = 1 / map->f[r + 1], x1 = 1 / map->f[r], x2 = 1 / map->f[r - 1];
+            double left = (here - at(level, r + 1)) / (x1 - x0), right = (at(level, r - 1) - here) / (x2 - x1);
+            double curve = (right - left) / (x2 - x0);
+            double x = curve < 0 ? fmin(fmax((x0 + x1) / 2 - left / (2 * curve), x0), x2) : x1;
+            double f = 1 / x, cone = wavelet_cone(c->center / (2 * M_PI * f));
             if (t < start + cone || t > end - cone || (c->n_gaps > 0 && ss_gaps_near(c->gap, c->n_gaps, t, cone)))
                 continue;
-            visit(t, f, top, user);
+            visit(t, f, here + (x - x1) * (left + curve * (x - x0)), user);
             n++;
         }
     return n;

@@ -79,20 +79,6 @@ ss_text_may_lack(const struct text *x)
     return x->t.opts->gaps != SS_GAPS_REFUSE || x->t.opts->n_needed > 0;
 }
 
-/* 1 if the cell is a word that recorders write in place of a missing number. */
-static int
-is_no_number(const char *cell)
-{
-    static const char *const word[] = { "nan", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "1.#inf", "inf", "infinity",
-        "na", "n/a", "#n/a", "#nv", "null", "none", "ovr", "ovl", "ol", "ovld", "overload", "overrange", "overflow",
-        "\u221e", NULL };
-    cell += *cell == '-' || *cell == '+';
-    for (int i = 0; word[i] != NULL; i++)
-        if (strcasecmp(cell, word[i]) == 0)
-            return 1;
-    return 0;
-}
-
 /* SCPI writes 9.9E37 for infinity, and 9.91E37 for no number. */
 static int
 is_value(double x)
@@ -104,6 +90,9 @@ is_value(double x)
 enum cell_kind
 ss_cell_read(char *cell, char separator, double *x)
 {
+    static const char *const missing[] = {      /* words that recorders write in place of a missing number */
+        "nan", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "1.#inf", "inf", "infinity", "na", "n/a", "#n/a", "#nv",
+        "null", "none", "ovr", "ovl", "ol", "ovld", "overload", "overrange", "overflow", "\u221e" };
     char *end, *comma = separator != ',' ? strchr(cell, ',') : NULL;
     if (comma != NULL)
         *comma = '.';
@@ -119,8 +108,9 @@ ss_cell_read(char *cell, char separator, double *x)
         *comma = ',';
     if (number)
         return is_value(*x) ? CELL_NUMBER : CELL_NOT_FINITE;
-    if (is_no_number(cell))
-        return CELL_NOT_FINITE;
+    for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
+        if (strcasecmp(cell + (*cell == '-' || *cell == '+'), missing[i]) == 0)
+            return CELL_NOT_FINITE;
     return *cell >= '0' && *cell <= '9' && ss_stamp_read(cell).parts != 0 ? CELL_STAMP : CELL_TEXT;
 }
 
