@@ -24,17 +24,6 @@ struct weights {
     double *weight;             /* [blocks][taps][LANES] */
 };
 
-static size_t
-divisor(size_t a, size_t b)
-{
-    while (b > 0) {
-        size_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 static void *
 aligned(void *p)
 {
@@ -44,7 +33,7 @@ aligned(void *p)
 weights *
 ss_dense_new(const kaiser *ker, size_t phases)
 {
-    size_t common = divisor(phases, LANES), blocks = phases / common, extra = 0;
+    size_t common = phases < LANES ? phases : LANES, blocks = phases / common, extra = 0;
     for (size_t m = 0; m < blocks; m++) {
         size_t span = (m * LANES + LANES - 1) / phases - m * LANES / phases;
         extra = span > extra ? span : extra;

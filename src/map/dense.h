@@ -8,7 +8,7 @@
 /* Weights of a kernel at positions that repeat periodically. */
 typedef struct weights weights;
 
-/* NULL: no memory. */
+/* phases: a power of two.  NULL: no memory. */
 weights *ss_dense_new(const kaiser *ker, size_t phases);
 size_t ss_dense_phases(const weights *d);
 void ss_dense_free(weights *d);                       /* NULL is allowed */

@@ -181,14 +181,6 @@ ss_scale_b(const ss_scale *scale, size_t k)
     return (double)k * scale->b_num / scale->b_den;
 }
 
-/* The place of time b [s] from the first sample. */
-static spot
-spot_of(double b, double rate)
-{
-    double c = rint(b * rate);
-    return (spot){ c, c / rate == b ? 0 : fma(b, rate, -c) };
-}
-
 static int
 is_power_of_two(double x)
 {
@@ -209,8 +201,10 @@ spot
 ss_scale_spot(const ss_scale *scale, size_t k, double rate)
 {
     double parts = ss_scale_parts(scale, rate), all = (double)k * scale->b_num;
-    if (parts == 0)
-        return spot_of(ss_scale_b(scale, k), rate);
+    if (parts == 0) {
+        double b = ss_scale_b(scale, k), c = rint(b * rate);
+        return (spot){ c, c / rate == b ? 0 : fma(b, rate, -c) };
+    }
     double c = rint(all / parts);
     return (spot){ c, fma(-c, parts, all) / parts };
 }
@@ -236,17 +230,6 @@ ss_scale_count(const ss_scale *scale, double t)
     return n;
 }
 
-static ss_status
-count_translations(ss_scale *scale, size_t n, double rate, ss_error *err)
-{
-    double last = (double)(n - 1) / rate;
-    if (!(last * scale->b_den / scale->b_num < 0x1p50))
-        return ss_fail(err, SS_EINVAL, "the translation step %g s is too small for a record of "
-                       "%g s", scale->b_num / scale->b_den, last);
-    scale->n = ss_scale_count(scale, last);
-    return SS_OK;
-}
-
 /* Choose the largest step of 2^p/m samples that is at most `samples`. */
 static void
 choose_step(ss_scale *scale, double samples, double rate, double step)
@@ -262,14 +245,6 @@ choose_step(ss_scale *scale, double samples, double rate, double step)
     }
 }
 
-/* The paper's grid, of one voice and steps that are powers of two, needs no other steps. */
-static int
-step_is_exact(const ss_scale *scale, const ss_morlet_opts *opts)
-{
-    return opts->dense || opts->exact || opts->step > 1
-        || (opts->voices == 1 && is_power_of_two(scale->b_num));
-}
-
 ss_status
 ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
                    const ss_morlet_opts *opts, ss_error *err)
@@ -282,9 +257,17 @@ ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
                          .b_den = opts->dense ? rate : 1 };
     if (!(scale->b_num >= 1e-300))
         return ss_fail(err, SS_EINVAL, "step %g is too small", opts->step);
-    if (!step_is_exact(scale, opts))
+    /* the paper's grid, of one voice and steps that are powers of two, needs no other steps */
+    if (!opts->dense && !opts->exact && opts->step <= 1 && (v > 1 || !is_power_of_two(scale->b_num)))
         choose_step(scale, scale->b_num * rate, rate, opts->step);
-    return n == 0 ? SS_OK : count_translations(scale, n, rate, err);
+    if (n == 0)
+        return SS_OK;
+    double last = (double)(n - 1) / rate;
+    if (!(last * scale->b_den / scale->b_num < 0x1p50))
+        return ss_fail(err, SS_EINVAL, "the translation step %g s is too small for a record of %g s",
+                       scale->b_num / scale->b_den, last);
+    scale->n = ss_scale_count(scale, last);
+    return SS_OK;
 }
 
 ss_status

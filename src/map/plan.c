@@ -8,20 +8,6 @@
 
 enum { PART = 1 << 14 };        /* coefficients by the definition, computed at a time */
 
-static ss_status
-fill_plan(ss_morlet *plan, ss_error *err)
-{
-    ss_status st = ss_grid_make(&plan->scale, &plan->n_scales, plan->n, plan->rate, &plan->opts,
-                                  err);
-    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
-        plan->scale[i].offset = plan->total;
-        plan->total += plan->scale[i].n;
-        if (plan->total > SIZE_MAX / (2 * sizeof(double)))
-            st = SS_ENOMEM;
-    }
-    return st;
-}
-
 ss_status
 ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *given, ss_error *err)
 {
@@ -37,7 +23,13 @@ ss_morlet_new(ss_morlet **out, size_t n, double rate, const ss_morlet_opts *give
     if (plan == NULL)
         return SS_ENOMEM;
     *plan = (ss_morlet){ .opts = opts, .n = n, .rate = rate };
-    st = fill_plan(plan, err);
+    st = ss_grid_make(&plan->scale, &plan->n_scales, n, rate, &opts, err);
+    for (size_t i = 0; st == SS_OK && i < plan->n_scales; i++) {
+        plan->scale[i].offset = plan->total;
+        plan->total += plan->scale[i].n;
+        if (plan->total > SIZE_MAX / (2 * sizeof(double)))
+            st = SS_ENOMEM;
+    }
     if (st == SS_OK)
         st = ss_blocks_new(plan);
     if (st != SS_OK) {

@@ -12,22 +12,6 @@
 /* A time this near to the end of an interval belongs to the next one, in units of the interval. */
 #define SAME_KNOT 1e-9
 
-/* Compute the spline's second derivative at each knot; 0: no memory. */
-static int
-bend_spline(ss_base *b)
-{
-    double *t = malloc(b->n * sizeof *t);
-    gsl_interp *spline = t != NULL ? gsl_interp_alloc(gsl_interp_cspline, b->n) : NULL;
-    for (size_t i = 0; spline != NULL && i < b->n; i++)
-        t[i] = (double)i;
-    int done = spline != NULL && gsl_interp_init(spline, t, b->z, b->n) == GSL_SUCCESS;
-    for (size_t i = 0; done && i < b->n; i++)
-        b->bend[i] = gsl_interp_eval_deriv2(spline, t, b->z, t[i], NULL);
-    gsl_interp_free(spline);
-    free(t);
-    return done;
-}
-
 ss_status
 ss_base_new(ss_base **out, const ss_signal *signal, size_t column, ss_error *err)
 {
@@ -48,12 +32,21 @@ ss_base_new(ss_base **out, const ss_signal *signal, size_t column, ss_error *err
         b->z[i] = signal->values[column * signal->n + i];
         b->size = fmax(b->size, fabs(b->z[i]));
     }
-    if (b->z == NULL || b->bend == NULL || !bend_spline(b)) {
+    double *t = malloc(signal->n * sizeof *t);
+    gsl_interp *spline = gsl_interp_alloc(gsl_interp_cspline, signal->n);
+    for (size_t i = 0; t != NULL && i < b->n; i++)
+        t[i] = (double)i;
+    int done = b->z != NULL && b->bend != NULL && t != NULL && spline != NULL
+        && gsl_interp_init(spline, t, b->z, b->n) == GSL_SUCCESS;
+    for (size_t i = 0; done && i < b->n; i++)
+        b->bend[i] = gsl_interp_eval_deriv2(spline, t, b->z, t[i], NULL);
+    gsl_interp_free(spline);
+    free(t);
+    if (done)
+        *out = b;
+    else
         ss_base_free(b);
-        return ss_fail_memory(err, NULL);
-    }
-    *out = b;
-    return SS_OK;
+    return done ? SS_OK : ss_fail_memory(err, NULL);
 }
 
 void

@@ -147,18 +147,6 @@ start(state *m)
     return 1;
 }
 
-/* The distance beyond its limit at which a contact will turn back if v' stays as it is. */
-static double
-excess(const state *m)
-{
-    double rate[MAX_DIM], v = m->q[1];
-    ss_linear_rates(m, base_force(m, m->u), m->q, rate);
-    if (!(rate[1] * sign(m->q[0]) < 0))
-        return INFINITY;
-    double rest = v / (2 * fabs(rate[1])) * v;      /* v^2 may underflow */
-    return fabs(m->q[0]) - deflection_limit(m->scene, sign(m->q[0])) + rest;
-}
-
 /* Returns 1 if a contact at its limit only touches it: if it goes at most m->slack + m->graze beyond.
  * An undamped contact returns exactly to its limit each period, and rounding would decide whether it is
  * released then.  The excess is subtracted as a distance; stopping the contact at the limit
@@ -169,7 +157,12 @@ only_touches(state *m)
     const ss_scene *s = m->scene;
     if (s->own[RELEASE] == TOTAL && s->own[DAMPING] > 0)
         return 0;
-    double beyond = excess(m);
+    double rate[MAX_DIM], v = m->q[1];
+    ss_linear_rates(m, base_force(m, m->u), m->q, rate);
+    if (!(rate[1] * sign(m->q[0]) < 0))
+        return 0;
+    /* it will turn back so far beyond its limit if v' stays as it is; v^2 may underflow */
+    double beyond = fabs(m->q[0]) - deflection_limit(s, sign(m->q[0])) + v / (2 * fabs(rate[1])) * v;
     if (!(beyond <= m->slack + m->graze))
         return 0;
     m->q[0] -= sign(m->q[0]) * beyond;
@@ -177,14 +170,6 @@ only_touches(state *m)
     set_bounds(m);
     m->touches++;
     return 1;
-}
-
-/* 1 if the force of spring and damper, and that is what counts, exceeds f_s where the spring begins to touch. */
-static int
-strikes(const state *m, int side)
-{
-    double force = damper_ratio(m->scene, side) * side * m->q[1];
-    return !is_gap(m->scene, side) && force > deflection_limit(m->scene, side);
 }
 
 static int
@@ -195,7 +180,8 @@ next(state *m, ss_event *e)
     int before = m->mode, side = m->side, released = before == 0 && !is_gap(s, side) && (side == 0 || m->ended != 1);
     if (before == 0 && !released) {             /* from side to side */
         int to = side == 0 ? sign(m->q[0]) : b > 0 ? 0 : -side;
-        if (!strikes(m, to)) {
+        /* spring and damper, if they are what counts, may exceed f_s where the spring begins to touch */
+        if (is_gap(s, to) || !(damper_ratio(s, to) * to * v > deflection_limit(s, to))) {
             microstick(m, x, to, to == 0 ? side * b : 0, v);
             return 0;
         }

@@ -144,25 +144,16 @@ distance(const char *a, const char *b)
     return row[n];
 }
 
-static const char *
-nearest_key(const char *name)
-{
-    const ss_model *model;
-    const char *best = "model";
-    for (size_t i = 0; (model = ss_model_at(i)) != NULL; i++) {
-        const scene_key *k;
-        for (size_t j = 0; (k = ss_key_at(model, j)) != NULL; j++)
-            if (distance(name, k->name) < distance(name, best))
-                best = k->name;
-    }
-    return best;
-}
-
 /* A name that differs from a key in few letters is probably mistyped. */
 const char *
 ss_key_unknown(char text[KEY_UNKNOWN_ROOM], const char *name)
 {
-    const char *best = nearest_key(name);
+    const ss_model *model;
+    const scene_key *k;
+    const char *best = "model";
+    for (size_t i = 0; (model = ss_model_at(i)) != NULL; i++)
+        for (size_t j = 0; (k = ss_key_at(model, j)) != NULL; j++)
+            best = distance(name, k->name) < distance(name, best) ? k->name : best;
     size_t length = strnlen(name, LONGEST), off = distance(name, best);
     if (off < length && off <= (length / 3 > 2 ? length / 3 : 2))
         snprintf(text, KEY_UNKNOWN_ROOM, "unknown key '%.64s'; the nearest is '%s'", name, best);

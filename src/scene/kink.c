@@ -2,19 +2,6 @@
  * through 0.  A mode is a sign of v; at a kink the next begins, without an event. */
 #include "scene/model.h"
 
-/* The sign that v will have: that of v, of v', of the base's push, or +1. */
-static int
-way_of(const state *m)
-{
-    double rates[MAX_DIM], drive = base_force(m, m->u);
-    if (m->q[1] != 0)
-        return sign(m->q[1]);
-    m->model->rates(m, drive, m->q, rates);
-    if (rates[1] != 0)
-        return sign(rates[1]);
-    return base_force_rate(m, m->u) < 0 ? -1 : 1;
-}
-
 int
 ss_kink_start(state *m)
 {
@@ -26,10 +13,14 @@ ss_kink_start(state *m)
     return 0;
 }
 
+/* The mode is the sign that v will have: that of v, of v', of the base's push, or +1. */
 void
 ss_kink_turn(state *m)
 {
-    m->mode = way_of(m);
+    double rates[MAX_DIM];
+    m->model->rates(m, base_force(m, m->u), m->q, rates);
+    int way = m->q[1] != 0 ? sign(m->q[1]) : sign(rates[1]);
+    m->mode = way != 0 ? way : base_force_rate(m, m->u) < 0 ? -1 : 1;
     m->n_bounds = 1;
     m->bound[0] = (bound){ .of = { 0, m->mode } };
 }

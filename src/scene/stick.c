@@ -46,22 +46,6 @@ next_turn(double angle, double from)
     return from + (ahead <= 0 ? ahead + round : ahead);
 }
 
-/* The time at which the force leaves its limits, without a pull: upwards while the cosine rises,
- * downwards while it falls.  A force that only touches a limit does not leave. */
-static double
-end_of_swing(const state *m, double theta)
-{
-    const ss_scene *s = m->scene;
-    double x = m->q[0], z = s->base_amplitude, end = INFINITY;
-    double upper = (x + (holding_friction(s, 1) + m->drag) / s->stiffness) / z;
-    double lower = (x - (holding_friction(s, -1) - m->drag) / s->stiffness) / z;
-    if (fabs(upper) < 1)
-        end = m->u + (next_turn(-acos(upper), theta) - theta) / m->omega;
-    if (fabs(lower) < 1)
-        end = fmin(end, m->u + (next_turn(acos(lower), theta) - theta) / m->omega);
-    return end;
-}
-
 /* The zero in [lo, hi] of D cos(angle + omega s) + R s - level, which rises there: by Newton's steps, and
  * by bisection where these leave the bracket. */
 static double
@@ -151,8 +135,6 @@ ss_stick_still(const state *m, double *u_end)
         *u_end = m->u;
     } else if (s->base != NULL) {
         *u_end = end_in_piece(m, x);
-    } else if (m->ramp == 0) {
-        *u_end = end_of_swing(m, theta);
     } else {
         double rest = force - m->drive * cos(theta);
         *u_end = m->u + fmin(time_to_rise(m, theta, m->ramp, up - rest),

@@ -88,38 +88,26 @@ analytic(const ss_scene *s)
     return exponent(s) == 1 || exponent(s) == 2;
 }
 
-/* The coefficients of order n of w = |v| / v_s, of u and of p. */
-typedef struct fall {
-    double w[MOST_SERIES + 1], u[MOST_SERIES + 1], p[MOST_SERIES + 1];
-} fall;
-
-static void
-next_fall(const state *m, const double c[], int n, fall *f)
-{
-    const ss_scene *s = m->scene;
-    f->w[n] = m->mode / s->own[SPEED] * c[1];
-    f->u[n] = exponent(s) == 1 ? f->w[n] : product_term(f->w, f->w, n);
-    if (s->own[SHAPE] == EXPONENTIAL)
-        f->p[n] = n == 0 ? exp(-f->u[0]) : next_of_exp(f->u, f->p, n);
-    else
-        f->p[n] = n == 0 ? 1 / (1 + f->u[0]) : -f->p[0] * (f->p[0] * f->u[n] + inner_products(f->p, f->u, n));
-}
-
 static void
 series(const state *m, const double step[], int order, double c[][SERIES_PARTS])
 {
     const ss_scene *s = m->scene;
     double drop = m->mode * (holding_friction(s, m->mode) - kinetic_friction(s, m->mode)), per_mass = 1 / s->mass;
-    double force[MOST_SERIES + 1];
-    fall f;
+    enum { N = MOST_SERIES + 1 };
+    double force[N], w[N], u[N], p[N];          /* w = |v| / v_s */
     base_force_series(m, step, order, force);
     force[0] -= m->f0;
     c[0][0] = m->q[0];
     c[0][1] = m->q[1];
     for (int n = 0; n < order; n++) {
-        next_fall(m, c[n], n, &f);
+        w[n] = m->mode / s->own[SPEED] * c[n][1];
+        u[n] = exponent(s) == 1 ? w[n] : product_term(w, w, n);
+        if (s->own[SHAPE] == EXPONENTIAL)
+            p[n] = n == 0 ? exp(-u[0]) : next_of_exp(u, p, n);
+        else
+            p[n] = n == 0 ? 1 / (1 + u[0]) : -p[0] * (p[0] * u[n] + inner_products(p, u, n));
         c[n + 1][0] = step[n] * c[n][1];
-        double a = per_mass * (force[n] - drop * f.p[n] - m->k * c[n][0] - m->c * c[n][1]);
+        double a = per_mass * (force[n] - drop * p[n] - m->k * c[n][0] - m->c * c[n][1]);
         c[n + 1][1] = step[n] * a;
         c[n][MAX_DIM] = a;
     }

@@ -219,25 +219,6 @@ away_from(const neighbourhood *near, const motion *m, double d[D_MOST])
     return (near->at->now.mode == 0) == (m->now.mode == 0);
 }
 
-/* 1 if a difference `before` has become `after` as the derivative of one repetition predicts.  Motions that
- * lie side by side differ in the part that shrinks least, and little of it is lost in a cycle: this part,
- * too, must shrink as predicted. */
-static int
-goes_as_expected(neighbourhood *near, const double before[D_MOST], const double after[D_MOST],
-                 double allowed, double allowed_slow)
-{
-    double off[D_MOST], change[D_MOST], slow_off[D_MOST], slow_change[D_MOST];
-    times(near->once, before, off);
-    for (int i = 0; i < D_MOST; i++) {
-        change[i] = off[i] - before[i];
-        off[i] = after[i] - off[i];
-    }
-    times(near->slow, off, slow_off);
-    times(near->slow, change, slow_change);
-    return size_of(off) <= NONLINEAR * size_of(before) + allowed
-        && size_of(slow_off) <= SAME_WAY * size_of(slow_change) + allowed_slow;
-}
-
 /* 1 if the motion from a state approaches the periodic motion `at`, in several repetitions of its cycles, as its
  * derivative predicts.  If not, another motion is approached, or none.  One repetition would not suffice: a
  * chaotic motion comes near many periodic ones that it leaves again. */
@@ -245,6 +226,7 @@ static int
 is_approached(cycles *c, const motion *from, const motion *at, const tangent *t, int period)
 {
     double before[D_MOST], after[D_MOST], left[D_MOST], tol = c->opts->tol;
+    double off[D_MOST], change[D_MOST], slow_off[D_MOST], slow_change[D_MOST];
     ss_cycles_begin_at(c, from);
     neighbourhood near = neighbourhood_of(c, at, t);
     int yes = away_from(&near, from, before);
@@ -255,8 +237,18 @@ is_approached(cycles *c, const motion *from, const motion *at, const tangent *t,
     yes = yes && size_of(left) * exp(near.scale) <= tol;
     for (int n = 0; c->status == SS_OK && yes && n < REPETITIONS; n++) {
         ss_cycles_go(c, period, NULL);
-        yes = away_from(&near, &c->w.m, after)
-            && goes_as_expected(&near, before, after, MEASURABLE * size + tol, allowed_slow);
+        yes = away_from(&near, &c->w.m, after);
+        /* in one repetition a difference changes as the derivative predicts; motions that lie side by side differ
+         * in the part that shrinks least, of which little is lost in a cycle: this part must shrink so, too */
+        times(near.once, before, off);
+        for (int i = 0; i < D_MOST; i++) {
+            change[i] = off[i] - before[i];
+            off[i] = after[i] - off[i];
+        }
+        times(near.slow, off, slow_off);
+        times(near.slow, change, slow_change);
+        yes = yes && size_of(off) <= NONLINEAR * size_of(before) + MEASURABLE * size + tol
+            && size_of(slow_off) <= SAME_WAY * size_of(slow_change) + allowed_slow;
         memcpy(before, after, sizeof before);
     }
     ss_cycles_keep(c, 0);
@@ -301,9 +293,9 @@ crawls_to(cycles *c, const motion *from, const motion *at, const tangent *t, int
 typedef enum which_motion { STABLE, APPROACHED, CRAWLED_TO } which_motion;
 
 /* From the present state, find a state that repeats after so many cycles, and measure it, if it is one that is
- * accepted; it misses its start by a part of tol.  Returns its period; 0 if there is none, or it cannot be measured:
- * at a limit where a contact only touches, which the motion approaches from one side, only simulation shows how
- * many events a cycle has. */
+ * accepted; it misses its start by a part of tol.  Returns its period; 0 if there is none, or it cannot be
+ * measured: at a limit where a contact only touches, which the motion approaches from one side, only simulation
+ * shows how many events a cycle has. */
 static int
 shoot(finder *f, which_motion which, int n)
 {
@@ -460,7 +452,7 @@ ss_periodic_find(finder *f)
         return c->status;
     for (unsigned long i = 0; c->status == SS_OK && i < o->settle; i++)
         ss_cycles_go(c, 1, NULL);
-    const motion here = c->w.m;         /* the period is the number of cycles after which it returns to this state */
+    const motion here = c->w.m;         /* the period is the number of cycles until it returns to this state */
     int period = ss_cycles_return(c, o->max_period, o->tol);
     if (c->status == SS_OK)
         ss_cycles_begin_at(c, &here);

@@ -11,7 +11,7 @@
 #include "motion/method.h"
 #include "study/trade/trade.h"
 
-#define OUTRAGEOUS 300              /* a method may take so many times the steps of the reference */
+#define OUTRAGEOUS 40               /* a method may take so many steps for each right-hand side of the reference */
 
 const ss_range ss_trade_accuracies = { 1e-12, 1e-3 };
 
@@ -47,20 +47,6 @@ loosest(choice *s, const char *method, double cost, unsigned long max_steps, ss_
             return SS_OK;
     }
     return SS_ETOL;
-}
-
-static ss_status
-choose_given(choice *s, const char *method, ss_error *err)
-{
-    ss_status st = loosest(s, method, 0, (unsigned long)s->max_steps, err);
-    if (st == SS_EBUDGET && isfinite(s->reached))
-        return ss_fail(err, st, "%s needs more than %.0f steps for an accuracy of %g, %d times the error with "
-                       "every event in place; with fewer x was %.2g of its maximum off", method,
-                       s->max_steps, s->accuracy, MARGIN, s->reached);
-    if (st == SS_ETOL && isfinite(s->reached))
-        return ss_fail(err, st, "%s keeps no accuracy of %g, %d times the error with every event in place: "
-                       "x was %.2g of its maximum off at best", method, s->accuracy, MARGIN, s->reached);
-    return st;
 }
 
 /* Choose the cheapest method for a scene without a closed form.  A method is stopped when it has done as
@@ -128,13 +114,20 @@ choose(choice *s, ss_sim_opts *opts, ss_error *err)
         opts->tol = usual.tol;
         return SS_OK;
     }
-    s->max_steps = OUTRAGEOUS * (double)(s->ref.stats.steps + 1);
+    s->max_steps = OUTRAGEOUS * (double)s->ref.stats.rhs;
     if (s->user_steps > 0)
         s->max_steps = fmin(s->max_steps, (double)s->user_steps);
     if (opts->method == NULL)
         return choose_cheapest(s, opts, err);
-    st = choose_given(s, opts->method, err);
+    st = loosest(s, opts->method, 0, (unsigned long)s->max_steps, err);
     opts->tol = s->tol;
+    if (st == SS_EBUDGET && isfinite(s->reached))
+        return ss_fail(err, st, "%s needs more than %.0f steps for an accuracy of %g, %d times the error with "
+                       "every event in place; with fewer x was %.2g of its maximum off", opts->method,
+                       s->max_steps, s->accuracy, MARGIN, s->reached);
+    if (st == SS_ETOL && isfinite(s->reached))
+        return ss_fail(err, st, "%s keeps no accuracy of %g, %d times the error with every event in place: "
+                       "x was %.2g of its maximum off at best", opts->method, s->accuracy, MARGIN, s->reached);
     return st;
 }
 
