@@ -24,7 +24,7 @@
 #include <unistd.h>
 #include <stickslip.h>
 #include "map/map.h"
-#include "signal/resample.h"
+#include "signal/source.h"
 
 #include "find/drops.h"
 #include "find/events.h"

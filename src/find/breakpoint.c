@@ -5,7 +5,7 @@
  * the break, where their variances are u and v, cubics that meet leave d^2 / (u + v) more.  The
  * break is where the sum is least.  All places of a jump between two samples give the same
  * samples, so the middle is chosen. */
-#include "find/breakpoint.h"
+#include "find/events.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>

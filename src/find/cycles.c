@@ -36,8 +36,8 @@
  *
  * Cycles may differ in turn: then several of them repeat far better than one, and these are the period.  How well,
  * is judged between samples of a smoothed signal, and a jump that lies between two is no difference.  Samples are
- * compared with the mean of those as many cycles before and behind, as a waveform that drifts differs from both, but not
- * from that.
+ * compared with the mean of those as many cycles before and behind, as a waveform that drifts differs from both, but
+ * not from that.
  *
  * A hum may make several cycles more alike than one.  What differs after a part of them is then its line alone.
  * It may also keep all lags at multiples of its own period: the rate of what is slow tells. */
@@ -586,7 +586,7 @@ cycles_in_turn(const view *v, const once *one, size_t *in_turn)
         }
     }
     for (size_t p = 2; p <= MULTIPLES && p + 1 < known && *in_turn == 1; p++) {
-        double bound = unlike[1] / CLEARER, many = fmax(1, floor(0.4 * most / (double)p)) * (double)p;
+        double bound = unlike[1] / CLEARER, many = fmax(1, floor((1 - SEEN) * most / (double)p)) * (double)p;
         double last = unlikeness(v, lag_near(v, many * each, period), period);
         int agree = f * period < LOW;
         for (size_t q = 2; agree && q <= 2 * p + 1 && q < known; q++)

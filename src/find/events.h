@@ -15,6 +15,13 @@ is_event(const ss_spike *spike)
     return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
 }
 
+/* The time, in samples, at which x is best explained by two cubics that meet there, in the samples
+ * [first, last]; at is where it is thought to be, and reach how far it may be from there.  The
+ * cubics may differ in value (a jump) where that explains so much more that it is worth its
+ * parameter.  At least BREAKPOINT_SIDE samples on either side are needed, else at is the answer. */
+enum { BREAKPOINT_DEGREE = 3, BREAKPOINT_SIDE = BREAKPOINT_DEGREE + 2 };
+double ss_breakpoint(const double *x, size_t first, size_t last, double at, double reach);
+
 /* Find all spikes of a source, whose memory is freed.  n = 0 if no |W| exceeds the noise. */
 ss_status ss_spikes_find(ss_spikes **out, row_source *source);
 void ss_spikes_free(ss_spikes *found);          /* NULL is allowed */

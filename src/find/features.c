@@ -15,7 +15,7 @@
 #include "find/hum.h"
 #include "find/search.h"
 #include "map/map.h"
-#include "signal/filter.h"
+#include "signal/header.h"
 #include "signal/gaps.h"
 
 static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement = -1, .force = -1,

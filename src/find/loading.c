@@ -23,7 +23,6 @@
 #include "find/slip.h"
 #include "signal/gaps.h"
 
-#define HIDDEN 2.0              /* see common_misfit */
 #define MOST_DAMPING 0.5        /* of either sign, as friction may fall with speed */
 
 /* A fall, and the rise before it, in samples. */
@@ -196,7 +195,7 @@ common_misfit(const fall *f, size_t n)
         slips++;
         samples += f[i].slip.n * pow(f[i].slip.drop.value, 2) / f[i].slip.variance;
     }
-    return power > 0 ? HIDDEN * HIDDEN * power * samples / slips : 0;
+    return power > 0 ? 4 * power * samples / slips : 0;
 }
 
 /* Widen the errors of a slip by what its fit does not see; add to shared and all, of each number, the variance

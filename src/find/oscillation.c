@@ -7,7 +7,6 @@
 #include "find/search.h"
 #include "signal/gaps.h"
 
-#define NEAR 1.0                /* [octaves] the largest distance of a fit from the frequency that recurs */
 
 /* Convert omega and s, per sample, to Hz and damping ratio. */
 static void
@@ -81,8 +80,8 @@ stick_behind(const search *s, size_t anchor, size_t next, double f)
 
 /* --- is it one oscillation? -------------------------------------------------------------------- */
 
-/* Is the fit near the frequency f [Hz] one of a damped oscillation in sticks: the reason why not, or NULL.
- * cycles: the number of them; an oscillation that fewer than half of the transitions show, and not every cycle,
+/* Is the fit within an octave of the frequency f [Hz] one of a damped oscillation in sticks: the reason why not, or
+ * NULL.  cycles: the number of them; an oscillation that fewer than half of the transitions show, and not every cycle,
  * was picked by the fit itself. */
 static const char *
 judge(const search *s, const ringdown *r, double f, size_t cycles)
@@ -101,7 +100,7 @@ judge(const search *s, const ringdown *r, double f, size_t cycles)
         used += to > from;
         crossed += (size_t)is_crossed;
     }
-    if (isnan(w.value) || used < FEW || fabs(log2(w.value * s->rate / (2 * M_PI * f))) > NEAR)
+    if (isnan(w.value) || used < FEW || fabs(log2(w.value * s->rate / (2 * M_PI * f))) > 1)
         return "what recurs lasts under 2 periods or is no damped oscillation";
     if (r->is_train)
         return "what recurs is a train of micro-slips, once a period of the oscillation";

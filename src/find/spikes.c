@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include "base/list.h"
 #include "base/sort.h"
-#include "find/breakpoint.h"
 #include "find/events.h"
 #include "find/judgement.h"
 #include "signal/gaps.h"

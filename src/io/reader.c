@@ -9,9 +9,8 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "base/options.h"
-#include "signal/filter.h"
 #include "signal/header.h"
-#include "signal/resample.h"
+#include "signal/source.h"
 
 static const ss_read_opts defaults = { .size = sizeof defaults };
 

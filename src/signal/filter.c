@@ -11,7 +11,7 @@
  * last blocks are kept, and that of the next output is the sum of their products with those of the parts.
  * (Overlap-save, partitioned; Stockham 1966.)  A block is an eighth of the filter, so rows leave shortly after
  * they can be known, and their bits do not depend on how a pipe delivers them. */
-#include "signal/filter.h"
+#include "signal/source.h"
 
 #include <gsl/gsl_sf_bessel.h>
 #include <math.h>

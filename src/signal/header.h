@@ -65,4 +65,8 @@ ss_status ss_refuse_range(const char *name, double rate, double start, ss_error 
 ss_status ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
                            size_t n_columns, size_t first, size_t end, ss_error *err);
 
+/* The frequencies [Hz] that the filters which a header notes left as they were: *flat becomes at least as narrow.
+ * Returns 0 if it notes none. */
+int ss_header_flat(const ss_header *head, ss_range *flat);
+
 #endif

@@ -12,7 +12,7 @@
 #include "base/columns.h"
 #include "base/error.h"
 #include "signal/header.h"
-#include "signal/resample.h"
+#include "signal/source.h"
 
 #define AT_END 1e-6             /* a sample may lie so many periods beyond the last stamp */
 enum {

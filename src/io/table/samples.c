@@ -11,7 +11,7 @@
 #include "io/reader.h"
 #include "io/table/clock.h"
 #include "signal/gaps.h"
-#include "signal/resample.h"
+#include "signal/source.h"
 
 struct samples {
     ss_source base;

@@ -10,7 +10,7 @@
 #include <time.h>
 #include "base/error.h"
 #include "base/number.h"
-#include "signal/resample.h"
+#include "signal/source.h"
 #include "io/table/clock.h"
 #include "io/table/sheet.h"
 
