@@ -565,6 +565,24 @@ a_lag_of_the_sensor_is_seen(void **state)
     }
 }
 
+/* Gaps at one place of each cycle leave nothing to compare there. */
+static void
+gaps_in_every_cycle_are_said(void **state)
+{
+    ss_scene truth = shipped(LIGHT);
+    char gaps[400] = "";
+    (void)state;
+    for (double from = .1; from < truth.duration; from += 1 / truth.base_frequency)
+        snprintf(gaps + strlen(gaps), sizeof gaps - strlen(gaps), "%s%.12g:%.12g", gaps[0] ? " " : "", from, from + .04);
+    ss_signal *signal = record_of(&truth, 300);
+    assert_int_equal(ss_header_note(signal->head, "gaps", gaps, NULL), SS_OK);
+    ss_ranking *r = rank(signal);
+    assert_int_equal(r->verdict, SS_UNDECIDED);
+    assert_non_null(strstr(r->why, "gaps leave out a part of every cycle of 0.4 s"));
+    ss_ranking_free(r);
+    ss_signal_free(signal);
+}
+
 /* A gap in a stick, filled with a line or with zeros: the models rank as without, and all samples
  * that are left fit the scene to the last digits. */
 static void
@@ -712,6 +730,7 @@ main(void)
         cmocka_unit_test(terms_that_a_fit_holds_come_back),
         cmocka_unit_test(a_lag_of_the_sensor_is_seen),
         cmocka_unit_test(gaps_do_not_matter),
+        cmocka_unit_test(gaps_in_every_cycle_are_said),
         cmocka_unit_test(progress_goes_on_to_the_end_or_stops),
         cmocka_unit_test(progress_of_a_fit_counts_down),
         cmocka_unit_test(does_not_fit_what_is_not_compliant),
