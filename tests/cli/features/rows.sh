@@ -15,6 +15,8 @@ grep '_*gaps: ' gap
 grep -v '^#' gap | awk '$3 != 3 { print "spikes", $3, "from", int($1 * 100) / 100 }'
 for f in found gap; do grep -v '^#' $f | awk '$3 == 3 { printf "%.6f %.6f %.2f %.6f\n", $1, $2, $4, $7 }' > $f.rows; done
 grep -vxFf found.rows gap.rows || echo "others as without"
+# a table that has no notes has the summary in each row, and a row for it where there is no transition
+for from in 'ss-cat run.tsv' 'ss-signal sine'; do $from | ss-features --format csv | awk -F, '{ n = NF } END { print NR, n }'; done
 # nothing there
 ss-signal noise --duration 2 | ss-features | sed -n '/^# transitions/,$p'
 # the manual
