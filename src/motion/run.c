@@ -292,6 +292,7 @@ ss_sim_run(const ss_scene *scene, const ss_sim_opts *given, ss_sim_stats *stats,
                                                                    scene->base_frequency)) };
     walk w;
     st = ss_walk_begin(&w, scene, opts, err);
+    w.by_steps = 1;
     if (st == SS_OK)
         st = check_length(&r, &w.m.now, w.how->kind == CLOSED_FORM, err);
     if (st == SS_OK && w.slips) {       /* a start in slip is an event at t = 0 */

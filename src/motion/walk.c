@@ -70,7 +70,7 @@ ss_walk_leg(walk *w, double longest, ss_error *err)
         return SS_OK;
     }
     w->h = longest;
-    w->ends = e->type->ahead != NULL ? e->type->ahead(e, longest, &w->h) : -1;
+    w->ends = e->type->ahead != NULL && !w->by_steps ? e->type->ahead(e, longest, &w->h) : -1;
     if (w->ends >= 0)
         return SS_OK;
     ss_status st = ss_engine_step(e, fmin(w->cap, longest), err);

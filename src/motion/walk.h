@@ -16,6 +16,7 @@ typedef struct walk {
     engine *e;
     const struct method *how;
     int slips;                      /* 1: it started in slip */
+    int by_steps;                   /* 1: not ahead: the series of a step shows where a guard only touches 0 */
     double cap;                     /* the longest step in the present mode [s] */
     unsigned long max_steps;        /* 0: no limit */
     double lasted;                  /* duration of the present mode before the leg [s] */
