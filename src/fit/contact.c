@@ -40,26 +40,6 @@ typedef struct fitting {
     double rival;                       /* residual of the best of other parameters; infinite: none */
 } fitting;
 
-/* Give the scene the contact's stiffness and damping that the transitions show, if they do. */
-static ss_status
-take_features(ss_scene *scene, const ss_signal *signal, size_t column, ss_error *err)
-{
-    ss_features *f = NULL;
-    ss_features_opts opts;
-    ss_features_opts_init(&opts, sizeof opts);
-    opts.mass = scene->mass;
-    opts.stiffness = scene->stiffness;
-    ss_status st = ss_features_find(&f, signal, column, &opts, err);
-    if (st != SS_OK)
-        return st;
-    if (f->number[SS_CONTACT_STIFFNESS].value > 0)
-        ss_scene_set(scene, "contact_stiffness", f->number[SS_CONTACT_STIFFNESS].value, NULL);
-    if (f->number[SS_CONTACT_DAMPING].value > 0)
-        ss_scene_set(scene, "contact_damping", f->number[SS_CONTACT_DAMPING].value, NULL);
-    ss_features_free(f);
-    return SS_OK;
-}
-
 /* The numbers that are adjusted.  Each is the product of so many unknowns of a fit. */
 static const struct {
     const char *name;
@@ -200,7 +180,18 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
 {
     ss_scene scene = fit->scene;
     forced *c = &w->scene;
-    ss_status st = take_features(&scene, signal, column, err);
+    /* the contact starts from the stiffness and damping that the transitions show, if they do */
+    ss_features *f = NULL;
+    ss_features_opts how;
+    ss_features_opts_init(&how, sizeof how);
+    how.mass = scene.mass;
+    how.stiffness = scene.stiffness;
+    ss_status st = ss_features_find(&f, signal, column, &how, err);
+    if (st == SS_OK && f->number[SS_CONTACT_STIFFNESS].value > 0)
+        ss_scene_set(&scene, "contact_stiffness", f->number[SS_CONTACT_STIFFNESS].value, NULL);
+    if (st == SS_OK && f->number[SS_CONTACT_DAMPING].value > 0)
+        ss_scene_set(&scene, "contact_damping", f->number[SS_CONTACT_DAMPING].value, NULL);
+    ss_features_free(f);
     *c = ss_forced_of(&scene, (int)opts->quantity, FAR);
     c->period = w->goal.period;
     c->budget = BUDGET;

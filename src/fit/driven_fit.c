@@ -384,31 +384,6 @@ find_covariance(problem *p, driven_result *r, double *slopes)
                 r->covariance[of[k]][of[l]] += score[b][k] * score[b][l];
 }
 
-/* Fit without a fold, from the best of the starts, and add up what it leaves of that fold. */
-static ss_status
-fit_fold(driven_result *r, problem *p, problem *rough, driven_fit start[KEPT], double rows)
-{
-    const driven *d = p->d;
-    ss_status st = SS_OK;
-    driven_fit *fit = &r->fit[p->without];
-    *fit = start[0];
-    for (size_t k = 0; k < KEPT && st == SS_OK && isfinite(start[k].loss); k++) {
-        st = improve(rough, &start[k]);
-        if (start[k].loss < fit->loss || k == 0)
-            *fit = start[k];
-    }
-    if (st == SS_OK)
-        st = improve(p, fit);
-    for (size_t i = 0; i < d->n && st == SS_OK; i++) {
-        r->left[i] = left_of(p, fit->c, i);
-        if (d->used[i] && driven_fold(d, i) == p->without) {
-            r->loss += r->left[i] * r->left[i] / rows;
-            r->block[i * BLOCKS / d->n] += r->left[i] * r->left[i] / rows;
-        }
-    }
-    return st;
-}
-
 ss_status
 ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const driven *coarse)
 {
@@ -428,9 +403,24 @@ ss_driven_fit(driven_result *out, const driven_law *law, const driven *d, const 
             start[k / KEPT][k % KEPT].loss = INFINITY;
         st = search(&rough, start);
     }
-    for (int k = 0; k <= ALL && st == SS_OK; k++) {
-        p.without = rough.without = k;
-        st = fit_fold(out, &p, &rough, start[k], rows);
+    /* without each fold, from the best of the starts; what it leaves of that fold is added up */
+    for (int fold = 0; fold <= ALL && st == SS_OK; fold++) {
+        driven_fit *fit = &out->fit[fold], *from = start[fold];
+        p.without = rough.without = fold;
+        *fit = *from;
+        for (size_t k = 0; k < KEPT && st == SS_OK && isfinite(from[k].loss); k++) {
+            st = improve(&rough, &from[k]);
+            if (from[k].loss < fit->loss || k == 0)
+                *fit = from[k];
+        }
+        if (st == SS_OK)
+            st = improve(&p, fit);
+        for (size_t i = 0; i < d->n && st == SS_OK; i++) {
+            const double left = out->left[i] = left_of(&p, fit->c, i);
+            const double part = d->used[i] && driven_fold(d, i) == fold ? left * left / rows : 0;
+            out->loss += part;
+            out->block[i * BLOCKS / d->n] += part;
+        }
     }
     if (st == SS_OK) {
         out->own = out->left + d->n;

@@ -71,29 +71,6 @@ level(const observation *l, size_t c, double top)
     return fmax(size > 0 ? 20 * log10(size / top) : -SPAN, -SPAN);
 }
 
-/* The median over half cycles of the largest |W| in each along the shortest scale [dB re the
- * map's]. */
-static ss_status
-measure_jumps(observation *l, double half)
-{
-    const ss_scale *s = &l->map->scale[l->map->n_scales - 1];
-    double top = ss_coefficients_max(l->map), rate = l->map->head->rate;
-    size_t halves = (size_t)((double)l->map->n / rate / half);
-    double *most = malloc((halves + 1) * sizeof *most);
-    if (most == NULL)
-        return SS_ENOMEM;
-    for (size_t i = 0; i < halves; i++)
-        most[i] = -SPAN;
-    for (size_t k = 0; top > 0 && k < s->n; k++) {
-        size_t i = (size_t)(ss_scale_b(s, k) / half);
-        if (i < halves && !ss_coefficients_edge(l->map, l->map->n_scales - 1, k))
-            most[i] = fmax(most[i], level(l, s->offset + k, top));
-    }
-    l->value[SS_BY_JUMP] = median(most, halves);
-    free(most);
-    return SS_OK;
-}
-
 static ss_status
 measure_features(observation *l, const ss_signal *signal, size_t column, double half, ss_error *err)
 {
@@ -142,7 +119,25 @@ observe(observation *l, const ss_signal *signal, size_t column, double period, s
     st = measure_features(l, signal, column, period / 2, err);
     if (st == SS_OK)
         st = ss_morlet_transform(&l->map, signal, column, &opts, err);
-    return st == SS_OK ? measure_jumps(l, period / 2) : st;
+    if (st != SS_OK)
+        return st;
+    /* jumps: the median over half cycles of the largest |W| in each along the shortest scale [dB re the map's] */
+    const ss_scale *s = &l->map->scale[l->map->n_scales - 1];
+    const double top = ss_coefficients_max(l->map), half = period / 2;
+    const size_t halves = (size_t)((double)l->map->n / l->map->head->rate / half);
+    double *most = malloc((halves + 1) * sizeof *most);
+    if (most == NULL)
+        return SS_ENOMEM;
+    for (size_t i = 0; i < halves; i++)
+        most[i] = -SPAN;
+    for (size_t k = 0; top > 0 && k < s->n; k++) {
+        size_t i = (size_t)(ss_scale_b(s, k) / half);
+        if (i < halves && !ss_coefficients_edge(l->map, l->map->n_scales - 1, k))
+            most[i] = fmax(most[i], level(l, s->offset + k, top));
+    }
+    l->value[SS_BY_JUMP] = median(most, halves);
+    free(most);
+    return SS_OK;
 }
 
 /* The rms difference of the levels of two maps on one grid, every octave counting the same. */

@@ -290,14 +290,13 @@ report(ss_step_law *out, const law *l, double noise)
 {
     const double *u = l->u, *covariance = l->covariance, a = exp(u[DIRECT]), k = exp(u[STIFFNESS]);
     const slider s = slider_of(l, u[CRITICAL], exp(u[RING]), k / a);
-    const double more = a * (s.ratio - 1), K = s.stiffness * s.distance;
+    const double more = a * (s.ratio - 1), K = s.stiffness * s.distance, way = way_of(l->record);
     out->direct_effect = value_of(a, (double[]){ [DIRECT] = a, [STIFFNESS] = 0 }, covariance, noise);
     out->evolution_effect = value_of(a + more, (double[]){ [DIRECT] = a - more, [CRITICAL] = a * K, [RING] = -more,
                                      [STIFFNESS] = 2 * more }, covariance, noise);
     out->critical_slip_distance = value_of(s.distance, (double[]){ [DIRECT] = -s.distance, [RING] = -s.distance,
                                            [STIFFNESS] = s.distance }, covariance, noise);
     out->stiffness = value_of(k, (double[]){ [STIFFNESS] = k }, covariance, noise);
-    const double way = way_of(l->record);
     out->drift = value_of(u[DRIFT] / way, (double[]){ [DRIFT] = 1 / way, [STIFFNESS] = 0 }, covariance, noise);
 }
 

@@ -73,18 +73,6 @@ ss_verdict_append(char *text, size_t room, const char *word)
     snprintf(text + n, room - n, "%s%s", n > 0 ? ", " : "", word);
 }
 
-/* Why the best law is none, or NULL. */
-static const char *
-find_fault(const candidate c[], size_t n, const candidate *best, double power)
-{
-    const double surely = 1 - 2 * ss_verdict_error(best->block, NULL) / (best->left * power);
-    return c[0].tied ? "no law explains more than the null"
-        : c[n].tied ? "no law explains more than a spring of any shape and a damper"
-        : 1 - best->left < EXPLAINED ? "too little is explained"
-        : best->work < LITTLE ? "friction is hardly reached"
-        : best->excess * surely > BEYOND_NOISE ? "more than noise is left" : NULL;
-}
-
 ss_verdict
 ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power, size_t *best)
 {
@@ -117,7 +105,12 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         snprintf(answer, room, "none of these: no law explains any of the force that was held out");
         return SS_NONE_FITS;
     }
-    const char *fault = find_fault(c, n, most, power);
+    const double surely = 1 - 2 * ss_verdict_error(most->block, NULL) / (most->left * power);
+    const char *fault = c[0].tied ? "no law explains more than the null"
+        : c[n].tied ? "no law explains more than a spring of any shape and a damper"
+        : 1 - most->left < EXPLAINED ? "too little is explained"
+        : most->work < LITTLE ? "friction is hardly reached"
+        : most->excess * surely > BEYOND_NOISE ? "more than noise is left" : NULL;
     if (fault != NULL) {
         snprintf(answer, room, "none of these: %s; %s explains %s of the force that was held out, and leaves %s "
                  "times the noise", fault, most->name, number, ss_number_rounded(times, most->excess, 4));
