@@ -29,13 +29,9 @@ enum { CYCLES = 32, MOST = 65536 };     /* cycles and samples that are fitted at
 #define SHORT 0.25                      /* periods of the contact: shorter sticks show no stiffness */
 
 typedef struct fitting {
-    const double *x;                    /* the column, of n samples */
-    const char *missing;                /* NULL: none */
-    size_t n;
-    double rate;
+    rank_record all, record;            /* the column, and the part of it that is fitted */
     cycle goal;
     forced scene;                       /* all keys are free but k, which is known */
-    rank_record record;                 /* the part of x that is fitted */
     forced_fit best;
     double rival;                       /* residual of the best of other parameters; infinite: none */
 } fitting;
@@ -59,7 +55,7 @@ report(ss_fit *fit, const fitting *w)
     s.phase = remainder(s.phase + 2 * M_PI * s.base_frequency * (s.settle - w->record.from), 2 * M_PI);
     s.x0 = s.v0 = 0;
     s.settle = FORCED_SETTLE / s.base_frequency;
-    s.duration = (double)w->n / w->rate;
+    s.duration = (double)w->all.n / w->all.rate;
     fit->scene = s;
     for (size_t i = 0; i < SS_FIT_KEYS; i++) {
         const double value = ss_scene_get(&fit->scene, fitted[i].name);
@@ -71,16 +67,16 @@ report(ss_fit *fit, const fitting *w)
     }
     fit->residual_started = sqrt(of->left / of->power);
     fit->noise = sqrt(fmin(w->record.noise, of->white) / of->power);
-    double *y = malloc((w->n + 1) * sizeof *y), steps = 0;
+    double *y = malloc((w->all.n + 1) * sizeof *y), steps = 0;
     if (y == NULL)
         return SS_ENOMEM;
-    const rank_record all = { .x = w->x, .missing = w->missing, .n = w->n };
-    const rank_record left = { .x = y, .missing = w->missing, .n = w->n };
-    ss_status st = ss_samples_run(&fit->scene, w->scene.pick, SAMPLES_FINE, y, NULL, w->n, &steps);
-    for (size_t i = 0; st == SS_OK && i < w->n; i++)
-        y[i] -= w->x[i];
+    rank_record left = w->all;
+    left.x = y;
+    ss_status st = ss_samples_run(&fit->scene, w->scene.pick, SAMPLES_FINE, y, NULL, left.n, &steps);
+    for (size_t i = 0; st == SS_OK && i < left.n; i++)
+        y[i] -= w->all.x[i];
     if (st == SS_OK)
-        fit->residual = sqrt(ss_record_power(&left) / ss_record_power(&all));
+        fit->residual = sqrt(ss_record_power(&left) / ss_record_power(&w->all));
     free(y);
     return st == SS_ENOMEM ? st : SS_OK;
 }
@@ -201,12 +197,12 @@ fit_signal(ss_fit *fit, fitting *w, const ss_signal *signal, size_t column, cons
         ? log(scene.friction / fmax(scene.static_friction, scene.friction)) : 0;
     /* A long record is fitted from half a cycle on.  A fitted motion starts in a slip before its record, but the
      * record itself may start from rest. */
-    const double samples = w->goal.period * w->rate;
-    size_t first = (double)w->n > 2.5 * samples ? (size_t)(samples / 2) : 0;
-    size_t n = (size_t)fmin(fmin((double)(w->n - first), CYCLES * samples), MOST);
-    w->record = (rank_record){ .x = w->x + first, .n = n, .rate = w->rate,
-                               .missing = w->missing != NULL ? w->missing + first : NULL,
-                               .from = (double)first / w->rate };
+    const rank_record *all = &w->all;
+    const double samples = w->goal.period * all->rate;
+    const size_t first = (double)all->n > 2.5 * samples ? (size_t)(samples / 2) : 0;
+    w->record = (rank_record){ .x = all->x + first, .rate = all->rate, .from = (double)first / all->rate,
+                               .n = (size_t)fmin(fmin((double)(all->n - first), CYCLES * samples), MOST),
+                               .missing = all->missing != NULL ? all->missing + first : NULL };
     if (st == SS_OK)
         st = ss_record_noise(&w->record, samples);
     c->progress = (ss_stretch){ opts->progress, 0, 1 };
@@ -250,11 +246,11 @@ ss_scene_fit(ss_fit *fit, const ss_signal *signal, size_t column, const ss_scene
     }
     if (w == NULL)
         return ss_fail_memory(err, NULL);
-    *w = (fitting){ .x = signal->values + column * signal->n, .n = signal->n, .rate = signal->head->rate };
     st = ss_gaps_missing(&missing, signal);
-    w->missing = missing;
+    *w = (fitting){ .all = { .x = signal->values + column * signal->n, .missing = missing, .n = signal->n,
+                             .rate = signal->head->rate } };
     if (st == SS_OK)
-        st = ss_cycle_find(&w->goal, fit->why, sizeof fit->why, w->x, missing, w->n, w->rate,
+        st = ss_cycle_find(&w->goal, fit->why, sizeof fit->why, w->all.x, missing, w->all.n, w->all.rate,
                            opts->forcing_frequency);
     if (st == SS_OK && w->goal.period > 0)
         st = fit_signal(fit, w, signal, column, opts, err);
