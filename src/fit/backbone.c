@@ -174,8 +174,8 @@ static ss_status
 find_extent(decay *d)
 {
     size_t width = (size_t)fmax(round(2 * M_PI / d->w), 1), n = d->n > width ? d->n - width + 1 : 0;
-    double complex *turned = malloc((d->n + 1) * sizeof *turned), sum = 0, of_one = 0;
-    double re = 1, im = 0, was, c = cos(d->w), s = sin(d->w);
+    double complex *turned = malloc((d->n + 1) * sizeof *turned), sum = 0, of_one = 0, back = 1;
+    const double complex step = conj(cexp(d->w * I));
     double *size = d->size = malloc((n + 1) * sizeof *size), least = INFINITY, plain = 0;
     if (turned == NULL || size == NULL) {
         free(turned);
@@ -184,12 +184,10 @@ find_extent(decay *d)
     for (size_t i = 0; i < width; i++)          /* of a constant 1, at the last sample of a period */
         of_one += cexp(d->w * (double)i * I) / (double)width;
     for (size_t i = 0; i < d->n; i++) {
-        double complex one = of_one * (re - im * I);
-        turned[i] = isnan(d->x[i]) ? 0 : d->x[i] * re - d->x[i] * im * I;
+        const double complex one = of_one * back;
+        turned[i] = isnan(d->x[i]) ? 0 : d->x[i] * back;
         plain += (isnan(d->x[i]) ? 0 : d->x[i]) - (i >= width && !isnan(d->x[i - width]) ? d->x[i - width] : 0);
-        was = re;
-        re = re * c - im * s;
-        im = was * s + im * c;
+        back *= step;
         sum += turned[i] - (i >= width ? turned[i - width] : 0);
         if (i + 1 < width)
             continue;
@@ -397,19 +395,15 @@ is_known(const decay *d, double w, size_t n)
 static double
 line_decay(double *w, const double *left, size_t n)
 {
-    double complex z[PARTS];
+    const double complex step = conj(cexp(*w * I));
+    double complex back = 1;
     double sum = 0, t = 0, tt = 0, level = 0, t_level = 0, phase = 0, t_phase = 0, last = 0;
-    double half[2] = { 1e-300, 1e-300 }, re = 1, im = 0, c = cos(*w), s = sin(*w);
+    double half[2] = { 1e-300, 1e-300 };
     for (size_t i = 0; i < PARTS; i++) {
-        z[i] = 0;
-        for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++) {
-            double was = re;
-            if (!isnan(left[k]))
-                z[i] += left[k] * (re - im * I);
-            re = re * c - im * s;
-            im = was * s + im * c;
-        }
-        double weight = creal(z[i] * conj(z[i])) + 1e-300, at = (double)i, turn = carg(z[i]);
+        double complex z = 0;
+        for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++, back *= step)
+            z += isnan(left[k]) ? 0 : left[k] * back;
+        double weight = creal(z * conj(z)) + 1e-300, at = (double)i, turn = carg(z);
         turn -= 2 * M_PI * round((turn - last) / (2 * M_PI));
         last = turn;
         half[2 * i / PARTS] += weight;
