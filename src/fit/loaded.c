@@ -180,17 +180,6 @@ search(start best[STARTS], law *l, const law *other, double stiffness)
     return st;
 }
 
-static ss_status
-fit(law *l, double u[UNKNOWNS], double noise, double *squares)
-{
-    const least how = { .rows = l->record->n, .unknowns = UNKNOWNS, .model = whitened, .user = l,
-                        .range = l->range, .tol = 1e-7, .noise = noise, .farthest = 1 };
-    least_end end = { 0 };
-    ss_status st = ss_least_fit(&end, &how, u, NULL, NULL);
-    *squares = end.squares;
-    return st;
-}
-
 /* A record at few times: means of more rows the farther these are from a change.  SS_ENOMEM. */
 static ss_status
 thin(track *few, const track *r)
@@ -251,8 +240,10 @@ begin(law *all, const law *other, double stiffness)
     track few;
     law l = { 0 };
     start s[STARTS];
-    double squares;
+    least_end end = { 0 };
     ss_status st = thin(&few, all->record);
+    least how = { .rows = few.n, .unknowns = UNKNOWNS, .model = whitened, .user = &l, .range = range, .tol = 1e-7,
+                  .farthest = 1 };
     if (st == SS_OK)
         st = make_room(&l, &few, all->is_slip, range);
     if (st == SS_OK)
@@ -261,10 +252,11 @@ begin(law *all, const law *other, double stiffness)
     for (int i = 0; st == SS_OK && i < STARTS && isfinite(s[i].squares); i++) {
         for (int k = 0; k < UNKNOWNS; k++)
             s[i].u[k] = fmax(range[k].from, fmin(s[i].u[k], range[k].to));
-        st = fit(&l, s[i].u, s[i].squares / (double)few.n, &squares);
-        if (st == SS_OK && squares < all->squares) {
+        how.noise = s[i].squares / (double)few.n;
+        st = ss_least_fit(&end, &how, s[i].u, NULL, NULL);
+        if (st == SS_OK && end.squares < all->squares) {
             memcpy(all->u, s[i].u, sizeof all->u);
-            all->squares = squares;
+            all->squares = end.squares;
         }
     }
     free(few.t);

@@ -20,17 +20,6 @@ report_half(double done, void *user)
     return ss_stretch_at(s, done) != SS_OK;
 }
 
-/* Does the signal move as the pulled scenes do rather than as the forced ones? */
-static int
-is_pull(const ss_ranking *others, const ss_ranking *pulled)
-{
-    if (!is_compared(pulled) || !is_compared(others))
-        return is_compared(pulled);
-    if ((pulled->verdict == SS_NAMED) != (others->verdict == SS_NAMED))
-        return pulled->verdict == SS_NAMED;
-    return pulled->row[0].explained > others->row[0].explained;
-}
-
 /* Rank the scenes of each kind by themselves.  The verdict and the first rows are those of the signal's kind; the
  * scenes of the other kind follow: they do not fit, and have no values. */
 static ss_status
@@ -53,7 +42,12 @@ rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene 
         st = ss_ranking_new(&kind[pulled], signal, column, some, m, &o, err);
     }
     if (st == SS_OK) {
-        const int pulled = is_pull(kind[0], kind[1]);
+        /* the signal's kind is what is compared, then what is named, then what explains more */
+        int pulled = is_compared(kind[1]);
+        if (pulled && is_compared(kind[0]) && (kind[0]->verdict == SS_NAMED) != (kind[1]->verdict == SS_NAMED))
+            pulled = kind[1]->verdict == SS_NAMED;
+        else if (pulled && is_compared(kind[0]))
+            pulled = kind[1]->row[0].explained > kind[0]->row[0].explained;
         const ss_ranking *own = kind[pulled];
         size_t next = own->n, nth = 0;
         *r = *own;
