@@ -36,25 +36,6 @@ find_spiked(search *s)
     return SS_OK;
 }
 
-/* The samples about t, up to the next event or gap on either side. */
-static ss_window
-room_about(const search *s, const ss_bursts *found, size_t i)
-{
-    double from = 0, to = (double)s->n / s->rate, t = found->burst[i].t;
-    double reach = ROW_REACH * ROW_CENTER / (2 * M_PI * found->f);
-    if (i > 0)
-        from = fmin(found->burst[i - 1].t + reach, t);
-    if (i + 1 < found->n)
-        to = fmax(found->burst[i + 1].t - reach, t);
-    for (size_t k = 0; k < s->n_gaps; k++) {
-        if (s->gap[k].to <= t)
-            from = fmax(from, s->gap[k].to);
-        if (s->gap[k].from >= t)
-            to = fmin(to, s->gap[k].from);
-    }
-    return (ss_window){ (size_t)ceil(from * s->rate), (size_t)floor(to * s->rate) };
-}
-
 /* Find single events in a record that is quiet elsewhere.  Several stand apart from the next weaker one, or from the
  * noise: swells of noise have all strengths.  The map is not needed any more. */
 static ss_status
@@ -67,12 +48,23 @@ find_single(search *s)
     double weakest = 0;
     for (size_t i = 0; i < found.n; i++)
         weakest = fmin(weakest, found.burst[i].level);
+    const double reach = ROW_REACH * ROW_CENTER / (2 * M_PI * found.f);
     const int apart = found.n < 2 || weakest - fmax(found.next, found.floor) >= EVENT_CLEAR;
     if (st == SS_OK && apart && (st = ss_transitions_new(s->out, found.n)) == SS_OK)
         for (size_t i = 0; i < found.n; i++) {
             ss_transition *tr = &s->out->transition[i];
             size_t at = (size_t)round(found.burst[i].t * s->rate);
-            ss_window room = room_about(s, &found, i);
+            double from = 0, to = (double)s->n / s->rate, t = found.burst[i].t;     /* up to the next event or gap */
+            if (i > 0)
+                from = fmin(found.burst[i - 1].t + reach, t);
+            if (i + 1 < found.n)
+                to = fmax(found.burst[i + 1].t - reach, t);
+            for (size_t k = 0; k < s->n_gaps; k++)
+                if (s->gap[k].to <= t)
+                    from = fmax(from, s->gap[k].to);
+                else if (s->gap[k].from >= t)
+                    to = fmin(to, s->gap[k].from);
+            const ss_window room = { (size_t)ceil(from * s->rate), (size_t)floor(to * s->rate) };
             tr->onset = tr->end = found.burst[i].t;
             if (room.first >= at || room.end <= at)
                 continue;
