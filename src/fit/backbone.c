@@ -343,8 +343,8 @@ share_noise(decay *d)
     }
 }
 
-/* Draw a smooth curve through the blocks, and fit them again about it: where noise is large, what a block alone finds
- * is biased. */
+/* Draw a smooth curve through the blocks, and fit them again about it: where noise is large, what a block alone
+ * finds is biased. */
 static ss_status
 settle(decay *d)
 {
@@ -700,7 +700,8 @@ find(decay *d, const double *record, size_t n)
         st = find_at(d, x, n, found[near > 0], near > 0 ? found[0] : 0);
     for (size_t k = 0; st == SS_OK && near == 0 && k < sizeof other / sizeof *other; k++) {
         decay with = none;
-        if (!(found[other[k][0]] > 0 && found[other[k][1]] > 0) || (no_decay(d) == NULL && (k > 0 || !is_mixed(d))))
+        if (!(found[other[k][0]] > 0 && found[other[k][1]] > 0)
+            || (no_decay(d) == NULL && (k > 0 || !is_mixed(d))))
             continue;
         st = find_at(&with, x, n, found[other[k][0]], found[other[k][1]]);
         if (st == SS_OK && no_decay(&with) == NULL

@@ -120,8 +120,8 @@ ss_record_noise(rank_record *r, double samples)
             d[count++] = (r->x[i] - later) / sqrt(1 + (1 - part) * (1 - part) + part * part);
         }
     smallest = fmin(smallest, gaussian_variance(d, count));
-    /* a converter's steps have a twelfth of the square of the smallest, and a ninth for noise of a third of a step:
-     * medians do not see such noise, as most samples do not leave their step */
+    /* a converter's steps have a twelfth of the square of the smallest, and a ninth for noise of a third of a
+     * step: medians do not see such noise, as most samples do not leave their step */
     const double step = ss_smallest_change(r->x, r->n);
     r->steps = isfinite(step) ? step * step * (1. / 12 + 1. / 9) : 0;
     r->noise = fmax(isfinite(smallest) ? smallest : 0, r->steps);

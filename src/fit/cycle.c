@@ -79,7 +79,7 @@ refine(const double *x, const char *missing, size_t n, double period)
         for (int i = -GRID; i <= GRID; i++) {
             const double p = middle * (1 + width * i / GRID);
             const size_t bins = bins_of(p);
-            double power = 0;   /* of the mean cycle; that of its mean is in it, which is the same for every period */
+            double power = 0;   /* of the mean cycle, with that of its mean, which is the same for every period */
             gather(sum, count, bins, x, missing, n, 1 / p);
             for (size_t b = 0; b < bins; b++)
                 power += count[b] > 0 ? sum[b] * sum[b] / count[b] : 0;

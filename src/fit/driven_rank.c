@@ -137,8 +137,8 @@ fill_terms(double term[TERMS], const driven *d, const double range[2], size_t i)
     term[PLACES + 2] = d->a[i];
 }
 
-/* The mean square that a spring of any shape and a damper leave of what the null leaves, and its parts of blocks of
- * time, to which they were not fitted. */
+/* The mean square that a spring of any shape and a damper leave of what the null leaves, and its parts of blocks
+ * of time, to which they were not fitted. */
 static double
 find_spring(double spring[BLOCKS], const driven *d, const double *left)
 {

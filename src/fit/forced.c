@@ -202,7 +202,9 @@ ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c, const cy
     for (size_t i = 0; i < c->n; i++)
         dim += c->range[i].to > c->range[i].from;
     gsl_qrng *sobol = dim > 0 ? gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)dim) : NULL;
-    gsl_multimin_fminimizer *m = dim > 0 ? gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, dim) : NULL;
+    gsl_multimin_fminimizer *m = NULL;
+    if (dim > 0)
+        m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, dim);
     if (dim > 0 && (sobol == NULL || m == NULL))
         p.status = SS_ENOMEM;
     for (size_t i = 0; dim > 0 && p.status == SS_OK && i < points; i++) {

@@ -284,8 +284,8 @@ whiteness(const fitting *w)
     return lowest;
 }
 
-/* The linear problem at w->at: residual[i], their slopes by all unknowns and by an EXTRA one, which are 0 at first,
- * and its solution, the step to the least squares and its covariance. */
+/* The linear problem at w->at: residual[i], their slopes by all unknowns and by an EXTRA one, which are 0 at
+ * first, and its solution, the step to the least squares and its covariance. */
 enum { EXTRA = FORCED_UNKNOWNS, ALL };
 typedef struct linear {
     double *residual, *slopes, step[ALL], covariance[ALL][ALL];
@@ -500,8 +500,8 @@ ss_forced_refit(forced_fit *m, forced *c, const forced_fit *from, const rank_rec
 
 /* --- terms that are held ------------------------------------------------------------------- */
 
-/* How much less the sum of squares would be with the EXTRA unknown, and how far it would go.  (Near the least residual
- * the sum of squares is quadratic: no other fit is needed.) */
+/* How much less the sum of squares would be with the EXTRA unknown, and how far it would go.  (Near the least
+ * residual the sum of squares is quadratic: no other fit is needed.) */
 static ss_status
 find_gain(linear *l, size_t rows, double *gain, double *far)
 {

@@ -214,8 +214,8 @@ rank_scene(ss_rank_row *row, found *f, const comparison *w, const ss_scene *scen
     f->scene.period = w->goal.period;
     f->scene.budget = more * BUDGET;
     f->scene.progress = *progress;
-    ss_status st = ss_forced_fit(&f->fit, NULL, &f->scene, &w->goal, (size_t)(more * POINTS), (size_t)(more * KEEP),
-                                 &w->record);
+    ss_status st = ss_forced_fit(&f->fit, NULL, &f->scene, &w->goal, (size_t)(more * POINTS),
+                                 (size_t)(more * KEEP), &w->record);
     if (st == SS_OK && f->scene.steps > f->scene.budget)
         return ss_fail(err, SS_EBUDGET, "scene %zu takes more than %.0e integration steps to be "
                        "adjusted: it is too stiff to be ranked", row->scene + 1, f->scene.budget);

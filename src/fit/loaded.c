@@ -345,8 +345,8 @@ struct loaded {
     law law[SS_STEP_LAWS];
     ss_range range[UNKNOWNS];
     double free_rows;
-    double line, logarithms;    /* squares that a line along the path leaves of whitened rows, and the logarithms of
-                                   their variances */
+    double line, logarithms;    /* squares that a line along the path leaves of whitened rows, and the logarithms
+                                   of their variances */
     double *room;
 };
 

@@ -95,8 +95,8 @@ try_scene(trial *t, ss_rank_row *row, const falls *r, const ss_scene *scene, dou
         return st;
     t->explains = ss_residue_explains(of, r->noise);
     /* Where the contact still rings above the noise when the next slip begins, the next fall depends on the phase
-     * of the ringing, which changes fast with the frictions and the contact's frequency.  So a fit may end far from
-     * the best one; and the falls need not be settled, as the fit assumes. */
+     * of the ringing, which changes fast with the frictions and the contact's frequency.  So a fit may end far
+     * from the best one; and the falls need not be settled, as the fit assumes. */
     const ss_scene *s = t->fit.slips ? &t->fit.scene : scene;
     const double stick = 2 * (s->static_friction - s->friction) / fabs(s->stiffness * pull_of(s));
     const double decay = (ss_scene_get(s, "contact_damping") + s->damping) / (2 * s->mass);

@@ -377,7 +377,7 @@ find_lines(path *p)
     st = chain(p);
     if (st == SS_OK)
         join(p);
-    double x = from;                            /* at the speeds of the slides alone, one from where the last ends */
+    double x = from;            /* at the speeds of the slides alone, one from where the last ends */
     for (size_t k = 0, i = 0; st == SS_OK && k < p->lines; k++) {
         const slide *s = &p->line[k].of;
         const double to = end_of(p, k);
