@@ -85,7 +85,7 @@ ss_rests_find(const double *x, size_t n, ss_rests *out)
         above += x[i] > level + out->band;
         below += x[i] < level - out->band;
     }
-    out->is_doubtful |= (above == 0 || below == 0) && fabs(level) > SLIGHT;
+    out->is_end_of_range = (above == 0 || below == 0) && fabs(level) > SLIGHT;
     out->is_doubtful |= out->band > SLIGHT;     /* of the largest sample */
     return st;
 }

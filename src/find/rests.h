@@ -9,6 +9,7 @@ typedef struct ss_rests {
     size_t n;
     ss_window *rest;            /* in time order; to be freed */
     int is_doubtful;            /* 1: others may be rests, too, or some of these none */
+    int is_end_of_range;        /* 1: no sample lies beyond the level, on one side, and it is not 0 */
     double level, band;         /* the samples of a rest are within the band about the level */
 } ss_rests;
 

@@ -290,6 +290,7 @@ ss_slip_rate_find(search *s)
     ss_rests rests = { .rest = NULL };
     int has_level = out->loading == NULL && !out->reverses && !rings && s->quantity != QUANTITY_DISPLACEMENT;
     ss_status st = has_level ? ss_rests_find(s->x, s->n, &rests) : SS_OK;
+    rests.is_doubtful |= rests.is_end_of_range && s->quantity == QUANTITY_MOTION;   /* there a converter clips */
     double *t = malloc((out->n + 3 * rests.n + 1) * sizeof *t);
     if (st != SS_OK || t == NULL) {
         free(rests.rest);
