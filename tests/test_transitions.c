@@ -245,6 +245,25 @@ what_is_clipped_has_no_slips_of_its_own(void **state)
     assert_true(known >= 20 && clipped >= 10);
 }
 
+/* A contact without damping rings as long as it sticks: it has its frequency, and no damping ratio. */
+static void
+an_undamped_contact_has_its_frequency(void **state)
+{
+    (void)state;
+    ss_scene scene = scene_of("compliant-light");
+    assert_int_equal(ss_scene_set(&scene, "contact_damping", 1e-6, NULL), SS_OK);
+    scene.duration = 8;
+    const double truth = sqrt(stiffness(&scene) / scene.mass) / (2 * M_PI);
+    for (int snr = 40; snr <= 60; snr += 20) {
+        ss_features *f = features_of(&scene, snr, 3);
+        const double found = f->number[SS_TRANSITION_FREQUENCY].value, error = f->number[SS_TRANSITION_FREQUENCY].error;
+        if (!(fabs(found - truth) <= 5 * error && error < 1e-3 * truth))
+            fail_msg("%d dB: %.9g +- %g Hz, not %.9g", snr, found, error, truth);
+        assert_true(isnan(f->number[SS_DAMPING_RATIO].value));
+        ss_features_free(f);
+    }
+}
+
 /* Half a cycle of these bases leaves sticks of 0.3 to 1.5 periods. */
 static void
 refuses_sticks_under_two_periods(void **state)
@@ -934,6 +953,7 @@ main(void)
         cmocka_unit_test(reads_long_records_as_well),
         cmocka_unit_test(counts_the_slips_of_a_displacement),
         cmocka_unit_test(what_is_clipped_has_no_slips_of_its_own),
+        cmocka_unit_test(an_undamped_contact_has_its_frequency),
         cmocka_unit_test(reads_stiff_and_soft_contacts),
         cmocka_unit_test(refuses_sticks_under_two_periods),
         cmocka_unit_test(compliant_contacts_have_local_maxima_and_others_not),
