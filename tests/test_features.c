@@ -204,6 +204,23 @@ the_border_is_higher_ground(void **state)
     assert_true(fabs(peak.t - 3) < 0.01 && isfinite(peak.prominence));
 }
 
+/* In the last row a ridge that falls from its top at 3 s; in the row beside it a hill at 2 s. */
+static double
+hill_beside_the_border(double t, double m)
+{
+    return m < -6 + 0.5 / 8 ? -5 * fabs(t - 3) : m < -6 + 1.5 / 8 ? -3 - 80 * fabs(t - 2) : -300;
+}
+
+/* The way from the hill to the ridge leads from row to row: down to where 3 + 80 d = 5 (1 - d), a fall of 80 d.
+ * The hill falls .08 dB from a sample to the next; no sample need be at the lowest place of the way. */
+static void
+the_border_is_reached_from_the_row_beside_it(void **state)
+{
+    const ss_maximum peak = only_maximum(hill_beside_the_border, 0, 1);
+    (void)state;
+    assert_true(fabs(peak.t - 2) < 1e-9 && fabs(peak.prominence - 80 * 2 / 85.) <= 0.08);
+}
+
 static void
 silence_has_no_maxima(void **state)
 {
@@ -338,6 +355,7 @@ main(void)
         cmocka_unit_test(levels_are_over_the_largest_outside_the_cone),
         cmocka_unit_test(slopes_plateaus_and_borders_are_no_maxima),
         cmocka_unit_test(the_border_is_higher_ground),
+        cmocka_unit_test(the_border_is_reached_from_the_row_beside_it),
         cmocka_unit_test(silence_has_no_maxima),
         cmocka_unit_test(spikes_are_the_maxima_of_one_scale),
         cmocka_unit_test(finds_two_tone_bursts),

@@ -358,24 +358,34 @@ transitions_begin_and_end_with_the_events(void **state)
     }
 }
 
-/* A change of units changes nothing but units. */
+/* A change of units changes nothing but units: of a contact that rings, and of friction whose spikes alone show
+ * its transitions. */
 static void
 units_and_rates_do_not_matter(void **state)
 {
     static const double unit[] = { 1, 0x1p-660, 0x1p660 }, seconds[] = { 1, 0x1p20, 0x1p-20 };
-    ss_scene scene = scene_of("compliant-light");
+    static const char *const names[] = { "compliant-light", "coulomb" };
     (void)state;
-    for (int i = 1; i < 3; i++) {
-        ss_features *a = features_of(&scene, 40, 1);
-        ss_features *b = features_in(&scene, 40, 1, unit[i], seconds[i]);
-        double f = a->number[SS_TRANSITION_FREQUENCY].value,
-            g = b->number[SS_TRANSITION_FREQUENCY].value * seconds[i];
-        assert_int_equal(a->n, b->n);
-        assert_true(fabs(g / f - 1) < 1e-9);
-        assert_true(fabs(b->number[SS_DAMPING_RATIO].value / a->number[SS_DAMPING_RATIO].value - 1) < 1e-6);
-        ss_features_free(a);
-        ss_features_free(b);
-    }
+    for (int scene_at = 0; scene_at < 2; scene_at++)
+        for (int i = 1; i < 3; i++) {
+            ss_scene scene = scene_of(names[scene_at]);
+            ss_features *a = features_of(&scene, 40, 1);
+            ss_features *b = features_in(&scene, 40, 1, unit[i], seconds[i]);
+            double f = a->number[SS_TRANSITION_FREQUENCY].value,
+                g = b->number[SS_TRANSITION_FREQUENCY].value * seconds[i];
+            assert_true(a->n > 0);
+            assert_int_equal(a->n, b->n);
+            for (size_t k = 0; k < a->n; k++)
+                assert_true(fabs(b->transition[k].onset / seconds[i] - a->transition[k].onset)
+                            < 1e-9 * a->transition[k].onset);
+            assert_int_equal(isnan(f), scene_at == 1);
+            if (scene_at == 0) {
+                assert_true(fabs(g / f - 1) < 1e-9);
+                assert_true(fabs(b->number[SS_DAMPING_RATIO].value / a->number[SS_DAMPING_RATIO].value - 1) < 1e-6);
+            }
+            ss_features_free(a);
+            ss_features_free(b);
+        }
 }
 
 static ss_signal *
