@@ -223,6 +223,8 @@ shipped_scenes_rank_themselves_first(void **state)
             assert_true(r->row[k].total >= r->row[k - 1].total);
         if (i == COULOMB)                       /* a jumps at each stop, of which a half cycle has one */
             assert_true(fabs(r->value[SS_BY_SPIKES] - 1) <= 0.1);
+        for (size_t k = 0; i == COULOMB && k < r->n; k++)       /* the others have none */
+            assert_true((ss_rank_score(&r->row[k], SS_BY_JUMP) == SCORE_MOST) == (r->row[k].scene != COULOMB));
         for (size_t k = 0; k < r->n; k++)       /* without x and f there is no df/dx to miss */
             assert_true(ss_rank_score(&r->row[k], SS_BY_STIFFNESS) == 0);
         ss_ranking_free(r);
