@@ -211,6 +211,23 @@ extreme_scenes_are_right_or_refused(void **state)
     assert_int_equal(failures, 0);
 }
 
+/* A rig of 2^-20 of the mass, with 2^-20 of all forces, moves alike to the last bit, however short the steps are
+ * in which its friction falls at 1e-14 m/s. */
+static void
+a_rig_of_a_millionth_moves_alike(void **state)
+{
+    ss_scene heavy = scene_of("leine", "friction=0.5 stribeck_velocity=1e-14 duration=40");
+    (void)state;
+    ss_scene light = heavy;
+    light.mass = ldexp(heavy.mass, -20), light.stiffness = ldexp(heavy.stiffness, -20);
+    light.friction = ldexp(heavy.friction, -20), light.static_friction = ldexp(heavy.static_friction, -20);
+    run a = run_with(&heavy, "rk8pd", 1e-12, 0), b = run_with(&light, "rk8pd", 1e-12, 0);
+    assert_true(a.status == SS_OK && b.status == SS_OK && a.n == b.n && a.n_events > 0);
+    assert_true(difference(&a, &b, 1) == 0);
+    run_free(&a);
+    run_free(&b);
+}
+
 /* --- numbers made elsewhere ---------------------------------------------------------------- */
 
 /* tests/reference/stiff.tsv, by SciPy's Radau.  Allowed: what that changes by at a tenth of its own
@@ -250,6 +267,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(extreme_scenes_are_right_or_refused),
+        cmocka_unit_test(a_rig_of_a_millionth_moves_alike),
         cmocka_unit_test(stiff_friction_moves_as_radau_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
