@@ -232,6 +232,29 @@ shipped_scenes_rank_themselves_first(void **state)
     }
 }
 
+/* Friction of 1/70 of the spring's force lets what a rig begins with ring on for cycles: place and speed of its
+ * start, six cycles before the record, are found with its parameters.  All that a fit leaves is its tolerance. */
+static void
+a_rig_that_rings_on_is_explained(void **state)
+{
+    static const double speed[] = { 0.003, -0.003, 0.009 };
+    (void)state;
+    for (size_t k = 0; k < sizeof speed / sizeof *speed; k++) {
+        ss_scene scene = shipped(STATE);
+        ss_ranking *r = NULL;
+        scene.friction = 0.02, scene.settle = 6 / scene.base_frequency, scene.v0 = speed[k];
+        ss_signal *signal = record_of(&scene, 300);
+        ss_rank_opts opts;
+        ss_rank_opts_init(&opts, sizeof opts);
+        opts.forcing_frequency = scene.base_frequency;
+        assert_int_equal(ss_ranking_new(&r, signal, 0, &scene, 1, &opts, NULL), SS_OK);
+        if (r->verdict != SS_NAMED || !(r->row[0].value[SS_BY_RESIDUAL] <= -100))
+            fail_msg("v0 = %g: %g dB, %s", speed[k], r->row[0].value[SS_BY_RESIDUAL], r->why);
+        ss_ranking_free(r);
+        ss_signal_free(signal);
+    }
+}
+
 /* Another rig, another unit, sign and clock, an offset: a compliant one all the same. */
 static void
 size_sign_and_offset_do_not_matter(void **state)
@@ -480,6 +503,27 @@ finds_the_parameters_of_a_compliant_signal(void **state)
     }
 }
 
+/* A record of three cycles that begins at rest is fitted from half a cycle on, where a fitted motion can be that of
+ * the record. */
+static void
+a_short_record_may_begin_at_rest(void **state)
+{
+    ss_scene truth = shipped(LIGHT), start = truth;
+    ss_fit fit;
+    (void)state;
+    truth.settle = 0, truth.duration = 3 / truth.base_frequency, truth.x0 = truth.base_amplitude / 2;
+    ss_scene_set(&start, "contact_stiffness", 1.3 * ss_scene_get(&start, "contact_stiffness"), NULL);
+    ss_signal *signal = record_of(&truth, 300);
+    ss_rank_opts opts;
+    ss_rank_opts_init(&opts, sizeof opts);
+    opts.forcing_frequency = truth.base_frequency;
+    assert_int_equal(ss_scene_fit(&fit, signal, 0, &start, &opts, NULL), SS_OK);
+    if (!fit.conclusive)
+        fail_msg("%s", fit.why);
+    assert_true(fabs(ratio_of("contact_stiffness", &fit.scene, &truth) - 1) <= 1e-8);
+    ss_signal_free(signal);
+}
+
 /* What a sensor of first order shows that is so many samples late, of a motion that is straight between
  * samples: the closed form of its response to a ramp. */
 static void
@@ -720,6 +764,7 @@ main(void)
         cmocka_unit_test(distances_from_events_end_with_the_record),
         cmocka_unit_test(the_answer_names_what_explains_most),
         cmocka_unit_test(shipped_scenes_rank_themselves_first),
+        cmocka_unit_test(a_rig_that_rings_on_is_explained),
         cmocka_unit_test(size_sign_and_offset_do_not_matter),
         cmocka_unit_test(what_has_no_transitions_is_not_named),
         cmocka_unit_test(what_no_scene_explains_is_not_named),
@@ -729,6 +774,7 @@ main(void)
         cmocka_unit_test(scores_are_distances_over_thresholds_up_to_three),
         cmocka_unit_test(rows_are_sorted_by_the_sum_of_their_scores),
         cmocka_unit_test(finds_the_parameters_of_a_compliant_signal),
+        cmocka_unit_test(a_short_record_may_begin_at_rest),
         cmocka_unit_test(terms_that_a_fit_holds_come_back),
         cmocka_unit_test(a_lag_of_the_sensor_is_seen),
         cmocka_unit_test(gaps_do_not_matter),
