@@ -142,6 +142,21 @@ groups_releases_as_the_paper_shows(void **state)
     }
 }
 
+/* Its steps are as long as they may be, forty a period, so that the mass turns where one ends: v is rounding there. */
+static void
+bsimp_passes_turns_where_a_step_ends(void **state)
+{
+    (void)state;
+    for (double tol = 1e-2; tol > 1e-14; tol /= 100) {
+        ss_scene s = scene_named("free-decay", 5.2, 20);
+        run r = run_by(&s, "bsimp", tol);
+        assert_int_equal(r.n_events, 11);
+        for (size_t k = 0; k < r.n_events; k++)
+            assert_float_equal(r.event[k].t, 0.5 * (double)k, 1e-9);
+        run_free(&r);
+    }
+}
+
 static void
 events_do_not_depend_on_the_rate(void **state)
 {
@@ -370,6 +385,7 @@ main(void)
         cmocka_unit_test(loses_no_pair_of_events_within_a_step),
         cmocka_unit_test(settles_into_the_known_cycle),
         cmocka_unit_test(groups_releases_as_the_paper_shows),
+        cmocka_unit_test(bsimp_passes_turns_where_a_step_ends),
         cmocka_unit_test(events_do_not_depend_on_the_rate),
         cmocka_unit_test(survives_a_slip_shorter_than_a_step),
         cmocka_unit_test(state_variable_oscillates_instead_of_sticking),

@@ -102,8 +102,9 @@ all_finite(const double q[], size_t n)
  * moves x by no more than BSIMP_ZERO X.  (Omega X as the scale of v moved x by 1e-11 X where Omega was a
  * thousand times omega_n.)  The numbers have the sign of the motion, so that a scene and its mirror image
  * move alike.  v' is at most omega_n^2 X, so v grows 300-fold in 300 BSIMP_ZERO / omega_n or more: the
- * first step is longer than the shortest allowed.  (Models whose friction is not part of the state start
- * with steps long enough to need no such replacement.) */
+ * first step is longer than the shortest allowed.  Linear modes start with steps long enough to need no such
+ * replacement; but where a step ends just before its mode, what is left of v is rounding, so that a part that is
+ * nearer to 0 is replaced by 0. */
 #define BSIMP_ZERO 0x1p-46
 
 /* One step over h from q, s after the start of the present step, in the units for GSL.  dydt, unless it is NULL,
@@ -116,9 +117,10 @@ apply(ode *o, gsl_odeiv2_step *step, double s, const double q[], const double dq
     size_t dim = o->system.dimension;
     to_units(o, q, y);
     to_units(o, dqdt, dydt_in);
+    const int is_linear = o->base.m->now.model->linear;
     for (size_t i = 0; i < dim; i++)
-        if (y[i] == 0)
-            y[i] = copysign(o->zero[i], v);
+        if (is_linear ? fabs(y[i]) < o->zero[i] : y[i] == 0)
+            y[i] = is_linear ? 0 : copysign(o->zero[i], v);
     int st = gsl_odeiv2_step_apply(step, o->base.m->now.u + s, h, y, error,
                                    step->type->can_use_dydt_in ? dydt_in : NULL, dydt, &o->system);
     return st == GSL_SUCCESS && all_finite(y, dim) && all_finite(error, dim);
@@ -269,7 +271,7 @@ ode_make(engine *e, ss_error *err)
     o->system = (gsl_odeiv2_system){ rhs, jacobian, m->model->dim, o };
     for (size_t k = 0; k < m->model->dim; k++)
         scale[k] = e->scale[k] / e->unit[k];
-    if (type == gsl_odeiv2_step_bsimp && m->x_scale > 0 && !m->model->linear && m->model->scales == NULL)
+    if (type == gsl_odeiv2_step_bsimp && m->x_scale > 0 && m->model->scales == NULL)
         set_zeros(o);
     o->driver = gsl_odeiv2_driver_alloc_scaled_new(&o->system, type, e->next,
                                                    e->tol, ss_motion_relative(m, e->tol), 1, 0, scale);
