@@ -63,6 +63,7 @@ expand(taylor *t)
     double step[MOST_ORDER + 2];
     for (int n = 0; n <= t->order + 1; n++)
         step[n] = t->unit * t->per_order[n];
+    t->base.series.c[t->order + 1][MAX_DIM] = 0;        /* no order has it, but higher ones before had */
     t->base.m->now.model->series(&t->base.m->now, step, t->order + 1, t->base.series.c);
     t->base.series.per_unit = 1 / t->unit;
     t->base.series.degree = t->order + 1;
