@@ -235,11 +235,11 @@ add_column(hid_t group, const char *link, const H5L_info_t *info, void *user)
     if (s->n_datasets == MAX_COLUMNS)
         ss_h5_fail(file, SS_EDATA, group, "", "has more than 32768 columns");
     hid_t *more = ss_list_room(s->dataset, &s->room, s->n_datasets, sizeof *more);
+    s->dataset = more != NULL ? more : s->dataset;
     if (more == NULL)
         file->status = SS_ENOMEM;
     if (file->status != SS_OK)
         return 1;
-    s->dataset = more;
     hid_t id = more[s->n_datasets++] = ss_h5_open_list(file, group, link, &own);
     if (own != s->n)
         ss_h5_fail(file, SS_EDATA, group, link, "not as long as t");
