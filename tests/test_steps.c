@@ -250,6 +250,32 @@ shares_what_steps_have_in_common(void **state)
     ss_signal_free(s);
 }
 
+/* A first step of little way tells next to nothing alone; the longer ones behind it show what all three share. */
+static void
+a_poor_first_step_does_not_lead_the_others(void **state)
+{
+    (void)state;
+    uint64_t seed = 1;
+    rock r = usual;
+    const double speed[] = { 1e-6, 10e-6, 1e-6, 10e-6 }, until[] = { 15, 16, 166, 186 };
+    memcpy(r.speed, speed, sizeof speed);
+    memcpy(r.until, until, sizeof until);
+    r.noise = 5e-4;
+    ss_signal *s = rock_signal(&r, &seed);
+    ss_steps *all = NULL;
+    assert_int_equal(ss_steps_new(&all, s, 0, 1, -1, 0, 1, NULL), SS_OK);
+    assert_int_equal(all->n, 3);
+    assert_int_equal(all->step[0].answer, SS_STEP_AGING);
+    const ss_step_law *l = &all->step[0].law[SS_STEP_AGING];
+    within("a", l->direct_effect, r.a, 3);
+    within("b", l->evolution_effect, r.b, 3);
+    within("Dc", l->critical_slip_distance, r.Dc, 3);
+    within("k", l->stiffness, r.k, 3);
+    assert_true(l->critical_slip_distance.error < r.Dc / 5);
+    ss_steps_free(all);
+    ss_signal_free(s);
+}
+
 /* The same friction along a fault that is a million times as long. */
 static void
 scales_do_not_matter(void **state)
@@ -379,6 +405,7 @@ main(void)
         cmocka_unit_test(knows_whether_a_memory_counts_rows),
         cmocka_unit_test(finds_the_truth_of_simulated_rocks),
         cmocka_unit_test(shares_what_steps_have_in_common),
+        cmocka_unit_test(a_poor_first_step_does_not_lead_the_others),
         cmocka_unit_test(scales_do_not_matter),
         cmocka_unit_test(begins_in_a_hold),
         cmocka_unit_test(says_what_is_none),
