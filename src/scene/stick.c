@@ -51,7 +51,8 @@ next_turn(double angle, double from)
 static double
 rising_zero(const state *m, double angle, double R, double level, double lo, double hi)
 {
-    double s = hi;
+    double s = hi, before = NAN;
+    int back = 0;
     for (int i = 0; i < 200 && hi - lo > DBL_EPSILON * fmax(fabs(lo), fabs(hi)); i++) {
         turn at = turn_of(angle + m->omega * s);
         double g = m->drive * at.co + R * s - level, next = s - g / (R - m->drive * m->omega * at.si);
@@ -63,6 +64,10 @@ rising_zero(const state *m, double angle, double R, double level, double lo, dou
             next = lo + (hi - lo) / 2;
         if (next == s)
             break;
+        back = next == before ? back + 1 : 0;
+        if (back == 2)                          /* rounding moves it to and fro, up to the last round */
+            return i % 2 == 0 ? s : next;
+        before = s;
         s = next;
     }
     return s;
