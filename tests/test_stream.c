@@ -617,6 +617,9 @@ refuses_streams_that_are_cut_or_changed(void **state)
         assert_refused(text, size, "samples: 300", "samples: 290", "scale");
         assert_refused(text, size, "samples: 300", "samples: 0.5", "length of a record");
         assert_refused(text, size, "samples: 300", "samples: x", "length of a record");
+        /* beyond 2^53, a double is no count */
+        assert_refused(text, size, "samples: 300", "samples: 9007199254740992", "is too small for a record");
+        assert_refused(text, size, "samples: 300", "samples: 9007199254740994", "length of a record");
         assert_refused(text, size, "samples: 300", "samples: 300\n# samples: 300", "twice");
         assert_refused(text, size, "stream: yes", "stream: no", "lack their option 'samples");
     }

@@ -46,7 +46,8 @@ typedef struct dataset {
 
 enum { TIME, RE, IM, EDGE, PARTS };
 struct scale_datasets {
-    hid_t group, part[PARTS];   /* < 0: it is not open */
+    hid_t group;                /* of a stepped scale: it is open until the first coefficients come */
+    hid_t part[PARTS];          /* < 0: it is not open */
     int single;                 /* re and im are 32-bit floats */
     size_t done;
     double most;                /* the largest |W| so far */
@@ -389,7 +390,7 @@ copy_grid(h5_writer *w, const ss_coefficients *grid)
     memcpy(w->scale, grid->scale, grid->n_scales * sizeof *w->scale);
     w->dense = 1;
     for (size_t i = 0; i <= grid->n_scales; i++)
-        w->datasets[i] = (struct scale_datasets){ .group = -1, .part = { -1, -1, -1, -1 } };
+        w->datasets[i] = (struct scale_datasets){ .part = { -1, -1, -1, -1 } };
     for (size_t i = 0; i < w->n_scales; i++)
         w->dense &= w->scale[i].b_num * w->rate == w->scale[i].b_den && (w->growing || w->scale[i].n == w->length);
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head, NULL);
@@ -493,7 +494,6 @@ open_datasets(h5_writer *w, size_t i, double most)
     }
     if (!w->dense && H5Gclose(group) < 0)
         fail(w, w->group, "re");
-    d->group = -1;
 }
 
 /* Split coefficients into re and im, rounded by adding and subtracting `shift`. */
