@@ -21,6 +21,10 @@ typedef struct series {
     double c[MOST_SERIES + 1][SERIES_PARTS];
 } series;
 
+/* With the step caps of motion.h the next term of a linear mode's series is (2 pi / 40)^12 / 12! = 5e-19 of the
+ * amplitude. */
+enum { CAPPED_DEGREE = 11 };
+
 struct engine_type {
     size_t size;                                /* of the engine, which begins with a struct engine */
     int degree;                                 /* of the series of its longest steps in a linear mode */

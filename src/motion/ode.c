@@ -13,10 +13,6 @@
 #include <string.h>
 #include "base/error.h"
 
-/* With the step caps of motion.h the next term of a linear mode's series is (2 pi / 40)^12 / 12! = 5e-19 of the
- * amplitude. */
-enum { DEGREE = 11 };
-
 /* Beyond this way of the pull, in units of the scale of x, x - U t would lose digits. */
 #define FAR 1e3
 
@@ -283,6 +279,7 @@ ode_make(engine *e, ss_error *err)
 }
 
 const struct engine_type ss_ode_engine = {
-    .size = sizeof(ode), .degree = DEGREE, .make = ode_make, .begin = ode_begin, .step = ode_step, .at = ode_at, .go_on = ode_go_on,
+    .size = sizeof(ode), .degree = CAPPED_DEGREE,
+    .make = ode_make, .begin = ode_begin, .step = ode_step, .at = ode_at, .go_on = ode_go_on,
     .release = ode_release
 };

@@ -300,5 +300,6 @@ radau_step(engine *e, double h_max, ss_error *err)
 }
 
 const struct engine_type ss_radau_engine = {
-    .size = sizeof(radau), .make = radau_make, .begin = radau_begin, .step = radau_step, .at = radau_at
+    .size = sizeof(radau), .degree = CAPPED_DEGREE,
+    .make = radau_make, .begin = radau_begin, .step = radau_step, .at = radau_at
 };

@@ -7,5 +7,6 @@ try() {
 try --set contact_stiffness=1e12
 try --set contact_stiffness=1e12 -q
 try --set contact_stiffness=1e12 -m exact
+try --set contact_stiffness=1e12 -m radau
 ss-sim -v -c x --set settle=0 --set duration=0.1 --set alpha=1e9 --set gamma=1e9 state-variable 2>&1 |
     sed -n 's/^ss-sim: method/method/p'
