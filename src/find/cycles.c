@@ -227,12 +227,10 @@ measure(const view *fine, const view *coarse, size_t q, size_t first, double per
     c.likeness = fmin(1, at - 0.25 * (before - behind) * vertex(-before, -at, -behind, 1));
     c.symmetry = correlation(coarse, i, rough / 2, m);
 
-    size_t lag = refine(fine, first, whole, rough * q, q), likely = (size_t)(period + 0.5);
-    if (first + likely + whole + 2 <= fine->n) {        /* averages hide what rings within them */
-        likely = refine(fine, first, whole, likely, q);
-        if (relative(fine, first, likely, whole) < relative(fine, first, lag, whole))
-            lag = likely;
-    }
+    size_t lag = refine(fine, first, whole, rough * q, q);
+    const size_t likely = refine(fine, first, whole, (size_t)(period + 0.5), q);
+    if (relative(fine, first, likely, whole) < relative(fine, first, lag, whole))
+        lag = likely;           /* averages hide what rings within them */
     if (lag < 3 || first + lag + whole + 2 > fine->n)
         return c;
     double d[5];
