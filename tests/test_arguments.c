@@ -505,6 +505,15 @@ sweeps_refuse_null(void **state)
     assert_int_equal(ss_sweep_write(&none, in, NULL, &done, NULL), SS_EINVAL);
     assert_int_equal(ss_sweep_write(&numbers, in, NULL, &done, NULL), SS_EINVAL);
     assert_int_equal(ss_sweep_write(&numbers, in, "in", &done, NULL), SS_EINVAL);
+    const ss_measure second[] = { SS_PERIOD, (ss_measure)SS_MEASURES };
+    ss_axis mass = { .key = "mass", .from = 1, .to = 2, .n = 2 };
+    ss_sweep_opts two = opts;
+    two.axis = &mass;
+    ss_sweep_text wrong = { "x", &scene, &two, second, 2, SS_TSV };
+    char said[40];
+    snprintf(said, sizeof said, "no measure %d", SS_MEASURES);
+    assert_int_equal(ss_sweep_write(&wrong, in, NULL, &done, &e), SS_EINVAL);
+    assert_string_equal(e.text, said);
     assert_int_equal(ftell(in), 0);
     assert_int_equal(axis.n, 0);
     fclose(in);
