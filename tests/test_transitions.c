@@ -269,10 +269,12 @@ an_undamped_contact_has_its_frequency(void **state)
 static void
 a_hum_is_no_undamped_contact(void **state)
 {
-    static const struct { double hum, part, phase, snr; } row[] = { { 236, .0042, 8, 62 }, { 239, .0028, 0, 69 },
-                                                                    { 239, .0028, 5, 65 } };
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_taus2);
     (void)state;
-    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+    gsl_rng_set(rng, 9);
+    for (int draw = 0; draw < 24; draw++) {
+        const double hum = 150 * pow(3, gsl_rng_uniform(rng)), part = 8e-4 * pow(8, gsl_rng_uniform(rng));
+        const double phase = 2 * M_PI * gsl_rng_uniform(rng), snr = 60 + 15 * gsl_rng_uniform(rng);
         ss_scene scene = scene_of("coulomb");
         ss_signal *signal = NULL;
         ss_features *f = NULL;
@@ -284,14 +286,15 @@ a_hum_is_no_undamped_contact(void **state)
         for (size_t i = 0; i < n; i++)
             largest = fmax(largest, fabs(a[i]));
         for (size_t i = 0; i < n; i++)
-            a[i] += row[k].part * largest * cos(2 * M_PI * row[k].hum * (double)i / scene.rate + row[k].phase);
-        ss_noise_add_once(a, n, ss_noise_rms(a, n, row[k].snr), 1, NULL);
+            a[i] += part * largest * cos(2 * M_PI * hum * (double)i / scene.rate + phase);
+        ss_noise_add_once(a, n, ss_noise_rms(a, n, snr), 1, NULL);
         assert_int_equal(ss_features_find(&f, signal, column, NULL, NULL), SS_OK);
         if (!isnan(f->number[SS_TRANSITION_FREQUENCY].value))
-            fail_msg("a hum of %g Hz: a contact of %g Hz", row[k].hum, f->number[SS_TRANSITION_FREQUENCY].value);
+            fail_msg("a hum of %g Hz: a contact of %g Hz", hum, f->number[SS_TRANSITION_FREQUENCY].value);
         ss_features_free(f);
         ss_signal_free(signal);
     }
+    gsl_rng_free(rng);
 }
 
 /* Half a cycle of these bases leaves sticks of 0.3 to 1.5 periods. */
