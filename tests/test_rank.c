@@ -629,6 +629,36 @@ gaps_in_every_cycle_are_said(void **state)
     ss_signal_free(signal);
 }
 
+/* A gap in a column that is not the first of its signal: the answer is that of the column alone. */
+static void
+gaps_of_a_later_column_are_bridged(void **state)
+{
+    const size_t columns[] = { SS_VELOCITY, SS_ACCELERATION };
+    ss_scene truth = shipped(LIGHT), scene[MODELS];
+    ss_signal *all = NULL, *two = NULL, *one = NULL;
+    ss_ranking *r[2] = { NULL };
+    (void)state;
+    for (int i = 0; i < MODELS; i++)
+        scene[i] = shipped(i);
+    assert_int_equal(ss_sim_signal(&all, &truth, NULL), SS_OK);
+    for (size_t i = 2180; i < 2240; i++)
+        all->values[SS_ACCELERATION * all->n + i] = 0;
+    assert_int_equal(ss_header_note(all->head, "gaps", "1.09:1.12", NULL), SS_OK);
+    assert_int_equal(ss_signal_select(&two, all, columns, 2, 0, all->n, NULL), SS_OK);
+    assert_int_equal(ss_signal_select(&one, all, columns + 1, 1, 0, all->n, NULL), SS_OK);
+    assert_int_equal(ss_ranking_new(&r[0], one, 0, scene, MODELS, NULL, NULL), SS_OK);
+    assert_int_equal(ss_ranking_new(&r[1], two, 1, scene, MODELS, NULL, NULL), SS_OK);
+    for (size_t i = 0; i < r[0]->n; i++)
+        for (int k = 0; k < SS_CRITERIA; k++)
+            assert_true(r[0]->row[i].value[k] == r[1]->row[i].value[k]
+                        || (isnan(r[0]->row[i].value[k]) && isnan(r[1]->row[i].value[k])));
+    for (int i = 0; i < 2; i++)
+        ss_ranking_free(r[i]);
+    ss_signal_free(all);
+    ss_signal_free(two);
+    ss_signal_free(one);
+}
+
 /* A gap in a stick, filled with a line or with zeros: the models rank as without, and all samples
  * that are left fit the scene to the last digits. */
 static void
@@ -779,6 +809,7 @@ main(void)
         cmocka_unit_test(a_lag_of_the_sensor_is_seen),
         cmocka_unit_test(gaps_do_not_matter),
         cmocka_unit_test(gaps_in_every_cycle_are_said),
+        cmocka_unit_test(gaps_of_a_later_column_are_bridged),
         cmocka_unit_test(progress_goes_on_to_the_end_or_stops),
         cmocka_unit_test(progress_of_a_fit_counts_down),
         cmocka_unit_test(does_not_fit_what_is_not_compliant),
