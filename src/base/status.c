@@ -50,8 +50,8 @@ ss_printable(char *text)
     return text;
 }
 
-/* These texts contain names of files and parts of input.  One that is too long loses its middle: it begins with the
- * name of a file and ends with the error. */
+/* These texts contain names of files and parts of input.  One that is too long loses its middle: it begins with
+ * the name of a file and ends with the error. */
 ss_status
 ss_fail(ss_error *err, ss_status status, const char *format, ...)
 {

@@ -459,8 +459,9 @@ later_by(const view *v, double lag, double period)
     return by;
 }
 
-/* What a sample differs by from what is there later, or from the mean of that and what is there earlier, which stays
- * the same while a waveform drifts.  A jump between two samples there is no difference.  As large in white noise. */
+/* What a sample differs by from what is there later, or from the mean of that and what is there earlier, which
+ * stays the same while a waveform drifts.  A jump between two samples there is no difference.  As large in white
+ * noise. */
 static double
 off(const double *x, const later *by)
 {
@@ -548,7 +549,8 @@ lag_near(const view *v, double about, double period)
 
 /* --- in turn, or beside a hum ---------------------------------------------------------------- */
 
-/* How a signal is like itself after one period: the lag, how unlike it is to itself then, and what is the least. */
+/* How a signal is like itself after one period: the lag, how unlike it is to itself then, and what is the
+ * least. */
 typedef struct once {
     double period, lag, unlike, least;
 } once;

@@ -31,7 +31,8 @@ typedef struct ss_cycles {
  * in samples before; NaN: nothing repeated; 0: not known. */
 ss_status ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out);
 
-/* The time after which n samples repeat themselves, in samples, with its standard error; NaN: nothing repeats twice. */
+/* The time after which n samples repeat themselves, in samples, with its standard error; NaN: nothing repeats
+ * twice. */
 ss_status ss_period_find(const double *x, size_t n, ss_value *period);
 
 #endif

@@ -31,9 +31,9 @@ static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement 
 /* Find the maxima of |W| that noise does not make.
  *
  * noise: the rms of a white noise that would make the median of |W| at the shortest scale: |W|^2 is then
- * exponential with mean rms^2 / rate (a^-1/2 norm).  Noise exceeds LARGER times its rms in a tenth of the places: a
- * saddle below that is made by noise.  Maxima that fall to their saddle by less than SIGMAS of the noise are left
- * out, as noise moves |W| by about its rms; so are maxima that no contour shows. */
+ * exponential with mean rms^2 / rate (a^-1/2 norm).  Noise exceeds LARGER times its rms in a tenth of the places:
+ * a saddle below that is made by noise.  Maxima that fall to their saddle by less than SIGMAS of the noise are
+ * left out, as noise moves |W| by about its rms; so are maxima that no contour shows. */
 static ss_status
 find_maxima(search *s)
 {

@@ -357,7 +357,8 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     if (st == SS_OK && !(more >= SHOWN) && !at_edge && damping < LIGHT * w.value)
         st = compare_all(s, r, is_sure, 1, CORNERS, &more);
     s->rings_as = more >= SHOWN ? OF_CONTACT : at_edge ? OF_FILTER : more < CONTACT ? OF_SENSOR : OF_SOMETHING;
-    /* a contact may be undamped, if that is well known; pieces of slips hide how much of a weak hum runs through */
+    /* a contact may be undamped, if that is well known; pieces of slips hide how much of a weak hum runs
+     * through */
     const int may_ring_on = s->rings_as == OF_CONTACT && !s->must_show && error < FAINT * w.value;
     if (!(damping > error) && !(may_ring_on && run_through(s, r) < SLIGHT)) {
         *why = "what recurs is not shown to decay";

@@ -87,9 +87,9 @@ ss_loading_medians(ss_features *out, const ss_drop *drop, const double *shared, 
     };
     for (size_t i = 0; i < sizeof of_slips / sizeof *of_slips; i++)
         *of_slips[i].to = median_over(out, of_slips[i].offset, of_slips[i].common, v, scratch);
-    /* k/m, whose values v still holds, is a property of the rig.  If slips disagree on it by more than their errors, at
-     * three standard deviations, they are not quite slips of the model: a misfit may shift all of them alike, which
-     * their scatter does not show. */
+    /* k/m, whose values v still holds, is a property of the rig.  If slips disagree on it by more than their
+     * errors, at three standard deviations, they are not quite slips of the model: a misfit may shift all of them
+     * alike, which their scatter does not show. */
     size_t known;
     ss_number *k_over_m = &out->number[SS_K_OVER_M];
     double error = sqrt(1 - shared[SLIP_K_OVER_M]) * median_error(&known, v, out->n, scratch);
@@ -134,9 +134,9 @@ products(const double *y, const double *x, size_t n, double slope, double mean, 
     return sum;
 }
 
-/* If neighbours are correlated by rho, as in a smooth misfit, only a part (1 - rho) / (1 + rho) of the samples counts.
- * Noise of 1/f is correlated over longer times; the number is then the sum of the correlations, up to the first that
- * is not positive.  The larger of the two numbers is used. */
+/* If neighbours are correlated by rho, as in a smooth misfit, only a part (1 - rho) / (1 + rho) of the samples
+ * counts.  Noise of 1/f is correlated over longer times; the number is then the sum of the correlations, up to the
+ * first that is not positive.  The larger of the two numbers is used. */
 double
 ss_colour(const double *y, const double *x, size_t n, double slope)
 {

@@ -80,9 +80,9 @@ stick_behind(const search *s, size_t anchor, size_t next, double f)
 
 /* --- is it one oscillation? -------------------------------------------------------------------- */
 
-/* Is the fit within an octave of the frequency f [Hz] one of a damped oscillation in sticks: the reason why not, or
- * NULL.  cycles: the number of them; an oscillation that fewer than half of the transitions show, and not every cycle,
- * was picked by the fit itself. */
+/* Is the fit within an octave of the frequency f [Hz] one of a damped oscillation in sticks: the reason why not,
+ * or NULL.  cycles: the number of them; an oscillation that fewer than half of the transitions show, and not every
+ * cycle, was picked by the fit itself. */
 static const char *
 judge(const search *s, const ringdown *r, double f, size_t cycles)
 {

@@ -3,8 +3,8 @@
  * While a true stick lasts, velocity and acceleration are zero: the samples lie about one level, within the noise
  * of the record, whatever makes it.  The level is where samples are densest.  A motion that crosses the level does
  * not stop there: it passes the band about the level, and the wider one on either side, evenly.  A rest is as long
- * as it lasts in the band, and short beside it.  What is neither may be a short rest, or an extremum of a motion; so
- * may one whose samples are no noise about the level: it may hide a small motion, too.
+ * as it lasts in the band, and short beside it.  What is neither may be a short rest, or an extremum of a motion;
+ * so may one whose samples are no noise about the level: it may hide a small motion, too.
  */
 #include "find/rests.h"
 

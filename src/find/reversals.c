@@ -119,8 +119,8 @@ find_slope(const double *x, const double *z, double least, const plateau *a, con
 }
 
 /* Friction and stiffness by the step from one plateau to the next; they stay as they are if there is none.  The
- * stiffness is the slope without a small part of the step at either end.  By how much it moves, if that part grows by
- * how far the levels spread, is in its error: where a level is not flat, the step has no clear end. */
+ * stiffness is the slope without a small part of the step at either end.  By how much it moves, if that part grows
+ * by how far the levels spread, is in its error: where a level is not flat, the step has no clear end. */
 static void
 measure(const search *s, const double *x, const double least[2], size_t i, const plateau *p, ss_value *friction,
         ss_value *stiffness)

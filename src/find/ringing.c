@@ -152,8 +152,8 @@ snap_to_spikes(const search *s, ss_transition *tr, double period)
     }
 }
 
-/* Refine transitions of which only swells are known: fit their oscillation, then move their ends from the
- * fit, or from the swell, to the jumps and kinks beside them.  What recurs may be the rig's own oscillation, while it
+/* Refine transitions of which only swells are known: fit their oscillation, then move their ends from the fit, or
+ * from the swell, to the jumps and kinks beside them.  What recurs may be the rig's own oscillation, while it
  * slips.  A contact rings faster; it must show that it is one, as nothing else speaks for it. */
 static ss_status
 refine(search *s, const ss_maximum *swell, double f)

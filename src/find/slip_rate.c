@@ -78,8 +78,8 @@ least_in_cycle(const search *s)
     return s->cycles.symmetry < -CYCLES_ALIKE ? 2 : 1;
 }
 
-/* Keep the transitions that ring, and those that stand alone.  A contact rings while it sticks: an event that
- * does not ring and stands beside one that does, nearer than most of the time between slips, is an end of this stick,
+/* Keep the transitions that ring, and those that stand alone.  A contact rings while it sticks: an event that does
+ * not ring and stands beside one that does, nearer than most of the time between slips, is an end of this stick,
  * or a micro-slip. */
 static void
 keep_ringing(search *s)
@@ -157,11 +157,11 @@ count_cycles(search *s)
             : "there are fewer sharp events than cycles");
 }
 
-/* Count the falls of a force, which are slips by themselves.  A signal of unknown quantity that repeats with several
- * falls in a cycle, or with none, is no force of one sign, but one with an offset, unless someone says that it is
- * such a force.  Each fall ends a cycle: so a period that is the time between falls needs no other proof.  Falls that
- * are alike and evenly spaced repeat with each: a period of several of them is that of what disturbs them, such as
- * glitches. */
+/* Count the falls of a force, which are slips by themselves.  A signal of unknown quantity that repeats with
+ * several falls in a cycle, or with none, is no force of one sign, but one with an offset, unless someone says
+ * that it is such a force.  Each fall ends a cycle: so a period that is the time between falls needs no other
+ * proof.  Falls that are alike and evenly spaced repeat with each: a period of several of them is that of what
+ * disturbs them, such as glitches. */
 static void
 count_falls(search *s, times fall)
 {

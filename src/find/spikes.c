@@ -97,8 +97,8 @@ sort(ss_spikes *found)
         qsort(found->spike, found->n, sizeof *found->spike, ss_ascending);
 }
 
-/* Add the spikes that no row shorter than row i shows: they are clear of those found so far, and of gaps that reach the
- * rows from which their slopes are found. */
+/* Add the spikes that no row shorter than row i shows: they are clear of those found so far, and of gaps that
+ * reach the rows from which their slopes are found. */
 static ss_status
 add_row_spikes(spike_search *s, size_t i)
 {
@@ -154,8 +154,8 @@ search_rows(spike_search *s, double f)
 
 /* --- times and the whole ------------------------------------------------------------------- */
 
-/* Their kinds by their slopes, and then their times, by a fit which sees no farther than the neighbours.  A pulse of
- * some length falls towards longer scales, but does not stand out at the shortest ones: it is smooth. */
+/* Their kinds by their slopes, and then their times, by a fit which sees no farther than the neighbours.  A pulse
+ * of some length falls towards longer scales, but does not stand out at the shortest ones: it is smooth. */
 static void
 finish(spike_search *s)
 {

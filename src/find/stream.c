@@ -149,8 +149,8 @@ count_due(const ss_features_stream *s, const ss_features *f, int lone, double st
 }
 
 /* Find the features of the last n samples, which begin at *start [s], in place of those that are there.  Give lone
- * maxima the extent and the ringing that the last search found there: a fit of few transitions leaves out now one, now
- * another. */
+ * maxima the extent and the ringing that the last search found there: a fit of few transitions leaves out now one,
+ * now another. */
 static ss_status
 find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features **f, double *start, ss_error *err)
 {

@@ -36,8 +36,8 @@ find_spiked(search *s)
     return SS_OK;
 }
 
-/* Find single events in a record that is quiet elsewhere.  Several stand apart from the next weaker one, or from the
- * noise: swells of noise have all strengths.  The map is not needed any more. */
+/* Find single events in a record that is quiet elsewhere.  Several stand apart from the next weaker one, or from
+ * the noise: swells of noise have all strengths.  The map is not needed any more. */
 static ss_status
 find_single(search *s)
 {

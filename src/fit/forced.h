@@ -83,9 +83,9 @@ ss_status ss_forced_search(forced_start start[FORCED_KEPT], size_t *n, forced *c
 /* --- forced_fit.c -------------------------------------------------------------------------- */
 
 /* Find the best of the fits of a scene, its keys within their ranges, to a record from the starts of a search for
- * its cycle, and *rival, what the best with other keys leaves; infinite: there is none.  If rival is NULL, the first
- * that explains the record is enough.  If no scene slips, can be run, or the budget is used up, the residual is the
- * record.  SS_ENOMEM, SS_STOP. */
+ * its cycle, and *rival, what the best with other keys leaves; infinite: there is none.  If rival is NULL, the
+ * first that explains the record is enough.  If no scene slips, can be run, or the budget is used up, the residual
+ * is the record.  SS_ENOMEM, SS_STOP. */
 ss_status ss_forced_fit(forced_fit *best, double *rival, forced *c, const cycle *goal, size_t points, size_t keep,
                         const rank_record *record);
 /* Fit the motion of a fit to a record of another quantity, c->pick, of the same time. */

@@ -9,8 +9,8 @@
 #include <math.h>
 #include "map/kaiser.h"
 
-/* Bessel's I0 of sqrt(4 y), by its series: all terms are positive, so it is exact to rounding.  (GSL's is not, as the
- * argument is rounded: it is some 20 here, and so is the factor of its error.) */
+/* Bessel's I0 of sqrt(4 y), by its series: all terms are positive, so it is exact to rounding.  (GSL's is not, as
+ * the argument is rounded: it is some 20 here, and so is the factor of its error.) */
 static double
 bessel_i0(double y)
 {

@@ -4,8 +4,8 @@
  * computed when it is full, so only samples are kept from one window to the next.  When complete coefficients are
  * wanted at once, windows are filled up with zeros and computed.
  *
- * A coefficient is complete if all samples within REACH a of b have come: others add at most exp(-REACH^2/2) to its
- * error, nothing compared with the promise. */
+ * A coefficient is complete if all samples within REACH a of b have come: others add at most exp(-REACH^2/2) to
+ * its error, nothing compared with the promise. */
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>

@@ -83,8 +83,8 @@ exit_side(const tracer *t, cell_side p)
     return (mean >= t->level) == (corner >= t->level) ? p.side ^ 1 : 3 - p.side;
 }
 
-/* Trace the line that enters a cell through p.side, to its end or back to its start, unless there is none, or it was
- * traced before. */
+/* Trace the line that enters a cell through p.side, to its end or back to its start, unless there is none, or it
+ * was traced before. */
 static void
 trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
 {

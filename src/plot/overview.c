@@ -88,8 +88,8 @@ name_it(ss_status st, const ss_reader *reader, ss_error *err)
     return ss_fail(err, st, "%s: %s", reader->source->name, why.text);
 }
 
-/* The mean of the column, or its line of least squares, is found before, as ss_morlet_execute does, in a pass of its
- * own: first + mean + slope (i - middle) is subtracted from sample i. */
+/* The mean of the column, or its line of least squares, is found before, as ss_morlet_execute does, in a pass of
+ * its own: first + mean + slope (i - middle) is subtracted from sample i. */
 static ss_status
 read_all(reduction *o, ss_reader *reader, size_t column, ss_detrend detrend, ss_error *err)
 {

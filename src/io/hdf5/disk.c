@@ -63,8 +63,9 @@ get_eof(const H5FD_t *file, H5FD_mem_t type)
     return ((const h5_disk *)file)->eof;
 }
 
-/* Bytes that are not in the file read as zeros.  The head of a heap begins with FRHP, a version and the length of an
- * address, of 3 bytes, and the length of its filters.  An image of the cache, MDCI, would bring such heads unseen. */
+/* Bytes that are not in the file read as zeros.  The head of a heap begins with FRHP, a version and the length of
+ * an address, of 3 bytes, and the length of its filters.  An image of the cache, MDCI, would bring such heads
+ * unseen. */
 static herr_t
 read_bytes(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, size_t size, void *buffer)
 {

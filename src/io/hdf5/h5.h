@@ -37,8 +37,8 @@ typedef struct h5_file {
     double text;                /* and of text in attributes */
 } h5_file;
 
-/* Unless it has failed before, let the file fail with this status and the text "PATH:GROUP/NAME: TEXT"; group 0 for
- * the file itself. */
+/* Unless it has failed before, let the file fail with this status and the text "PATH:GROUP/NAME: TEXT"; group 0
+ * for the file itself. */
 void ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text);
 
 /* Open for reading.  Closing it closes every dataset, group and attribute still open in it. */

@@ -310,8 +310,8 @@ columns_of(const rows *s)
     return s->n_datasets > 1 || s->is_own ? 1 : s->base.head->n_columns - (s->times > 0);
 }
 
-/* Read the next n rows.  Times of our own files are not given, but must be those of the clock.  Values that are not
- * finite become NaN if there may be gaps, else SS_EDATA. */
+/* Read the next n rows.  Times of our own files are not given, but must be those of the clock.  Values that are
+ * not finite become NaN if there may be gaps, else SS_EDATA. */
 static void
 read_piece(rows *s, size_t n)
 {
@@ -380,7 +380,8 @@ free_rows(ss_source *base)
 
 /* --- opening ------------------------------------------------------------------------------- */
 
-/* At a time are read: whole chunks of the dataset with the longest chunks, about PIECE values in all, or all rows. */
+/* At a time are read: whole chunks of the dataset with the longest chunks, about PIECE values in all, or all
+ * rows. */
 static ss_status
 find(rows *s, const char *dataset, const ss_read_opts *opts)
 {

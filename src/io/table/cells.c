@@ -1,4 +1,5 @@
-/* cells.c -- divide lines of a text table into cells, read the numbers in cells, and say what is wrong in a line. */
+/* cells.c -- divide lines of a text table into cells, read the numbers in cells, and say what is wrong in a
+ * line. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>

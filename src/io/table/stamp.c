@@ -54,8 +54,8 @@ read_up_to(const char *p, int most, long *x)
     return end;
 }
 
-/* Read a date whose year comes last: with points or a month's name, of which three letters count, the day is first,
- * else day and month may stand in either order. */
+/* Read a date whose year comes last: with points or a month's name, of which three letters count, the day is
+ * first, else day and month may stand in either order. */
 static const char *
 read_date_of_year_last(const char *p, long day[ORDERS])
 {

@@ -146,8 +146,8 @@ keep_header(struct text *x)
 }
 
 /* The first of the kept lines with numbers and words, below one without numbers, that has two lines like it below,
- * or one if there are no more; else n_head.  Rows that are alike have cells of the same kinds; the second may lack its
- * empty cells at the end. */
+ * or one if there are no more; else n_head.  Rows that are alike have cells of the same kinds; the second may lack
+ * its empty cells at the end. */
 static size_t
 find_like(struct text *x, char separator)
 {
@@ -370,9 +370,9 @@ is_heading(struct text *x, const char *line)
         && (n != x->t.n_columns || (n > 1 && strchr(shape, 'n') == NULL));
 }
 
-/* Read a line below the first row.  Keep the lines from a heading on, up to the first row of another table.  If none
- * follows, the heading begins a footer, which is nothing but words, in more or fewer cells than rows have, or is a
- * malformed row. */
+/* Read a line below the first row.  Keep the lines from a heading on, up to the first row of another table.  If
+ * none follows, the heading begins a footer, which is nothing but words, in more or fewer cells than rows have, or
+ * is a malformed row. */
 static void
 read_line(struct text *x)
 {
@@ -407,8 +407,8 @@ read_line(struct text *x)
         append_row(x, x->head[0].text);
 }
 
-/* Read the tables, up to the one that is wanted.  If there are several and none is, the error lists them: "2 from line
- * 17, 1200 rows of t Fx Fz". */
+/* Read the tables, up to the one that is wanted.  If there are several and none is, the error lists them: "2 from
+ * line 17, 1200 rows of t Fx Fz". */
 static void
 read_tables(struct text *x)
 {

@@ -1,5 +1,5 @@
-/* time.c -- find the column of time of a table, by its name or unit, and the clock that its numbers, dates or times of
- * day show. */
+/* time.c -- find the column of time of a table, by its name or unit, and the clock that its numbers, dates or
+ * times of day show. */
 #include <stickslip/signal.h>
 
 #include <math.h>
@@ -319,8 +319,8 @@ refuse_text(const struct sheet *t, size_t column, ss_status st, ss_error *err)
                    t->name, t->names->column[column].name);
 }
 
-/* The column of time, or NONE: one with the name of a time, or else the first of dates with times, or else of times,
- * or else of dates.  *guessed becomes 1 if only its place suggests that it is one. */
+/* The column of time, or NONE: one with the name of a time, or else the first of dates with times, or else of
+ * times, or else of dates.  *guessed becomes 1 if only its place suggests that it is one. */
 static size_t
 find_time(const struct sheet *t, int *guessed)
 {

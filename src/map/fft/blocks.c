@@ -150,7 +150,8 @@ make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, double
     return SS_OK;
 }
 
-/* M where translations lie between points: the least power of two that the kernel needs, and no less than `least`. */
+/* M where translations lie between points: the least power of two that the kernel needs, and no less than
+ * `least`. */
 static size_t
 points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, const ss_scale *scale,
                int l, size_t least)

@@ -123,8 +123,8 @@ ss_steady_check(const ss_steady_opts *given, const ss_scene *scene, ss_error *er
 
 /* --- the model in the limit ------------------------------------------------------------------ */
 
-/* Compare the course with that of the model in the limit.  If one of them has one cycle, there is one way to lay them
- * side by side; two courses of several cycles each have no common phase. */
+/* Compare the course with that of the model in the limit.  If one of them has one cycle, there is one way to lay
+ * them side by side; two courses of several cycles each have no common phase. */
 static ss_status
 compare_with_limit(const finder *f)
 {
