@@ -338,7 +338,13 @@ signals(int variant)
         ss_filter_opts_init(&filter, sizeof filter);
         filter.order = -1;
         filter.low_pass = signal->head->rate / 4;       /* a short one */
-        ss_status filtered = ss_signal_filter(&made, signal, &filter, NULL);
+        ss_reader *reader = NULL;
+        ss_status filtered = ss_reader_of_signal(&reader, signal, NULL);
+        if (filtered == SS_OK)
+            filtered = ss_reader_filter(reader, &filter, NULL);
+        if (filtered == SS_OK)
+            filtered = ss_signal_of_reader(&made, reader, NULL);
+        ss_reader_free(reader);
         ss_signal_free(made);
         return filtered;
     }
@@ -353,13 +359,26 @@ signals(int variant)
 static ss_status
 noises(int variant)
 {
-    double x[100] = { 0 };
-    ss_noise *noise = NULL;
-    ss_status st = ss_noise_new(&noise, 1, NULL);
-    (void)variant;
+    ss_reader *reader = NULL;
+    ss_noise_opts opts;
+    ss_noise_done done = { .rms = NULL };
+    double x[4], *to[16];
+    size_t n;
+    for (size_t c = 0; c < sizeof to / sizeof *to; c++)
+        to[c] = x;
+    ss_noise_opts_init(&opts, sizeof opts);
+    opts.snr = variant == 0 ? 20 : NAN;
+    opts.rms = variant == 0 ? NAN : 1;
+    if (variant == 2)
+        opts.band = (ss_range){ 0, signal->head->rate / 4 };
+    opts.bits = 8;
+    opts.range = 1;
+    ss_status st = ss_reader_of_signal(&reader, signal, &err);
     if (st == SS_OK)
-        st = ss_noise_add_band(noise, x, 100, 100, (ss_range){ 10, 20 }, 1, &err);
-    ss_noise_free(noise);
+        st = ss_reader_noise(reader, &opts, &done, &err);
+    if (st == SS_OK)
+        st = ss_reader_rows(reader, to, 4, &n, &err);
+    ss_reader_free(reader);
     return st;
 }
 
@@ -908,7 +927,7 @@ static const struct row {
     { "headers", headers, 1, 100 }, { "reading streams", read_streams, 16, 100 },
     { "reading twice", read_twice, 3, 100 },
     { "writing streams", write_streams, 3, 100 }, { "signals", signals, 9, 100 },
-    { "noises", noises, 1, 100 }, { "bases", bases, 1, 100 },
+    { "noises", noises, 3, 100 }, { "bases", bases, 1, 100 },
     { "simulations", simulations, 3, 100 },
     { "closed forms", closed_forms, 2, 100 }, { "trades", trades, 2, 20 },
     { "simpler models", model_trades, 1, 20 },

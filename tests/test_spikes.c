@@ -269,7 +269,7 @@ a_converter_makes_no_spikes(void **state)
     for (double f = 0.01; f < 10; f *= 27) {
         for (size_t i = 0; i < N; i++)
             x[i] = sin(2 * M_PI * f * (double)i / RATE);
-        assert_int_equal(ss_samples_quantise(x, N, 10, 1, NULL, NULL), SS_OK);
+        assert_int_equal(ss_quantise(x, N, 10, 1, &(size_t){ 0 }, NULL), SS_OK);
         found = find(x, N, RATE);
         assert_int_equal(found->n, 0);
         ss_spikes_free(found);

@@ -172,20 +172,65 @@ noise_is_the_same_in_pieces(void **state)
     enum { N = 1000 };
     double whole[2][N] = { 0 }, piece[2][N] = { 0 }, other[N] = { 0 };
     const double rms[] = { 2, 0.5 };
-    ss_noise *noise;
+    gsl_rng *noise;
     (void)state;
     ss_noise_new(&noise, 3, NULL);
     ss_noise_add(noise, (double *[]){ whole[0], whole[1] }, 2, N, rms, NULL);
-    ss_noise_free(noise);
+    gsl_rng_free(noise);
     ss_noise_new(&noise, 3, NULL);
     for (size_t i = 0; i < N; i++)
         ss_noise_add(noise, (double *[]){ &piece[0][i], &piece[1][i] }, 2, 1, rms, NULL);
-    ss_noise_free(noise);
+    gsl_rng_free(noise);
     assert_memory_equal(whole, piece, sizeof whole);
     assert_int_equal(ss_noise_add_once(other, N, 2, 4, NULL), SS_OK);
     assert_true(other[0] != whole[0][0]);
     assert_int_equal(ss_noise_add_once(other, N, -1, 4, NULL), SS_EINVAL);
     assert_int_equal(ss_noise_add_once(other, N, NAN, 4, NULL), SS_EINVAL);
+}
+
+/* A reader of a signal in memory gives the same noise, row by row and after it has gone back, of a ratio and of an
+ * rms; only the columns that are named get any. */
+static void
+a_reader_adds_the_same_noise(void **state)
+{
+    ss_signal *clean = NULL, *noisy = NULL;
+    ss_reader *reader = NULL;
+    ss_noise_opts opts;
+    double rms[2], *column[2] = { NULL, NULL };
+    ss_noise_done done = { .rms = rms };
+    ss_header *head = NULL;
+    size_t n;
+    (void)state;
+    assert_int_equal(ss_header_new(&head, 100, 0, NULL), SS_OK);
+    ss_header_add_column(head, "x", NULL, NULL);
+    ss_header_add_column(head, "y", NULL, NULL);
+    assert_int_equal(ss_signal_new(&clean, head, 5000, NULL), SS_OK);
+    for (size_t i = 0; i < 5000; i++)
+        clean->values[i] = clean->values[5000 + i] = i % 2 ? 1 : -1;
+    for (int pass = 0; pass < 3; pass++) {
+        ss_noise_opts_init(&opts, sizeof opts);
+        opts.snr = pass == 1 ? NAN : 20;
+        opts.rms = pass == 1 ? 0.1 : NAN;
+        opts.seed = 3;
+        opts.column = &(size_t){ 1 };
+        opts.n_columns = 1;
+        assert_int_equal(ss_reader_of_signal(&reader, clean, NULL), SS_OK);
+        assert_int_equal(ss_reader_noise(reader, &opts, &done, NULL), SS_OK);
+        assert_true(isnan(rms[0]) && fabs(rms[1] - 0.1) <= 1e-15);
+        assert_int_equal(ss_reader_rows(reader, column, 7, &n, NULL), SS_OK);
+        assert_int_equal(ss_reader_rewind(reader, NULL), SS_OK);
+        assert_int_equal(ss_signal_of_reader(&noisy, reader, NULL), SS_OK);
+        double y[5000];
+        memcpy(y, clean->values, sizeof y);
+        assert_memory_equal(noisy->values, y, sizeof y);
+        assert_int_equal(ss_noise_add_once(y, 5000, rms[1], 3, NULL), SS_OK);
+        assert_memory_equal(noisy->values + 5000, y, sizeof y);
+        assert_non_null(ss_header_find_note(noisy->head, "noise"));
+        ss_signal_free(noisy);
+        ss_reader_free(reader);
+    }
+    ss_signal_free(clean);
+    ss_header_free(head);
 }
 
 /* The power of x at the frequencies of the record in [lo, hi], by the definition: every k-th one. */
@@ -219,12 +264,12 @@ noise_of_a_band_stays_in_it(void **state)
     for (size_t k = 0; k < sizeof band / sizeof *band; k++) {
         double x[1500] = { 0 }, again[1500] = { 0 }, square = 0, margin = 10 * 2000. / 1500;
         size_t n = band[k].n;
-        ss_noise *noise;
+        gsl_rng *noise;
         for (int pass = 0; pass < 2; pass++) {
             ss_noise_new(&noise, 7, NULL);
             assert_int_equal(ss_noise_add_band(noise, pass == 0 ? x : again, n, 2000,
                                                (ss_range){ band[k].lo, band[k].hi }, 0.25, NULL), SS_OK);
-            ss_noise_free(noise);
+            gsl_rng_free(noise);
         }
         assert_memory_equal(x, again, sizeof x);
         for (size_t i = 0; i < n; i++)
@@ -248,7 +293,7 @@ bands_without_a_frequency_are_refused(void **state)
     static const double wrong[][2] = { { -1, 5 }, { 5, 2 }, { 5, 1001 }, { 5.1, 5.2 }, { NAN, 5 } };
     double x[100] = { 0 };
     ss_error err = { 0 };
-    ss_noise *noise;
+    gsl_rng *noise;
     (void)state;
     ss_noise_new(&noise, 1, NULL);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
@@ -258,7 +303,7 @@ bands_without_a_frequency_are_refused(void **state)
     assert_int_equal(ss_noise_add_band(noise, x, 100, 2000, (ss_range){ 0, 100 }, -1, &err), SS_EINVAL);
     for (size_t i = 0; i < 100; i++)
         assert_true(x[i] == 0);
-    ss_noise_free(noise);
+    gsl_rng_free(noise);
 }
 
 /* A ramp over more than the range: multiples of the step, the nearest, clipped; what is wrong is even
@@ -275,7 +320,7 @@ a_converter_rounds_and_clips(void **state)
         size_t inside = 0, clipped = 7, outside = 7;
         for (size_t i = 0; i < N; i++)
             x[i] = 3 * (2. * (double)i / (N - 1) - 1);
-        assert_int_equal(ss_samples_quantise(x, N, bits, range, &clipped, NULL), SS_OK);
+        assert_int_equal(ss_quantise(x, N, bits, range, &clipped, NULL), SS_OK);
         for (size_t i = 0; i < N; i++) {
             double was = 3 * (2. * (double)i / (N - 1) - 1), off = x[i] - was;
             outside += was < -range - step / 2 || was > range - step / 2;
@@ -296,11 +341,11 @@ a_converter_rounds_and_clips(void **state)
             assert_true(fabs(square / (double)inside / (step * step / 12) - 1)
                         <= (bits > 11 ? 0.05 : 1e-2));
     }
-    assert_int_equal(ss_samples_quantise(x, N, 0, 1, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_samples_quantise(x, N, 53, 1, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_samples_quantise(x, N, 8, 0, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_samples_quantise(x, N, 8, INFINITY, NULL, NULL), SS_EINVAL);
-    assert_int_equal(ss_samples_quantise(x, N, 52, 1e-310, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 0, 1, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 53, 1, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 8, 0, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 8, INFINITY, NULL, NULL), SS_EINVAL);
+    assert_int_equal(ss_quantise(x, N, 52, 1e-310, NULL, NULL), SS_EINVAL);
 }
 
 int
@@ -315,6 +360,7 @@ main(void)
         cmocka_unit_test(noise_has_the_ratio_asked_for),
         cmocka_unit_test(a_level_is_that_of_all_pieces),
         cmocka_unit_test(noise_is_the_same_in_pieces),
+        cmocka_unit_test(a_reader_adds_the_same_noise),
         cmocka_unit_test(noise_of_a_band_stays_in_it),
         cmocka_unit_test(bands_without_a_frequency_are_refused),
         cmocka_unit_test(a_converter_rounds_and_clips),

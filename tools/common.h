@@ -139,9 +139,9 @@ void tool_write_end(ss_writer *writer, size_t samples);
 void tool_write(const ss_signal *signal, const char *path, tool_kind kind);
 
 /* Copy the columns that are wanted, or all, of a reader of the file `from`, which is freed, as they come, and give
- * them the names "OLD=NEW". */
+ * them the names "OLD=NEW"; then call last, unless it is NULL. */
 void tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const tool_texts *names, const char *to,
-               tool_kind kind);
+               tool_kind kind, void (*last)(ss_writer *out));
 
 /* Call before work for tool_draw with the path after -o: dies if a script would go to a terminal unasked. */
 void tool_script_to(const char *path);

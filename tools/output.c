@@ -132,7 +132,7 @@ rename_columns(ss_header **head, const char *path, const tool_texts *names)
 
 void
 tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const tool_texts *names, const char *to,
-          tool_kind kind)
+          tool_kind kind, void (*last)(ss_writer *out))
 {
     const ss_header *head = ss_reader_header(reader);
     ss_header *chosen;
@@ -151,6 +151,8 @@ tool_copy(ss_reader *reader, const char *from, const tool_texts *wanted, const t
     ss_writer *out = tool_writer(to, kind, &(ss_contents){ .signal = chosen });
     for (; got > 0; rows += got, got = tool_rows(reader, all, piece))
         tool_write_rows(out, some, got);
+    if (last != NULL)
+        last(out);
     tool_write_end(out, rows);
     ss_header_free(chosen);
     ss_reader_free(reader);

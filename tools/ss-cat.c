@@ -45,7 +45,7 @@ main(int argc, char *argv[])
     ss_number_format(rate, head->rate);
     ss_number_format(start, head->start);
     tool_note("%s: %s Hz from %s s, columns: %zu", tool_input_name(path), rate, start, head->n_columns);
-    tool_copy(reader, path, &wanted, &names, output, kind);
+    tool_copy(reader, path, &wanted, &names, output, kind, NULL);
     tool_end();
     return 0;
 }

@@ -58,7 +58,7 @@ main(int argc, char *argv[])
     tool_note("%s", ss_header_find_note(ss_reader_header(reader), "filter"));
     if (opts.order < 0 && !(opts.high_pass > 0))
         tool_warn("%s: an integral without --high-pass drifts with the mean of the signal", tool_input_name(path));
-    tool_copy(reader, path, &wanted, &names, output, kind);
+    tool_copy(reader, path, &wanted, &names, output, kind, NULL);
     tool_end();
     return 0;
 }

@@ -170,8 +170,10 @@ ss_status ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_r
                          ss_error *err);
 /* Make a signal of n rows of zeros, with a copy of head. */
 ss_status ss_signal_new(ss_signal **out, const ss_header *head, size_t n, ss_error *err);
-/* Read the rows of a signal, which must live as long as the reader, and which can go back to the first. */
+/* Read the rows of a signal, which must live as long as the reader, and which can go back to the first; and make a
+ * signal of the rows that a reader has left.  So a signal in memory is filtered, or gets noise. */
 ss_status ss_reader_of_signal(ss_reader **out, const ss_signal *signal, ss_error *err);
+ss_status ss_signal_of_reader(ss_signal **out, ss_reader *reader, ss_error *err);
 void ss_signal_free(ss_signal *signal);         /* NULL is allowed */
 
 /* --- formats --------------------------------------------------------------------------------- */
@@ -221,8 +223,6 @@ void ss_filter_opts_init(ss_filter_opts *opts, size_t size);
  * Reading fails with SS_EDATA where there are fewer rows than taps, and with SS_ERANGE if a value is not
  * finite. */
 ss_status ss_reader_filter(ss_reader *reader, const ss_filter_opts *opts, ss_error *err);
-/* The same with a whole signal. */
-ss_status ss_signal_filter(ss_signal **out, const ss_signal *signal, const ss_filter_opts *opts, ss_error *err);
 
 /* --- making and changing ------------------------------------------------------------------- */
 
@@ -254,36 +254,36 @@ void ss_wave_opts_init(ss_wave_opts *opts, size_t size);
  * opts may be NULL. */
 ss_status ss_wave_new(ss_signal **out, ss_wave wave, const ss_wave_opts *opts, ss_error *err);
 
-/* Add Gaussian white noise to several columns, n rows at a time.  The same seed gives the same noise (GSL's
- * mt19937 and its Ziggurat).  That of column[c][0] ... column[c][n - 1] has the standard deviation rms[c] >= 0;
- * where this is 0 no number is drawn.  SS_ERANGE, here and below: a sum is not finite; the columns have then been
- * changed. */
-typedef struct ss_noise ss_noise;
-ss_status ss_noise_new(ss_noise **out, unsigned long seed, ss_error *err);
-ss_status ss_noise_add(ss_noise *noise, double *const column[], size_t n_columns, size_t n, const double *rms,
-                       ss_error *err);
-/* Add noise that has only frequencies in band [Hz], 0 <= from <= to <= rate / 2, to the n samples
- * of one column.  The added noise has exactly this rms.  SS_EINVAL: no frequency of the record
- * lies in the band. */
-ss_status ss_noise_add_band(ss_noise *noise, double *x, size_t n, double rate, ss_range band,
-                            double rms, ss_error *err);
-void ss_noise_free(ss_noise *noise);            /* NULL is allowed */
-/* Add n values to a variance, which begins with zeros. */
-typedef struct ss_variance {
-    size_t n;
-    long double mean, square;   /* square: the sum of squares about the mean */
-} ss_variance;
-void ss_variance_add(ss_variance *variance, const double *x, size_t n);
-/* The rms of noise whose power is snr_db [dB] below the variance of what was added. */
-double ss_variance_noise(const ss_variance *variance, double snr_db);
-
-/* Replace x by the output of a converter of so many bits whose input spans -range to range: the
- * nearest multiple of the step range / 2^(bits - 1) (halfway the even one), at least -range and at
- * most range less one step.  The number of samples beyond these is added to *clipped, which may be
- * NULL.  SS_EINVAL: bits are not 1 ... SS_BITS_MAX, or range is not positive. */
 enum { SS_BITS_MAX = 52 };
-ss_status ss_samples_quantise(double *x, size_t n, int bits, double range, size_t *clipped,
-                              ss_error *err);
+
+typedef struct ss_noise_opts {
+    size_t size;                /* set by ss_noise_opts_init */
+    double snr;                 /* [dB] the power of each column's noise is so much below the column's variance; */
+    double rms;                 /* or its standard deviation is this, >= 0.  NaN: not given */
+    ss_range band;              /* [Hz] 0 <= from <= to <= rate / 2: the noise has only these frequencies, and exactly
+                                   this power; NaN: it is white */
+    unsigned long seed;         /* the same seed gives the same noise (GSL's mt19937 and its Ziggurat) */
+    int bits;                   /* 1 ... SS_BITS_MAX: then each value becomes the output of a converter of so many bits:
+                                   the nearest multiple of the step range / 2^(bits - 1) (halfway the even one), at
+                                   least -range and at most range less one step; 0: there is no converter */
+    double range;               /* > 0, of the converter */
+    const size_t *column;       /* n_columns indices of those that are changed; n_columns 0: all */
+    size_t n_columns;
+} ss_noise_opts;
+/* Neither noise nor converter, seed 1. */
+void ss_noise_opts_init(ss_noise_opts *opts, size_t size);
+
+/* What was done, as rows are read. */
+typedef struct ss_noise_done {
+    size_t converted, clipped;  /* samples that went through the converter, and of these those beyond its range */
+    double *rms;                /* NULL, or room for the rms of each column's noise; NaN for one that gets none */
+} ss_noise_done;
+
+/* Make a reader that is at its first row give its rows with noise added, as a converter gives them, or both in this
+ * order; *done must live as long.  The notes noise and converter say so.  A ratio takes one reading more, so the
+ * reader must be one that can go back; with a band all rows are read into memory.  SS_EINVAL: an option is out of its
+ * range, or no frequency of the record lies in the band.  Reading fails with SS_ERANGE if a sum is not finite. */
+ss_status ss_reader_noise(ss_reader *reader, const ss_noise_opts *opts, ss_noise_done *done, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

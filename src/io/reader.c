@@ -171,6 +171,12 @@ ss_reader_filter(ss_reader *reader, const ss_filter_opts *opts, ss_error *err)
 }
 
 ss_status
+ss_reader_noise(ss_reader *reader, const ss_noise_opts *opts, ss_noise_done *done, ss_error *err)
+{
+    return reader != NULL && done != NULL ? ss_source_noise(&reader->source, opts, done, err) : SS_FAIL_NULL(err);
+}
+
+ss_status
 ss_reader_of_signal(ss_reader **out, const ss_signal *signal, ss_error *err)
 {
     if (out == NULL || signal == NULL)
@@ -187,6 +193,15 @@ ss_reader_of_signal(ss_reader **out, const ss_signal *signal, ss_error *err)
 }
 
 ss_status
+ss_signal_of_reader(ss_signal **out, ss_reader *reader, ss_error *err)
+{
+    if (out == NULL || reader == NULL)
+        return SS_FAIL_NULL(err);
+    *out = NULL;
+    return ss_source_all(out, reader->source, err);
+}
+
+ss_status
 ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *opts, ss_error *err)
 {
     ss_reader *reader = NULL;
@@ -195,7 +210,7 @@ ss_signal_read(ss_signal **out, FILE *in, const char *name, const ss_read_opts *
     *out = NULL;
     ss_status st = ss_reader_new(&reader, in, name, opts, err);
     if (st == SS_OK)
-        st = ss_source_all(out, reader->source, err);
+        st = ss_signal_of_reader(out, reader, err);
     ss_reader_free(reader);
     return st;
 }

@@ -438,17 +438,3 @@ ss_source_filter(ss_source **s, const ss_filter_opts *opts, ss_error *err)
     f->base.length = length == UINT64_MAX ? length : length > d.n - 1 ? length - (d.n - 1) : 0;
     return st == SS_ENOMEM ? ss_fail_memory(err, f->base.name) : st;
 }
-
-ss_status
-ss_signal_filter(ss_signal **out, const ss_signal *signal, const ss_filter_opts *opts, ss_error *err)
-{
-    if (out == NULL || signal == NULL)
-        return SS_FAIL_NULL(err);
-    *out = NULL;
-    ss_source *s = ss_source_of_signal(signal, "signal", err);
-    ss_status st = s != NULL ? ss_source_filter(&s, opts, err) : SS_ENOMEM;
-    if (st == SS_OK)
-        st = ss_source_all(out, s, err);
-    ss_source_free(s);
-    return st;
-}

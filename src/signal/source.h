@@ -57,8 +57,9 @@ ss_source *ss_source_of_signal(const ss_signal *signal, const char *name, ss_err
 /* Is the time start + row / rate, but for rounding and 1e-6 sample periods? */
 int ss_is_on_clock(double time, double rate, double start, uint64_t row);
 
-/* Wrap a source in one that gives its rows filtered, as ss_reader_filter has them; opts are complete. */
+/* Wrap a source in one that gives its rows filtered, or with noise, as ss_reader_filter and ss_reader_noise do. */
 ss_status ss_source_filter(ss_source **s, const ss_filter_opts *opts, ss_error *err);
+ss_status ss_source_noise(ss_source **s, const ss_noise_opts *opts, ss_noise_done *done, ss_error *err);
 
 /* Wrap a source in one that gives its rows at this rate [Hz], from the first on, by a cubic spline through
  * each column; NaN are skipped.  stamped: the last column of the source holds the times of its rows, which
