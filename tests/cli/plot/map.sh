@@ -38,6 +38,15 @@ for share in 'x / 16' 'exp(x / 2 - 8)'; do
         awk '/^[$]|^EOD/ { on = $1 == "$label" } on && NF == 3 && $2 != "<<" { print $3 }
              /^set key title/ { print $4 }' | sort -g | paste -sd ' '
 done
+# of two rings of one level the longer one has the label, also if it lies nearer to the origin
+awk 'BEGIN { print "# stickslip sweep 1\n# scene: s\n# columns: index x/m y/m stops stick status"
+             for (i = 0; i <= 24; i++) for (j = 0; j <= 24; j++) {
+                 x = i / 24; y = j / 24
+                 wide = 1 - sqrt((x - .3)^2 + (y - .3)^2) / .5; small = 1 - sqrt((x - .85)^2 + (y - .85)^2) / .25
+                 print n++ "\t" x "\t" y "\t1\t" (wide > small ? wide : small) "\tok" } }' > two.tsv
+draw --map x,y,stops,stick two.tsv |
+    awk '/^[$]|^EOD/ { on = $1 == "$label" } on && NF == 3 && $2 != "<<" && $3 > .1 { n++; wide += $1 < .7 && $2 < .7 }
+         END { print n, wide }'
 # over one key: points of the strobe, and under them a line that is broken where there is no value
 ss-sweep --simulate --strobe 4 --max-cycles 100 -m x_phase,period,floquet --vary base_frequency=0.52:0.7:4 chaos -o d.tsv
 draw --map base_frequency,x_phase,floquet d.tsv -o d.gp
