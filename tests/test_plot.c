@@ -9,7 +9,7 @@
 #include "contour_script.h"
 #include "read_opts.h"
 #include "new_signal.h"
-#include "plot/extremes.h"
+#include "plot/series.h"
 #include "plot/isoline.h"
 #include "plot/map.h"
 #include "unit.h"

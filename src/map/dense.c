@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/versions.h"
-#include "map/dense.h"
+#include "map/points.h"
 
 enum { LANES = 8, ROWS = 4, ROOT = LANES, GROUP_MAX = ROWS * LANES * DENSE_PHASES_MAX,
     LINE = 64 };                /* bytes of a cache line; a vector within one is read at once */
@@ -35,8 +35,8 @@ ss_dense_new(const kaiser *ker, size_t phases)
 {
     size_t common = phases < LANES ? phases : LANES, blocks = phases / common, extra = 0;
     for (size_t m = 0; m < blocks; m++) {
-        size_t span = (m * LANES + LANES - 1) / phases - m * LANES / phases;
-        extra = span > extra ? span : extra;
+        size_t more = (m * LANES + LANES - 1) / phases - m * LANES / phases;
+        extra = more > extra ? more : extra;
     }
     size_t taps = (size_t)ker->taps + extra, late = blocks * sizeof(size_t);
     weights *d = calloc(1, sizeof *d + late + LINE + blocks * taps * LANES * sizeof(double));
@@ -64,12 +64,6 @@ size_t
 ss_dense_phases(const weights *d)
 {
     return d->phases;
-}
-
-void
-ss_dense_free(weights *d)
-{
-    free(d);
 }
 
 /* --- the carrier ------------------------------------------------------------------------------ */

@@ -7,7 +7,7 @@
  * the band ends in a Gaussian the images near its edge are as weak as the band is there, so kernels
  * with a lower cutoff than the band's edge are tried too, and the shortest is taken. */
 #include <math.h>
-#include "map/kaiser.h"
+#include "map/points.h"
 
 /* Bessel's I0 of sqrt(4 y), by its series: all terms are positive, so it is exact to rounding.  (GSL's is not, as
  * the argument is rounded: it is some 20 here, and so is the factor of its error.) */
@@ -22,8 +22,9 @@ bessel_i0(double y)
     return sum;
 }
 
-double
-ss_kaiser_at(int taps, double beta, double t)
+/* The kernel. */
+static double
+at(int taps, double beta, double t)
 {
     double s = 2 * t / taps, y = beta * beta / 4 * (1 - s * s);
     return y < 0 ? 0 : bessel_i0(y) * beta / (taps * sinh(beta));
@@ -90,7 +91,7 @@ ss_kaiser_prepare(kaiser *ker)
             for (int m = 0; m < KAISER_NODES; m++) {
                 y[m] = cos(M_PI * (m + 0.5) / KAISER_NODES);
                 double f = (part + (1 + y[m]) / 2) / KAISER_PARTS;
-                c[m] = ss_kaiser_at(ker->taps, ker->beta, f + (ker->taps / 2 - 1 - i));
+                c[m] = at(ker->taps, ker->beta, f + (ker->taps / 2 - 1 - i));
             }
             for (int order = 1; order < KAISER_NODES; order++)          /* divided differences */
                 for (int m = KAISER_NODES - 1; m >= order; m--)

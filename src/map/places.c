@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 #include "base/versions.h"
-#include "map/places.h"
+#include "map/points.h"
 
 enum { LANES = 8, AT_ONCE = 64 };
 

@@ -23,7 +23,6 @@ typedef struct window {
     size_t first, end;
     ptrdiff_t limit;            /* a coefficient is complete if it needs no sample from here on */
     transformed of;
-    ss_error *err;
 } window;
 
 struct ss_stream {
@@ -39,7 +38,7 @@ struct ss_stream {
     double *w;
     ss_map_part *part;
     int ended;
-    ss_status status;           /* of what failed first */
+    ss_status status;           /* of what failed first, which every later call returns */
     ss_error error;
 };
 
@@ -93,7 +92,7 @@ run_level(size_t level, size_t number, double *spectrum, void *user)
             if (part < n)
                 break;                  /* the rest comes next */
         }
-        st = ss_morlet_parts(s->plan, &win.of, s->part, parts, NULL, win.err);
+        st = ss_morlet_parts(s->plan, &win.of, s->part, parts, NULL, &s->error);
         for (const ss_map_part *p = s->part; st == SS_OK && p < s->part + parts; p++) {
             s->next[p->scale] = p->first + p->n;
             if (s->sink(&s->grid.scale[p->scale], p->first, p->n, p->w, s->samples, s->user))
@@ -104,11 +103,11 @@ run_level(size_t level, size_t number, double *spectrum, void *user)
 }
 
 /* All coefficients that need no sample from limit on, PTRDIFF_MAX: all. */
-static ss_status
-run_to(ss_stream *s, ptrdiff_t limit, ss_error *err)
+static void
+run_to(ss_stream *s, ptrdiff_t limit)
 {
-    window asked = { .stream = s, .limit = limit, .of.rec.exponent = s->exponent, .err = err };
-    return ss_cascade_end(s->cascade, s->samples, run_level, &asked);
+    window asked = { .stream = s, .limit = limit, .of.rec.exponent = s->exponent };
+    s->status = ss_cascade_end(s->cascade, s->samples, run_level, &asked);
 }
 
 /* --- samples ---------------------------------------------------------------------------------- */
@@ -116,8 +115,8 @@ run_to(ss_stream *s, ptrdiff_t limit, ss_error *err)
 /* Append n samples, at most as many as complete a window.  Samples are divided so that their squares neither
  * overflow nor underflow; the exponent is 0 except for signals near the limits of a double.  A window is computed
  * as soon as it has its last sample, so its coefficients do not depend on how samples arrive. */
-static ss_status
-append(ss_stream *s, const double *x, size_t n, ss_error *err)
+static void
+append(ss_stream *s, const double *x, size_t n)
 {
     enum { FAR = 300 };
     double most;
@@ -129,19 +128,15 @@ append(ss_stream *s, const double *x, size_t n, ss_error *err)
     s->exponent += more;
     ss_morlet_divide(ss_cascade_append(s->cascade, x, good), good, s->exponent, s->x_max);
     s->samples += good;
-    window asked = { .stream = s, .limit = PTRDIFF_MAX, .of.rec.exponent = s->exponent, .err = err };
-    ss_status st = ss_cascade_run(s->cascade, run_level, &asked);
-    return st == SS_OK && good < n ? ss_morlet_not_finite(err, s->samples + 1, x[good]) : st;
+    window asked = { .stream = s, .limit = PTRDIFF_MAX, .of.rec.exponent = s->exponent };
+    s->status = ss_cascade_run(s->cascade, run_level, &asked);
+    if (s->status == SS_OK && good < n)
+        s->status = ss_morlet_not_finite(&s->error, s->samples + 1, x[good]);
 }
 
-/* Store the first failure in the stream; every later call returns it. */
 static ss_status
-keep(ss_stream *s, ss_status st, const ss_error *why, ss_error *err)
+report(const ss_stream *s, ss_error *err)
 {
-    if (s->status == SS_OK && st != SS_OK) {
-        s->status = st;
-        s->error = *why;
-    }
     if (s->status != SS_OK && err != NULL)
         *err = s->error;
     return s->status;
@@ -152,17 +147,14 @@ ss_stream_push(ss_stream *s, const double *x, size_t n, ss_error *err)
 {
     if (s == NULL || (x == NULL && n > 0))
         return SS_FAIL_NULL(err);
-    ss_error why = { 0 };
-    ss_status st = s->status;
-    if (st == SS_OK && s->ended)
-        st = ss_fail(&why, SS_EINVAL, "the stream has ended");
-    while (st == SS_OK && n > 0) {
-        size_t room = ss_cascade_room(s->cascade), piece = n < room ? n : room;
-        st = append(s, x, piece, &why);
-        x += piece;
-        n -= piece;
+    if (s->status == SS_OK && s->ended)
+        s->status = ss_fail(&s->error, SS_EINVAL, "the stream has ended");
+    for (size_t room, piece; s->status == SS_OK && n > 0; x += piece, n -= piece) {
+        room = ss_cascade_room(s->cascade);
+        piece = n < room ? n : room;
+        append(s, x, piece);
     }
-    return keep(s, st, &why, err);
+    return report(s, err);
 }
 
 ss_status
@@ -170,11 +162,9 @@ ss_stream_drain(ss_stream *s, ss_error *err)
 {
     if (s == NULL)
         return SS_FAIL_NULL(err);
-    ss_error why = { 0 };
-    ss_status st = s->status;
-    if (st == SS_OK)
-        st = run_to(s, (ptrdiff_t)s->samples, &why);
-    return keep(s, st, &why, err);
+    if (s->status == SS_OK)
+        run_to(s, (ptrdiff_t)s->samples);
+    return report(s, err);
 }
 
 ss_status
@@ -182,15 +172,13 @@ ss_stream_end(ss_stream *s, ss_error *err)
 {
     if (s == NULL)
         return SS_FAIL_NULL(err);
-    ss_error why = { 0 };
-    ss_status st = s->status;
-    if (st == SS_OK && s->samples == 0)
-        st = ss_fail(&why, SS_EINVAL, "the record is empty");
-    if (st == SS_OK && !s->ended) {
+    if (s->status == SS_OK && s->samples == 0)
+        s->status = ss_fail(&s->error, SS_EINVAL, "the record is empty");
+    if (s->status == SS_OK && !s->ended) {
         s->ended = 1;
-        st = run_to(s, PTRDIFF_MAX, &why);
+        run_to(s, PTRDIFF_MAX);
     }
-    return keep(s, st, &why, err);
+    return report(s, err);
 }
 
 /* --- making and freeing ----------------------------------------------------------------------- */

@@ -3,7 +3,6 @@
 #include <stickslip/backbone.h>
 
 #include "plot/script.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include "base/error.h"

@@ -2,7 +2,6 @@
  * script, its axes, the cone of influence, and the marks of events and features. */
 #include "plot/contour.h"
 #include "plot/series.h"
-#include "plot/style.h"
 
 #include <float.h>
 #include <math.h>

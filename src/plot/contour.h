@@ -2,6 +2,7 @@
 #ifndef CONTOUR_H
 #define CONTOUR_H
 
+#include <stickslip/morlet.h>
 #include "plot/script.h"
 
 #define CONTOUR_COLUMNS 700     /* the width of panel (b), about [pixels] */
@@ -35,6 +36,18 @@ ss_status ss_contour_write_fill(FILE *out, const contour_map *map, int levels);
  * number. */
 size_t ss_contour_ridge(const contour_map *map, const ss_coefficients *c,
                         void (*visit)(double t, double f, double level, void *user), void *user);
+
+/* The level at which noise begins in a map of |W|, found in one pass (noise_level.c). */
+typedef struct noise_level noise_level;
+
+noise_level *ss_noise_level_new(size_t n_scales);       /* NULL: no memory */
+/* Add those that measure noise among the coefficients first ... first + n - 1 of a scale, the i-th, given by |W|;
+ * all lie outside the cone of influence. */
+void ss_noise_level_add(noise_level *noise, const ss_scale *scale, size_t i, const double *level, size_t first,
+                        size_t n);
+/* |W| at which noise begins; 0: none was found. */
+double ss_noise_level(noise_level *noise, const ss_scale *scale);
+void ss_noise_level_free(noise_level *noise);           /* NULL is allowed */
 
 /* Write the datablock $spans, of two times a row, cut at the ends of span; returns the number of rows. */
 size_t ss_contour_write_spans(FILE *out, const script_span *span, const ss_overlay *overlay);

@@ -11,7 +11,6 @@
 #include "base/progress.h"
 #include "map/map.h"
 #include "map/wavelet.h"
-#include "plot/noise_level.h"
 #include "signal/gaps.h"
 
 #define LEAST_SPAN 10.0         /* [dB] that lines span, however high the noise is */

@@ -4,7 +4,6 @@
  * points (a bifurcation diagram), else as a line.  Counts have no values between two: they are drawn as steps
  * and points. */
 #include "plot/map.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,11 +8,12 @@
 #include "plot/isoline.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct tracer {
     const isoline_map *map;
     double level;
-    unsigned char *passed;      /* sides, numbered by side_index */
+    unsigned char *passed;      /* sides, numbered from point to point: that to the right, and that above */
     double (*point)[2];         /* of the line being traced */
 } tracer;
 
@@ -22,48 +23,32 @@ typedef struct cell_side {
     int side;
 } cell_side;
 
-static double
-height(const tracer *t, size_t i, size_t j)
-{
-    return t->map->height[j * t->map->nx + i];
-}
+/* A side leads from a point of the grid to its neighbour on the right, or above it. */
+typedef struct edge {
+    size_t x, y, number;
+    int upright, crossed;
+    double from, to;            /* the heights at its ends */
+} edge;
 
-/* The ends of a side: from (i, j) to its neighbour on the right, or above it. */
-static void
-side_ends(cell_side p, size_t from[2], size_t to[2])
+static edge
+edge_of(const tracer *t, cell_side p)
 {
-    from[0] = p.i + (p.side == 1);
-    from[1] = p.j + (p.side == 2);
-    to[0] = from[0] + (p.side == 0 || p.side == 2);
-    to[1] = from[1] + (p.side == 1 || p.side == 3);
-}
-
-static size_t
-side_index(const tracer *t, cell_side p)
-{
-    size_t from[2], to[2];
-    side_ends(p, from, to);
-    return 2 * (from[1] * t->map->nx + from[0]) + (p.side == 1 || p.side == 3);
-}
-
-static int
-is_crossed(const tracer *t, cell_side p)
-{
-    size_t from[2], to[2];
-    side_ends(p, from, to);
-    return (height(t, from[0], from[1]) >= t->level) != (height(t, to[0], to[1]) >= t->level);
+    edge e = { .x = p.i + (p.side == 1), .y = p.j + (p.side == 2), .upright = p.side % 2 };
+    size_t at = e.y * t->map->nx + e.x;
+    e.number = 2 * at + (size_t)e.upright;
+    e.from = t->map->height[at];
+    e.to = t->map->height[at + (e.upright ? t->map->nx : 1)];
+    e.crossed = (e.from >= t->level) != (e.to >= t->level);
+    return e;
 }
 
 static void
-cross(tracer *t, cell_side p, size_t n)
+cross(tracer *t, const edge *e, size_t n)
 {
-    size_t from[2], to[2];
-    side_ends(p, from, to);
-    double lo = height(t, from[0], from[1]), hi = height(t, to[0], to[1]);
-    double part = (t->level - lo) / (hi - lo);
-    t->point[n][0] = (double)from[0] + part * (double)(to[0] - from[0]);
-    t->point[n][1] = (double)from[1] + part * (double)(to[1] - from[1]);
-    t->passed[side_index(t, p)] = 1;
+    double part = (t->level - e->from) / (e->to - e->from);
+    t->point[n][0] = (double)e->x + (e->upright ? 0 : part);
+    t->point[n][1] = (double)e->y + (e->upright ? part : 0);
+    t->passed[e->number] = 1;
 }
 
 /* The side through which a line leaves the cell that it entered through p.side. */
@@ -72,15 +57,15 @@ exit_side(const tracer *t, cell_side p)
 {
     int crossed = 0, other = p.side;
     for (int side = 0; side < 4; side++)
-        if (is_crossed(t, (cell_side){ p.i, p.j, side })) {
+        if (edge_of(t, (cell_side){ p.i, p.j, side }).crossed) {
             crossed++;
             other = side != p.side ? side : other;
         }
     if (crossed < 4)
         return other;
-    double corner = height(t, p.i, p.j);
-    double mean = (corner + height(t, p.i + 1, p.j) + height(t, p.i, p.j + 1) + height(t, p.i + 1, p.j + 1)) / 4;
-    return (mean >= t->level) == (corner >= t->level) ? p.side ^ 1 : 3 - p.side;
+    edge below = edge_of(t, (cell_side){ p.i, p.j, 0 }), above = edge_of(t, (cell_side){ p.i, p.j, 2 });
+    double mean = (below.from + below.to + above.from + above.to) / 4;
+    return (mean >= t->level) == (below.from >= t->level) ? p.side ^ 1 : 3 - p.side;
 }
 
 /* Trace the line that enters a cell through p.side, to its end or back to its start, unless there is none, or it
@@ -89,22 +74,20 @@ static void
 trace(tracer *t, cell_side p, isoline_sink *sink, void *user)
 {
     static const int dx[] = { 0, 1, 0, -1 }, dy[] = { -1, 0, 1, 0 };
-    size_t n = 0, end[2][2];
-    if (!is_crossed(t, p) || t->passed[side_index(t, p)])
+    size_t n = 0;
+    edge e = edge_of(t, p);
+    if (!e.crossed || t->passed[e.number])
         return;
-    side_ends(p, end[0], end[1]);
-    const size_t *left = end[p.side >= 2];      /* on the way into the cell through the side */
-    int high_left = height(t, left[0], left[1]) >= t->level;
-    cross(t, p, n++);
-    for (int inside = 1; inside; ) {
+    int high_left = (p.side >= 2 ? e.to : e.from) >= t->level;          /* on the way into the cell */
+    cross(t, &e, n++);
+    for (int inside = 1; inside;) {
         p.side = exit_side(t, p);
-        if (t->passed[side_index(t, p)]) {
-            t->point[n][0] = t->point[0][0];
-            t->point[n][1] = t->point[0][1];
-            n++;
+        e = edge_of(t, p);
+        if (t->passed[e.number]) {
+            memcpy(t->point[n++], t->point[0], sizeof *t->point);
             break;
         }
-        cross(t, p, n++);
+        cross(t, &e, n++);
         p.i += (size_t)dx[p.side];              /* into the cell beyond the side; -1 is SIZE_MAX here */
         p.j += (size_t)dy[p.side];
         p.side = (p.side + 2) % 4;

@@ -5,7 +5,6 @@
  * lines. */
 #include <stickslip/sweep.h>
 #include "plot/map.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include <stdlib.h>

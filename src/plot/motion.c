@@ -1,7 +1,6 @@
 /* motion.c -- draw a ranking of friction laws by a motion: the loop of force and motion, as measured and as the
  * first law predicts it; what that leaves over time; and a bar for each law. */
 #include "plot/script.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include <stickslip/rank.h>

@@ -13,7 +13,7 @@
  *
  * Quantiles are interpolated in histograms with bins of 1/8 of a binary order, 0.26 to 0.51 dB, and
  * autocorrelations are means over parts of the record, so memory does not grow. */
-#include "plot/noise_level.h"
+#include "plot/contour.h"
 
 #include <math.h>
 #include <stdint.h>

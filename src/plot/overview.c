@@ -9,11 +9,11 @@
 #include "io/reader.h"
 #include "map/map.h"
 #include "map/wavelet.h"
-#include "plot/extremes.h"
-#include "plot/noise_level.h"
+#include "plot/contour.h"
+#include "plot/series.h"
 #include "signal/gaps.h"
 
-enum { BLOCKS = 4096 };
+enum { LONG = 4096 };           /* blocks */
 
 typedef struct reduction {
     const ss_header *head;      /* of the signal */
@@ -198,9 +198,9 @@ reduce(ss_overview *v, reduction *o, ss_reader *reader, size_t column, ss_error 
     if (st == SS_OK)
         st = ss_header_gaps(&o->gap, &o->n_gaps, o->head, err);
     int made = st == SS_OK && (o->noise = ss_noise_level_new(scales)) != NULL
-        && (o->scale = calloc(scales, sizeof *o->scale)) != NULL && ss_extremes_make(&o->samples, BLOCKS, 1);
+        && (o->scale = calloc(scales, sizeof *o->scale)) != NULL && ss_extremes_make(&o->samples, LONG, 1);
     for (size_t i = 0; made && i < scales; i++)
-        made = ss_extremes_make(&o->scale[i], BLOCKS, 0);
+        made = ss_extremes_make(&o->scale[i], LONG, 0);
     if (!made)
         return st == SS_OK ? ss_fail_memory(err, NULL) : st;
     st = read_all(o, reader, column, detrend, err);

@@ -2,7 +2,6 @@
  *
  * A picture on paper is 8.5 cm wide, as a journal's column is, with letters of 6 points. */
 #include "plot/script.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 /* panels.c -- draw a signal over time with a panel for each column. */
 #include "plot/contour.h"
 #include "plot/series.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /* spectra.c -- the power spectral density of columns over a logarithmic axis of frequency, a panel
  * each. */
 #include "plot/series.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /* steps.c -- draw the steps of a load point: of each, friction along the path as measured and by both laws, and
  * what each law leaves. */
 #include "plot/script.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include <stickslip/steps.h>

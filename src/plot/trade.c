@@ -1,7 +1,6 @@
 /* trade.c -- error over CPU time, both logarithmic: of methods, a line each, or of simpler scenes, a colour
  * each.  An error of 0 is left out. */
 #include "plot/script.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,6 @@
  * before.  It goes from point to point, each farther than a cell from the one before.  Lines are four cells
  * wide: a part through cells that were crossed shows nothing new. */
 #include "plot/series.h"
-#include "plot/style.h"
 
 #include <math.h>
 #include <stdlib.h>

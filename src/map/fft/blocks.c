@@ -40,8 +40,9 @@
  * be checked afterwards. */
 #include <limits.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
-#include "map/fft/blocks.h"
+#include "base/fft.h"
 #include "map/fft/stage.h"
 
 #define CUT 8.66
@@ -249,6 +250,63 @@ ss_blocks_room(const struct blocks *b)
     return 4 * (b->longest + DENSE_MARGIN) + ss_dense_room(b->most) + 2 * DENSE_PHASES_MAX;
 }
 
+/* --- FFTW's plans, which levels with windows of one length share, and scales with as many points ------- */
+
+typedef struct shared_plan {
+    enum plan_kind { FROM_REAL, TO_REAL, INVERSE } kind;
+    size_t n;
+    fftw_plan plan;
+    struct shared_plan *next;
+} shared_plan;
+
+/* The plan of a kind and length, from the list, or made for these arrays.  The caller holds ss_fftw_planner.
+ * NULL: no memory. */
+static fftw_plan
+plan_of(struct blocks *b, enum plan_kind kind, size_t n, double *from, double *to)
+{
+    for (const shared_plan *p = b->plans; p != NULL; p = p->next)
+        if (p->kind == kind && p->n == n)
+            return p->plan;
+    shared_plan *p = malloc(sizeof *p);
+    if (p == NULL)
+        return NULL;
+    *p = (shared_plan){ .kind = kind, .n = n, .next = b->plans };
+    b->plans = p;
+    p->plan = kind == FROM_REAL ? fftw_plan_dft_r2c_1d((int)n, from, (fftw_complex *)to, FFTW_ESTIMATE)
+        : kind == TO_REAL ? fftw_plan_dft_c2r_1d((int)n, (fftw_complex *)from, to, FFTW_ESTIMATE)
+        : fftw_plan_dft_1d((int)n, (fftw_complex *)from, (fftw_complex *)to, FFTW_BACKWARD, FFTW_ESTIMATE);
+    return p->plan;
+}
+
+ss_status
+ss_blocks_plan(struct blocks *b, int adjoint)
+{
+    size_t room = ss_blocks_room(b);
+    for (size_t l = 0; l < b->levels; l++)
+        room = 2 * b->stage[l].stride > room ? 2 * b->stage[l].stride : room;
+    double *v = fftw_malloc(room * sizeof *v), *points = v + 2 * (b->longest + DENSE_MARGIN);
+    if (v == NULL)
+        return SS_ENOMEM;
+    int made = 1;
+    pthread_mutex_lock(&ss_fftw_planner);
+    for (stage *st = b->stage; st < b->stage + b->levels; st++) {
+        double *terms = v + st->stride;
+        st->forward = plan_of(b, FROM_REAL, st->length, v, terms);
+        st->next = plan_of(b, TO_REAL, st->length / 2, terms, v);
+        st->of_next = adjoint ? plan_of(b, FROM_REAL, st->length / 2, v, terms) : NULL;
+        st->back = adjoint ? plan_of(b, TO_REAL, st->length, terms, v) : NULL;
+        made &= st->forward != NULL && st->next != NULL && (!adjoint || (st->of_next != NULL && st->back != NULL));
+    }
+    for (size_t i = b->n_scales; i-- > 0;)
+        if (b->scale[i].level >= 0) {
+            b->scale[i].inverse = plan_of(b, INVERSE, b->scale[i].points, v, points);
+            made &= b->scale[i].inverse != NULL;
+        }
+    pthread_mutex_unlock(&ss_fftw_planner);
+    fftw_free(v);
+    return made ? SS_OK : SS_ENOMEM;
+}
+
 ss_status
 ss_blocks_new(ss_morlet *plan)
 {
@@ -292,7 +350,7 @@ ss_blocks_new(ss_morlet *plan)
             of->filter[half + 1 + k] = erfc(-x) / 2 / (double)of->length;
         }
     }
-    return st == SS_OK ? ss_blocks_plans_make(b, ss_blocks_room(b)) : st;
+    return st == SS_OK ? ss_blocks_plan(b, 0) : st;
 }
 
 void
@@ -300,13 +358,20 @@ ss_blocks_free(struct blocks *b)
 {
     if (b == NULL)
         return;
-    ss_plans_free(b->plans);
+    pthread_mutex_lock(&ss_fftw_planner);
+    for (shared_plan *next; b->plans != NULL; b->plans = next) {
+        next = b->plans->next;
+        if (b->plans->plan != NULL)
+            fftw_destroy_plan(b->plans->plan);
+        free(b->plans);
+    }
+    pthread_mutex_unlock(&ss_fftw_planner);
     for (size_t i = 0; i < b->n_scales; i++)
         free(b->scale[i].weight);
     for (size_t l = 0; l < b->levels; l++)
         free(b->stage[l].filter);
     for (size_t i = 0; i < b->n_places; i++)
-        ss_dense_free(b->places[i]);
+        free(b->places[i]);
     free(b->kernel);
     free(b->scale);
     free(b);

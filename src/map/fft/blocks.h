@@ -22,7 +22,7 @@ void ss_blocks_scale(const struct blocks *blocks, size_t i, const spectra *s, do
 
 /* The adjoint of the transform.  NULL: no memory. */
 typedef struct block_sums block_sums;
-block_sums *ss_block_sums_new(const struct blocks *blocks);
+block_sums *ss_block_sums_new(struct blocks *blocks);
 void ss_block_sums_free(block_sums *sums);            /* NULL is allowed */
 /* Add the coefficients w of a part of scale i, all of one window, times factor. */
 void ss_block_sums_add(block_sums *sums, size_t i, double *scratch, span part, double factor,

@@ -1,17 +1,13 @@
-/* stage.h -- the tables and plans that blocks.c and plans.c make for windows.c and translations.c. */
+/* stage.h -- the tables and plans that blocks.c makes for windows.c and translations.c. */
 #ifndef STAGE_H
 #define STAGE_H
 
 #include <fftw3.h>
 #include <stddef.h>
 #include "map/fft/blocks.h"
-#include "map/dense.h"
-#include "map/places.h"
+#include "map/points.h"
 
 enum { LEVELS = BLOCK_LEVELS };
-
-/* A list of plans, one of each kind and length; plans.c owns them. */
-typedef struct shared_plan shared_plan;
 
 /* A level of n samples, margin more on either side. */
 typedef struct stage {
@@ -20,7 +16,8 @@ typedef struct stage {
     size_t margin, stride;                  /* doubles from a spectrum to the next */
     int used;                               /* by a scale: spectra are kept */
     double *filter;                         /* F_k / L, k <= L/4, then F_(L/2-k) / L; NULL: the last */
-    fftw_plan forward, back;
+    fftw_plan forward, next;                /* to the spectrum, and from its half to the next level */
+    fftw_plan of_next, back;                /* the other way, for the adjoint */
 } stage;
 
 /* A scale and the weights of its terms. */
@@ -47,24 +44,18 @@ struct blocks {
     size_t n_places;
     block_scale *scale;
     stage stage[LEVELS];
-    shared_plan *plans;
+    struct shared_plan *plans;              /* all that are used here, one of each kind and length */
 };
 
-/* plans.c: make the plans of all levels and scales that are used here, for a scratch of so many doubles. */
-ss_status ss_blocks_plans_make(struct blocks *b, size_t room);
+/* Make the plans of all levels and scales that are used here; those of the adjoint only if that is wanted. */
+ss_status ss_blocks_plan(struct blocks *b, int adjoint);
 
 /* The adjoint of the transform: for each window a sum over coefficients in place of its spectrum. */
 struct block_sums {
     const struct blocks *b;
     double *level[LEVELS];                  /* of levels in use, from window 0 on */
-    fftw_plan half[LEVELS], back[LEVELS];   /* from L/2 samples, and to L samples */
-    shared_plan *plans;
     double *v;                              /* a window's samples, its spectrum, half a spectrum */
 };
-
-/* The same for its plans.  Free all plans of either. */
-ss_status ss_sums_plans_make(struct block_sums *s);
-void ss_plans_free(shared_plan *plans);
 
 /* Windows that hold n samples' coefficients. */
 static inline size_t

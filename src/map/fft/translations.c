@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 #include "base/versions.h"
-#include "map/fft/blocks.h"
 #include "map/fft/stage.h"
 
 /* --- the terms and points of a series ------------------------------------------------------------ */

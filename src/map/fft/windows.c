@@ -8,30 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/versions.h"
-#include "map/fft/blocks.h"
 #include "map/fft/stage.h"
 
 /* --- a window: its samples, its spectrum, and the samples of the next level ----------------------- */
-
-/* Samples lo ... hi - 1 of a level, of which x[0] is sample lo; all others are 0. */
-typedef struct samples {
-    double *x;
-    ptrdiff_t lo, hi;
-} samples;
-
-/* to[i] becomes sample first + i. */
-static void
-copy_samples(const samples *s, ptrdiff_t first, size_t n, double *to)
-{
-    ptrdiff_t end = first + (ptrdiff_t)n;
-    ptrdiff_t lo = first > s->lo ? first : s->lo, hi = end < s->hi ? end : s->hi;
-    if (lo >= hi)
-        lo = hi = end;
-    memset(to, 0, (size_t)(lo - first) * sizeof *to);
-    if (hi > lo)
-        memcpy(to + (lo - first), s->x + (lo - s->lo), (size_t)(hi - lo) * sizeof *to);
-    memset(to + (hi - first), 0, (size_t)(end - hi) * sizeof *to);
-}
 
 /* The terms k <= L/4 of the same window on the next level, from those on this one. */
 VERSIONS static void
@@ -72,8 +51,10 @@ struct cascade {
     filling level[LEVELS];
 };
 
-static cascade *
-empty_cascade(const struct blocks *b)
+/* Every level begins with zeros, those samples of window 0 that precede the first from the level before, or skips
+ * those of the level before that precede window 0. */
+cascade *
+ss_cascade_new(const struct blocks *b)
 {
     cascade *c = calloc(1, sizeof *c);
     if (c == NULL)
@@ -81,33 +62,23 @@ empty_cascade(const struct blocks *b)
     c->b = b;
     int failed = (c->v = fftw_malloc(window_room(b) * sizeof *c->v)) == NULL;
     for (size_t l = 0; l < b->levels; l++) {
+        const stage *st = &b->stage[l];
         filling *f = &c->level[l];
-        f->made = fftw_malloc((b->stage[l].stride / 2 + b->stage[l].length) * sizeof *f->made);
-        failed |= f->made == NULL;
-        f->x = f->made + b->stage[l].stride / 2;
+        size_t before = st->hop + st->overlap / 2, made = l > 0 ? st[-1].hop / 2 : 0;
+        if ((f->made = fftw_malloc((st->stride / 2 + st->length) * sizeof *f->made)) == NULL) {
+            failed = 1;
+            continue;
+        }
+        f->x = f->made + st->stride / 2;
+        f->have = before > made ? before - made : 0;
+        f->skip = before > made ? 0 : made - before;
         f->end = PTRDIFF_MAX;
+        memset(f->x, 0, f->have * sizeof *f->x);
     }
     if (!failed)
         return c;
     ss_cascade_free(c);
     return NULL;
-}
-
-/* Every level begins with zeros, those samples of window 0 that precede the first from the level before, or skips
- * those of the level before that precede window 0. */
-cascade *
-ss_cascade_new(const struct blocks *b)
-{
-    cascade *c = empty_cascade(b);
-    for (size_t l = 0; c != NULL && l < b->levels; l++) {
-        const stage *st = &b->stage[l];
-        filling *f = &c->level[l];
-        size_t before = st->hop + st->overlap / 2, made = l > 0 ? st[-1].hop / 2 : 0;
-        f->have = before > made ? before - made : 0;
-        f->skip = before > made ? 0 : made - before;
-        memset(f->x, 0, f->have * sizeof *f->x);
-    }
-    return c;
 }
 
 void
@@ -121,7 +92,7 @@ ss_cascade_free(cascade *c)
     free(c);
 }
 
-static ss_status append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user);
+static ss_status append(cascade *c, size_t l, const double *x, size_t n, window_sink *sink, void *user);
 
 /* Transform a full window, and begin the next one with its last samples. */
 static ss_status
@@ -141,13 +112,13 @@ finish_window(cascade *c, size_t l, window_sink *sink, void *user)
     if (status != SS_OK || l + 1 == c->b->levels)
         return status;
     filter_terms(st, terms, c->v);
-    fftw_execute_dft_c2r(st->back, (fftw_complex *)c->v, f->made);
+    fftw_execute_dft_c2r(st->next, (fftw_complex *)c->v, f->made);
     return append(c, l + 1, f->made, st->hop / 2, sink, user);
 }
 
 /* Append samples to a level, except the first; samples before the margin are 0. */
 static ss_status
-append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user)
+append(cascade *c, size_t l, const double *x, size_t n, window_sink *sink, void *user)
 {
     const stage *st = &c->b->stage[l];
     filling *f = &c->level[l];
@@ -160,10 +131,8 @@ append(cascade *c, size_t l, double *x, size_t n, window_sink *sink, void *user)
         size_t left = st->length - f->have, part = n < left ? n : left;
         ptrdiff_t at = ((ptrdiff_t)f->window - 1) * (ptrdiff_t)st->hop
             - (ptrdiff_t)(st->overlap / 2) + (ptrdiff_t)f->have;
-        ptrdiff_t end = at + (ptrdiff_t)part, lo = -(ptrdiff_t)st->margin;
-        lo = lo < at ? at : lo < end ? lo : end;
-        samples from = { x + (lo - at), lo, end < f->end ? end : f->end };
-        copy_samples(&from, at, part, f->x + f->have);
+        for (ptrdiff_t i = 0; i < (ptrdiff_t)part; i++)
+            f->x[(ptrdiff_t)f->have + i] = at + i >= -(ptrdiff_t)st->margin && at + i < f->end ? x[i] : 0;
         x += part;
         n -= part;
         f->have += part;
@@ -203,7 +172,7 @@ ss_status
 ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
 {
     const struct blocks *b = now->b;
-    cascade *c = empty_cascade(b);
+    cascade *c = ss_cascade_new(b);
     ss_status st = c != NULL ? SS_OK : SS_ENOMEM;
     size_t windows[LEVELS] = { 0 };
     for (size_t l = 0; st == SS_OK && l < b->levels; l++) {
@@ -287,15 +256,11 @@ ss_morlet_spectra_free(spectra *s)
 
 /* --- the adjoint ------------------------------------------------------------------------------ */
 
-/* Sample first + i += v[i]. */
-static void
-add_samples(const samples *s, ptrdiff_t first, size_t n, const double *v)
-{
-    ptrdiff_t end = first + (ptrdiff_t)n;
-    ptrdiff_t lo = first > s->lo ? first : s->lo, hi = end < s->hi ? end : s->hi;
-    for (ptrdiff_t k = lo; k < hi; k++)
-        s->x[k - s->lo] += v[k - first];
-}
+/* Samples lo ... hi - 1 of a level, of which x[0] is sample lo; all others are 0. */
+typedef struct samples {
+    double *x;
+    ptrdiff_t lo, hi;
+} samples;
 
 /* The adjoint of filter_terms, y being the spectrum of real samples. */
 VERSIONS static void
@@ -313,27 +278,30 @@ unfilter_terms(const stage *st, const double *restrict y, double *restrict x)
     x[2 * half] += (f[half] + g[half]) / 2 * y[2 * half];
 }
 
-/* The adjoint of one_window: samples of the next level, if there is one, and sums to those of this. */
+/* The adjoint of finish_window: samples of the next level, if there is one, and sums to those of this. */
 static void
-sums_window(const block_sums *s, size_t l, size_t i, const samples *next, const samples *to)
+sums_window(const block_sums *s, size_t l, size_t window, const samples *next, const samples *to)
 {
     const stage *st = &s->b->stage[l];
-    ptrdiff_t first = ((ptrdiff_t)i - 1) * (ptrdiff_t)st->hop;
-    size_t before = st->overlap / 2, inside = st->length - before, made = st->hop / 2;
+    ptrdiff_t first = ((ptrdiff_t)window - 1) * (ptrdiff_t)st->hop, length = (ptrdiff_t)st->length;
+    ptrdiff_t inside = length - (ptrdiff_t)(st->overlap / 2), made = (ptrdiff_t)(st->hop / 2);
     double *v = s->v, *terms = v + st->stride, *half = v + 2 * st->stride;
     if (s->level[l] != NULL)
-        terms = s->level[l] + i * st->stride;
+        terms = s->level[l] + window * st->stride;
     else
         memset(terms, 0, st->stride * sizeof *terms);
-    if (next != NULL) {
-        copy_samples(next, first / 2, made, v);
-        memset(v + made, 0, (st->length / 2 - made) * sizeof *v);
-        fftw_execute_dft_r2c(s->half[l], v, (fftw_complex *)half);
+    for (ptrdiff_t i = 0, k = first / 2; next->x != NULL && i < length / 2; i++, k++)
+        v[i] = i < made && k >= next->lo && k < next->hi ? next->x[k - next->lo] : 0;
+    if (next->x != NULL) {
+        fftw_execute_dft_r2c(st->of_next, v, (fftw_complex *)half);
         unfilter_terms(st, half, terms);
     }
-    fftw_execute_dft_c2r(s->back[l], (fftw_complex *)terms, v);
-    add_samples(to, first, inside, v);
-    add_samples(to, first - (ptrdiff_t)before, before, v + inside);
+    fftw_execute_dft_c2r(st->back, (fftw_complex *)terms, v);
+    for (ptrdiff_t i = 0; i < length; i++) {
+        ptrdiff_t k = first + (i < inside ? i : i - length);
+        if (k >= to->lo && k < to->hi)
+            to->x[k - to->lo] += v[i];
+    }
     memset(terms, 0, st->stride * sizeof *terms);
 }
 
@@ -349,7 +317,7 @@ ss_block_sums_end(block_sums *s, double *x)
         if (l > 0 && (now.x = calloc((size_t)(now.hi - now.lo), sizeof *now.x)) == NULL)
             status = SS_ENOMEM;
         for (size_t i = 0; status == SS_OK && i < st->windows; i++)
-            sums_window(s, l, i, next.x != NULL ? &next : NULL, &now);
+            sums_window(s, l, i, &next, &now);
         free(next.x);
         next = now;
     }
@@ -357,7 +325,7 @@ ss_block_sums_end(block_sums *s, double *x)
 }
 
 block_sums *
-ss_block_sums_new(const struct blocks *b)
+ss_block_sums_new(struct blocks *b)
 {
     block_sums *s = calloc(1, sizeof *s);
     if (s == NULL)
@@ -371,7 +339,7 @@ ss_block_sums_new(const struct blocks *b)
         if (s->level[l] != NULL)
             memset(s->level[l], 0, room);
     }
-    if (!failed && ss_sums_plans_make(s) == SS_OK)
+    if (!failed && ss_blocks_plan(b, 1) == SS_OK)
         return s;
     ss_block_sums_free(s);
     return NULL;
@@ -382,7 +350,6 @@ ss_block_sums_free(block_sums *s)
 {
     if (s == NULL)
         return;
-    ss_plans_free(s->plans);
     for (size_t l = 0; l < s->b->levels; l++)
         fftw_free(s->level[l]);
     fftw_free(s->v);
