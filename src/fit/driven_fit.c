@@ -34,10 +34,8 @@ typedef struct problem {
     double *room;
     double late, *x, *v, *a;        /* the motion, so much earlier */
     double line[COLUMNS + 1][2];    /* of each column, and of the force, over all rows */
-    size_t free[UNKNOWNS], n_free;
-    ss_range range[UNKNOWNS];
+    ss_range range[UNKNOWNS];       /* no wider than a point: it is held */
     double nudge[UNKNOWNS];
-    const double *given;            /* the unknowns where the fit starts */
     driven_fit now;                 /* evaluated last */
 } problem;
 
@@ -71,12 +69,17 @@ problem_new(problem *p, const driven_law *law, const driven *d)
     }
     ss_driven_line(p->line[COLUMNS], d, d->f);
     for (size_t k = 0; k < UNKNOWNS; k++) {
-        if (law->free >> k & 1 || (k == DELAY && d->most_delay > 0))
-            p->free[p->n_free++] = k;
-        p->range[k] = k == DELAY ? (ss_range){ -d->most_delay, d->most_delay } : ranges[k];
+        p->range[k] = k == DELAY ? (ss_range){ -d->most_delay, d->most_delay }
+            : law->free >> k & 1 ? ranges[k] : (ss_range){ law->held[k], law->held[k] };
         p->nudge[k] = k == DELAY ? NUDGE_DELAY : NUDGE;
     }
     return SS_OK;
+}
+
+static int
+is_free(const problem *p, size_t k)
+{
+    return p->range[k].to > p->range[k].from;
 }
 
 static int
@@ -257,14 +260,9 @@ evaluate(problem *p, const double u[UNKNOWNS], double *residual)
 static ss_status
 residuals(const double *u, double *residual, double *slopes, void *user)
 {
-    problem *p = user;
-    double all[UNKNOWNS];
     (void)slopes;
-    memcpy(all, p->given, sizeof all);
-    for (size_t k = 0; k < p->n_free; k++)
-        all[p->free[k]] = u[k];
-    fill_columns(p, all);
-    evaluate(p, all, residual);
+    fill_columns(user, u);
+    evaluate(user, u, residual);
     return SS_OK;
 }
 
@@ -272,26 +270,23 @@ residuals(const double *u, double *residual, double *slopes, void *user)
 static ss_status
 improve(problem *p, driven_fit *fit)
 {
-    ss_range range[UNKNOWNS];
-    double u[UNKNOWNS], difference[UNKNOWNS], *residual = malloc(p->d->n * sizeof *residual);
+    double difference[UNKNOWNS], *residual = malloc(p->d->n * sizeof *residual);
+    int frees = 0;
     least_end end;
-    least how = { .unknowns = p->n_free, .model = residuals, .user = p, .range = range, .difference = difference,
+    least how = { .unknowns = UNKNOWNS, .model = residuals, .user = p, .range = p->range, .difference = difference,
                   .farthest = 1, .steps = 10, .tol = NUDGE, .gain = NUDGE, .costly = 1 };
     if (residual == NULL)
         return SS_ENOMEM;
     for (size_t i = 0; i < p->d->n; i++)
         how.rows += (size_t)is_fitted(p, i);
-    for (size_t k = 0; k < p->n_free; k++) {
-        const double nudge = p->nudge[p->free[k]];
-        range[k] = p->range[p->free[k]];
-        u[k] = fmax(range[k].from, fmin(fit->u[p->free[k]], range[k].to));
-        difference[k] = u[k] > (range[k].from + range[k].to) / 2 ? -nudge : nudge;
+    for (size_t k = 0; k < UNKNOWNS; k++) {
+        const ss_range range = p->range[k];
+        frees |= is_free(p, k);
+        difference[k] = fit->u[k] > (range.from + range.to) / 2 ? -p->nudge[k] : p->nudge[k];
     }
-    const driven_fit start = *fit;
-    p->given = start.u;
-    ss_status st = p->n_free > 0 ? ss_least_fit(&end, &how, u, NULL, NULL) : SS_OK;
+    ss_status st = frees ? ss_least_fit(&end, &how, fit->u, NULL, NULL) : SS_OK;
     if (st == SS_OK)
-        st = residuals(u, residual, NULL, p);
+        st = residuals(fit->u, residual, NULL, p);
     *fit = p->now;
     free(residual);
     return st;
@@ -302,7 +297,9 @@ static ss_status
 search(problem *p, driven_fit best[FOLDS + 1][KEPT])
 {
     static const size_t points[] = { 1, 24, 40, 60 };
-    const size_t dim = p->n_free - (p->d->most_delay > 0);
+    size_t dim = 0;
+    for (size_t k = 0; k < DELAY; k++)
+        dim += (size_t)is_free(p, k);
     gsl_qrng *all_over = gsl_qrng_alloc(gsl_qrng_sobol, dim > 0 ? (unsigned)dim : 1);
     if (all_over == NULL)
         return SS_ENOMEM;
@@ -310,9 +307,10 @@ search(problem *p, driven_fit best[FOLDS + 1][KEPT])
         double u[UNKNOWNS], part[UNKNOWNS];
         memcpy(u, p->law->held, sizeof u);
         gsl_qrng_get(all_over, part);
-        for (size_t k = 0; k < dim; k++) {
-            const ss_range in = p->range[p->free[k]];
-            u[p->free[k]] = in.from + (1 + (in.from == -in.to ? 2 : 3) * part[k]) / 4 * (in.to - in.from);
+        for (size_t k = 0, n = 0; k < DELAY; k++) {
+            const ss_range in = p->range[k];
+            if (is_free(p, k))
+                u[k] = in.from + (1 + (in.from == -in.to ? 2 : 3) * part[n++]) / 4 * (in.to - in.from);
         }
         fill_columns(p, u);
         for (p->without = 0; p->without <= ALL; p->without++) {
@@ -345,8 +343,7 @@ find_covariance(problem *p, driven_result *r, double *slopes)
                 slopes[i * (UNKNOWNS + COLUMNS) + m] = p->column[k][i];
             of[m++] = UNKNOWNS + k;
         }
-    for (size_t j = 0; j < p->n_free; j++) {
-        const size_t k = p->free[j];
+    for (size_t k = 0; k < UNKNOWNS; k++) {
         const ss_range range = p->range[k];
         double u[UNKNOWNS];
         memcpy(u, fit->u, sizeof u);
