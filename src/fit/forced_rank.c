@@ -297,8 +297,9 @@ judge(ss_ranking *r, const comparison *w, const found *f)
     size_t explain = 0;
     r->verdict = SS_UNDECIDED;
     for (size_t i = 0; i < r->n; i++) {
-        best = f[i].fit.of_samples.left < best->left ? &f[i].fit.of_samples : best;
-        explain += (size_t)ss_residue_explains(&f[i].fit.of_samples, noise);
+        const residue *of = &f[r->row[i].scene].fit.of_samples;
+        best = of->left < best->left ? of : best;
+        explain += (size_t)ss_residue_explains(of, noise);
     }
     ss_status st = ss_record_sinusoid(&w->record, f[first->scene].fit.scene.base_frequency, &sinusoid.left);
     if (explain == 0) {
@@ -379,14 +380,14 @@ conclude(ss_ranking *r, comparison *w, const found *f)
 {
     double least = INFINITY;
     for (size_t i = 0; i < r->n; i++) {
-        const residue *of = &f[i].fit.of_samples;
+        const residue *of = &f[r->row[i].scene].fit.of_samples;
         least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
         w->record.noise = fmin(w->record.noise, of->compared > 0 ? of->white : INFINITY);
     }
-    r->noise = w->record.noise / f[0].fit.of_samples.power;
+    r->noise = w->record.noise / f[r->row[0].scene].fit.of_samples.power;
     for (size_t i = 0; i < r->n; i++) {
         r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
-        r->row[i].excess = ss_residue_excess(&f[i].fit.of_samples, w->record.noise);
+        r->row[i].excess = ss_residue_excess(&f[r->row[i].scene].fit.of_samples, w->record.noise);
     }
     ss_ranking_sort(r);
     memcpy(r->value, w->observation.value, sizeof r->value);
@@ -409,7 +410,8 @@ rank_window(ss_ranking *r, comparison *w, const ss_signal *signal, const char *m
     const double rate = signal->head->rate, most = WINDOW * w->goal.period * rate, scenes = (double)r->n;
     const size_t n = most < (double)signal->n ? (size_t)most : signal->n, first = (signal->n - n) / 2;
     ss_signal *window = NULL;
-    found *f = calloc(r->n, sizeof *f);
+    const size_t last = r->row[r->n - 1].scene;
+    found *f = calloc(last + 1, sizeof *f);             /* by scene */
     ss_status st = f == NULL ? SS_ENOMEM
         : ss_signal_select(&window, signal, NULL, signal->head->n_columns, first, first + n, NULL);
     w->signal = window;
@@ -429,7 +431,8 @@ rank_window(ss_ranking *r, comparison *w, const ss_signal *signal, const char *m
         st = observe(&w->observation, window, w->column, w->goal.period, err);
     for (size_t i = 0; st == SS_OK && i < r->n; i++) {
         ss_stretch part = ss_stretch_part(&whole, (double)i / scenes, (double)(i + 1) / scenes);
-        st = rank_scene(&r->row[i], &f[i], w, &scene[i], &part, err);
+        const size_t which = r->row[i].scene;
+        st = rank_scene(&r->row[i], &f[which], w, &scene[which], &part, err);
     }
     if (st == SS_OK)
         st = conclude(r, w, f);

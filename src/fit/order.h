@@ -26,7 +26,7 @@ double ss_rank_score(const ss_rank_row *row, ss_criterion criterion);
 /* Find the totals of the rows, and sort these by them. */
 void ss_ranking_sort(ss_ranking *r);
 
-/* forced_rank.c: rank r->n scenes whose base moves. */
+/* forced_rank.c: rank the scenes of r's rows, whose base moves. */
 ss_status ss_forced_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
                             const ss_rank_opts *opts, ss_error *err);
 

@@ -6,6 +6,7 @@
 #include "fit/pulled.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include "base/error.h"
@@ -204,32 +205,34 @@ ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_
     trial *t = NULL;
     double least = INFINITY;
     falls f;
+    const ss_scene *first = &scene[r->row[0].scene];
     for (size_t i = 0; i < r->n; i++) {
-        ss_status st = ss_pull_check(signal, column, &scene[i], opts, err);
+        const ss_scene *s = &scene[r->row[i].scene];
+        ss_status st = ss_pull_check(signal, column, s, opts, err);
         if (st != SS_OK)
             return st;
-        if (pull_of(&scene[i]) * pull_of(&scene[0]) < 0)
+        if (pull_of(s) * pull_of(first) < 0)
             return ss_fail(err, SS_EINVAL, "scenes that are pulled to either side are not compared");
     }
     ss_status st = ss_features_find(&features, signal, column, NULL, err);
     if (st != SS_OK)
         return st;
-    st = ss_falls_gather(&f, r->why, sizeof r->why, features, signal, column, &scene[0]);
+    st = ss_falls_gather(&f, r->why, sizeof r->why, features, signal, column, first);
     r->noise = f.noise / f.power;
     const size_t n = r->why[0] == '\0' ? r->n : 0;      /* scenes that are compared */
     if (st == SS_OK && n > 0)
         st = (t = calloc(n, sizeof *t)) != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         const ss_stretch part = { opts->progress, (double)i / (double)n, (double)(i + 1) / (double)n };
-        st = try_scene(&t[i], &r->row[i], &f, &scene[i], opts->spread, &part);
+        st = try_scene(&t[i], &r->row[i], &f, &scene[r->row[i].scene], opts->spread, &part);
         least = fmin(least, r->row[i].value[SS_BY_RESIDUAL]);
     }
     for (size_t i = 0; st == SS_OK && i < n; i++)
         r->row[i].distance[SS_BY_RESIDUAL] = r->row[i].value[SS_BY_RESIDUAL] - least;
     if (st == SS_OK && n > 0) {
-        const size_t named = name_scene(r, t, f.noise);
+        const size_t at = name_scene(r, t, f.noise), named = at < n ? r->row[at].scene : SIZE_MAX;
         ss_ranking_sort(r);
-        for (size_t i = n; i-- > 1 && named < n;)       /* to the front */
+        for (size_t i = n; i-- > 1;)                    /* to the front */
             if (r->row[i].scene == named) {
                 const ss_rank_row row = r->row[i];
                 r->row[i] = r->row[i - 1];

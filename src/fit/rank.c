@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "base/error.h"
 #include "base/progress.h"
 #include "fit/forced.h"
@@ -14,75 +13,58 @@
 #include "fit/pulled.h"
 
 static int
-report_half(double done, void *user)
+report_part(double done, void *user)
 {
     const ss_stretch *s = user;
     return ss_stretch_at(s, done) != SS_OK;
 }
 
-/* Rank the scenes of each kind by themselves.  The verdict and the first rows are those of the signal's kind; the
- * scenes of the other kind follow: they do not fit, and have no values. */
+/* Rank the scenes of one kind; those of the other follow: they do not fit, and have no values. */
 static ss_status
-rank_both(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene, const ss_rank_opts *opts,
-          ss_error *err)
+rank_kind(ss_ranking **out, int pulled, const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
+          const ss_rank_opts *opts, ss_stretch part, ss_error *err)
 {
-    const size_t n = r->n;
-    ss_rank_row *row = r->row;
-    ss_ranking *kind[2] = { NULL, NULL };
-    ss_scene *some = malloc(n * sizeof *some);
-    ss_status st = some != NULL ? SS_OK : ss_fail_memory(err, NULL);
-    for (int pulled = 0; st == SS_OK && pulled <= (opts->quantity == SS_SPRING); pulled++) {
-        ss_stretch half = { opts->progress, 0.5 * pulled, 0.5 * (1 + pulled) };
-        ss_rank_opts o = *opts;
-        size_t m = 0;
-        o.progress = (ss_progress){ report_half, &half };
-        for (size_t i = 0; i < n; i++)
-            if (ss_scene_is_pulled(&scene[i]) == pulled)
-                some[m++] = scene[i];
-        st = ss_ranking_new(&kind[pulled], signal, column, some, m, &o, err);
-    }
-    if (st == SS_OK) {
-        /* the signal's kind is what is compared, then what is named, then what explains more */
-        int pulled = is_compared(kind[1]);
-        if (pulled && is_compared(kind[0]) && (kind[0]->verdict == SS_NAMED) != (kind[1]->verdict == SS_NAMED))
-            pulled = kind[1]->verdict == SS_NAMED;
-        else if (pulled && is_compared(kind[0]))
-            pulled = kind[1]->row[0].explained > kind[0]->row[0].explained;
-        const ss_ranking *own = kind[pulled];
-        size_t next = own->n, nth = 0;
-        *r = *own;
-        r->row = row;
-        r->n = n;
-        for (size_t i = 0; i < n; i++)
-            if (ss_scene_is_pulled(&scene[i]) != pulled) {
-                ss_rank_row *to = &row[next++];
-                *to = (ss_rank_row){ .scene = i, .adjusted = scene[i], .total = NAN, .excess = NAN };
-                for (size_t k = 0; k < SS_CRITERIA; k++) {
-                    to->value[k] = NAN;
-                    to->distance[k] = INFINITY;
-                }
-            } else {
-                for (size_t k = 0; k < own->n; k++)
-                    if (own->row[k].scene == nth) {
-                        row[k] = own->row[k];
-                        row[k].scene = i;
-                    }
-                nth++;
+    ss_rank_opts own = *opts;
+    ss_ranking *r = *out = calloc(1, sizeof *r);
+    if (r != NULL)
+        r->row = calloc(n, sizeof *r->row);
+    if (r == NULL || r->row == NULL)
+        return ss_fail_memory(err, NULL);
+    r->forcing_frequency = r->noise = NAN;
+    for (size_t k = 0; k < SS_CRITERIA; k++)
+        r->value[k] = NAN;
+    for (size_t i = 0; i < n; i++)
+        if (ss_scene_is_pulled(&scene[i]) == pulled)
+            r->row[r->n++] = (ss_rank_row){ .scene = i, .total = NAN, .excess = NAN };
+    for (size_t i = 0, last = r->n; i < n; i++)
+        if (ss_scene_is_pulled(&scene[i]) != pulled) {
+            ss_rank_row *to = &r->row[last++];
+            *to = (ss_rank_row){ .scene = i, .adjusted = scene[i], .total = NAN, .excess = NAN };
+            for (size_t k = 0; k < SS_CRITERIA; k++) {
+                to->value[k] = NAN;
+                to->distance[k] = INFINITY;
             }
-        if (kind[1] != NULL && kind[0]->verdict == SS_NAMED && kind[1]->verdict == SS_NAMED) {
-            r->verdict = SS_UNDECIDED;
-            snprintf(r->why, sizeof r->why, "a pull and a forced motion explain the signal");
         }
-    }
-    ss_ranking_free(kind[0]);
-    ss_ranking_free(kind[1]);
-    free(some);
+    own.progress = (ss_progress){ report_part, &part };
+    ss_status st = (pulled ? ss_pull_compare : ss_forced_compare)(r, signal, column, scene, &own, err);
+    r->n = n;
     return st;
+}
+
+/* The signal's kind is what is compared, then what is named, then what explains more. */
+static int
+is_pull(ss_ranking *const kind[2])
+{
+    if (kind[0] == NULL || !is_compared(kind[0]) || !is_compared(kind[1]))
+        return kind[0] == NULL || is_compared(kind[1]);
+    if ((kind[0]->verdict == SS_NAMED) != (kind[1]->verdict == SS_NAMED))
+        return kind[1]->verdict == SS_NAMED;
+    return kind[1]->row[0].explained > kind[0]->row[0].explained;
 }
 
 ss_status
 ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const ss_scene *scene, size_t n,
-        const ss_rank_opts *given, ss_error *err)
+               const ss_rank_opts *given, ss_error *err)
 {
     ss_rank_opts own;
     const ss_rank_opts *opts = &own;
@@ -103,27 +85,24 @@ ss_ranking_new(ss_ranking **out, const ss_signal *signal, size_t column, const s
         pulled += (size_t)ss_scene_is_pulled(&scene[i]);
         st = (ss_scene_is_pulled(&scene[i]) ? ss_scene_check : ss_forced_check)(&scene[i], err);
     }
-    if (st != SS_OK)
-        return st;
-    ss_ranking *r = calloc(1, sizeof *r);
-    if (r != NULL)
-        r->row = calloc(n, sizeof *r->row);
-    if (r == NULL || r->row == NULL) {
-        ss_ranking_free(r);
-        return ss_fail_memory(err, NULL);
+    const int has[2] = { pulled < n, pulled == n || (pulled > 0 && opts->quantity == SS_SPRING) };
+    ss_ranking *kind[2] = { NULL, NULL };
+    for (int k = 0; st == SS_OK && k < 2; k++) {
+        const ss_stretch part = { opts->progress, has[1 - k] ? 0.5 * k : 0, has[1 - k] ? 0.5 * (1 + k) : 1 };
+        if (has[k])
+            st = rank_kind(&kind[k], k, signal, column, scene, n, opts, part, err);
     }
-    r->n = n;
-    r->forcing_frequency = r->noise = NAN;
-    for (size_t i = 0; i < SS_CRITERIA; i++)
-        r->value[i] = NAN;
-    for (size_t i = 0; i < n; i++)
-        r->row[i] = (ss_rank_row){ .scene = i, .total = NAN, .excess = NAN };
-    st = (pulled == n ? ss_pull_compare : pulled == 0 ? ss_forced_compare : rank_both)
-        (r, signal, column, scene, opts, err);
-    if (st == SS_OK)
-        *out = r;
-    else
-        ss_ranking_free(r);
+    if (st == SS_OK) {
+        const int is = is_pull(kind), both = kind[0] != NULL && kind[1] != NULL;
+        if (both && kind[0]->verdict == SS_NAMED && kind[1]->verdict == SS_NAMED) {
+            kind[is]->verdict = SS_UNDECIDED;
+            snprintf(kind[is]->why, sizeof kind[is]->why, "a pull and a forced motion explain the signal");
+        }
+        *out = kind[is];
+        kind[is] = NULL;
+    }
+    ss_ranking_free(kind[0]);
+    ss_ranking_free(kind[1]);
     return st;
 }
 
