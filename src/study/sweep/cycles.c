@@ -14,6 +14,7 @@
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
 #include "base/error.h"
+#include "base/least.h"
 
 /* --- states -------------------------------------------------------------------------------- */
 
@@ -423,35 +424,19 @@ ss_cycles_derive(cycles *c, int n, derivative_use use, tangent *t)
     go(c, n, NULL, t);
 }
 
-void
+ss_status
 ss_tangent_solve(const tangent *t, const double unit[D_MOST], const double r[D_MOST], double d[D_MOST])
 {
-    enum { N = D_MOST };
-    double a[N][N + 1];
-    for (int i = 0; i < N; i++) {
-        for (int j = 0; j < N; j++)
-            a[i][j] = (i == j) - t->d[i][j] * unit[j] / unit[i];
-        a[i][N] = r[i] / unit[i];
+    double a[D_MOST][D_MOST], y[D_MOST], sum = 0, squares;
+    for (int i = 0; i < D_MOST; i++) {
+        sum += y[i] = r[i] / unit[i];
+        for (int j = 0; j < D_MOST; j++)
+            sum += a[i][j] = (i == j) - t->d[i][j] * unit[j] / unit[i];
     }
-    int lost[N] = { 0 };
-    for (int k = 0; k < N; k++) {               /* Gauss-Jordan with partial pivoting */
-        int best = k;
-        for (int i = k + 1; i < N; i++)
-            best = fabs(a[i][k]) > fabs(a[best][k]) ? i : best;
-        for (int j = 0; j <= N; j++) {
-            double swap = a[k][j];
-            a[k][j] = a[best][j];
-            a[best][j] = swap;
-        }
-        lost[k] = !(fabs(a[k][k]) > 1e-13);
-        for (int i = 0; i < N && !lost[k]; i++) {
-            double factor = a[i][k] / a[k][k];
-            for (int j = k; j <= N && i != k; j++)
-                a[i][j] -= factor * a[k][j];
-        }
-    }
-    for (int k = 0; k < N; k++)
-        d[k] = lost[k] ? 0 : unit[k] * a[k][N] / a[k][k];
+    ss_status st = isfinite(sum) ? ss_least_linear(a[0], y, D_MOST, D_MOST, d, &squares, NULL) : SS_OK;
+    for (int i = 0; i < D_MOST; i++)
+        d[i] = isfinite(sum) ? d[i] * unit[i] : NAN;
+    return st;
 }
 
 ss_status

@@ -109,7 +109,7 @@ newton_step(cycles *c, int period, motion *at, int known, tangent *t)
     ss_cycles_units(c, unit);
     for (int i = 0; i < D_MOST; i++)
         r[i] -= from[i];
-    ss_tangent_solve(t, unit, r, d);
+    c->status = ss_tangent_solve(t, unit, r, d);
     if (end.now.mode == at->now.mode && isfinite(d[0] + d[1] + d[2]))
         for (; !(allowed = ss_cycles_move(&moved, d)) && halvings < 8; halvings++) {
             moved = *at;
