@@ -8,7 +8,6 @@
 #include "fit/cycle.h"
 #include "fit/forced.h"
 #include "fit/order.h"
-#include "fit/samples.h"
 #include "unit.h"
 #include "signal/noise.h"
 #include "signal/header.h"

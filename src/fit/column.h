@@ -1,10 +1,11 @@
 /* column.h -- the samples to which a motion is fitted: their power, their noise, their distance
- * from a sinusoid. */
+ * from a sinusoid; and those of a scene's motion. */
 #ifndef COLUMN_H
 #define COLUMN_H
 
 #include <stddef.h>
 #include <stickslip/rank.h>
+#include <stickslip/sim.h>
 #include "fit/verdict.h"
 
 #define RANK_SPREAD 0.3             /* the usual spread of a rig's parameters */
@@ -31,5 +32,22 @@ double ss_record_power(const rank_record *r);
 ss_status ss_record_noise(rank_record *r, double samples);
 /* Find the mean square residual of the best sinusoid of this frequency [Hz] with an offset.  SS_ENOMEM. */
 ss_status ss_record_sinusoid(const rank_record *r, double frequency, double *left);
+
+/* --- the motion of a scene, with the accuracy and cost that a comparison needs ------------------ */
+
+enum { SAMPLES_REACH = 18 };        /* samples */
+enum { SAMPLES_A_STEP = 4 };        /* samples that cost about as much as an integration step */
+#define SAMPLES_FINE 1e-7           /* tolerances: for differences of two motions, and for their sizes */
+#define SAMPLES_COARSE 1e-5
+
+/* The method and limits of a run whose samples or events are compared. */
+ss_sim_opts ss_samples_opts(const ss_scene *scene, double tol);
+
+/* The n samples of a scene's record, of the quantity pick; without a closed form their error is
+ * some thirty times the tolerance.  clear[i], unless clear is NULL, becomes the distance of sample
+ * i from the nearest event, in samples; infinite beyond SAMPLES_REACH.  *steps grows by the cost.
+ * Fails as ss_sim_run, or with SS_EDATA. */
+ss_status ss_samples_run(const ss_scene *scene, int pick, double tol, double *value, double *clear,
+                         size_t n, double *steps);
 
 #endif

@@ -12,13 +12,11 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <stickslip/sim.h>
 #include "base/error.h"
 #include "base/number.h"
 #include "find/judgement.h"
 #include "fit/forced.h"
-#include "fit/samples.h"
 #include "scene/model.h"
 #include "signal/gaps.h"
 

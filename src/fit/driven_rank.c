@@ -15,7 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/number.h"
 #include "base/options.h"
 #include "base/progress.h"
 #include "fit/wander.h"

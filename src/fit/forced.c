@@ -12,7 +12,6 @@
 #include "fit/forced.h"
 
 #include <float.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_multimin.h>
 #include <gsl/gsl_qrng.h>
 #include <math.h>
@@ -20,7 +19,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/sort.h"
-#include "fit/samples.h"
 #include "scene/model.h"
 
 enum { STEPS = 40 };            /* of a simplex, at most */

@@ -21,7 +21,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/least.h"
-#include "fit/samples.h"
 #include "scene/model.h"
 
 enum { LAGS = 32 };

@@ -21,7 +21,7 @@
 #include <string.h>
 #include "base/least.h"
 #include "base/sort.h"
-#include "fit/samples.h"
+#include "fit/column.h"
 
 enum { LN_A, TURN, W, S, C, SHAPE, BEND, RATIO, UNKNOWNS };     /* at the start; w; viscous s; of the mechanism */
 enum { TAKEN = 64, EXACT_MOST = 1 << 15, NEWTON = 12 };     /* samples of the smooth curve to begin from; of an

@@ -19,7 +19,6 @@
 #include "base/least.h"
 #include "find/judgement.h"
 #include "find/medians.h"
-#include "fit/samples.h"
 #include "scene/model.h"
 
 #define LEAST 2                 /* f_k over f_s - f_k in a simulation: see fall_rows */

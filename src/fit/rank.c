@@ -1,7 +1,8 @@
-/* rank.c -- find the scene that explains a signal, among scenes that are forced and scenes that are pulled.
+/* rank.c -- find the scene that explains a signal: scores by each criterion, the order of their totals, and a
+ * ranking as text.
  *
- * Scenes of one kind are ranked together (forced.c, pull_rank.c).  If there are both, the answer is that of
- * the kind to which the signal belongs. */
+ * Scenes of one kind, forced or pulled, are ranked together (forced_rank.c, pull_rank.c).  If there are both, the
+ * answer is that of the kind to which the signal belongs. */
 #include <stickslip/rank.h>
 
 #include <math.h>
@@ -11,6 +12,55 @@
 #include "fit/forced.h"
 #include "fit/order.h"
 #include "fit/pulled.h"
+#include "io/record.h"
+
+/* --- order --------------------------------------------------------------------------------- */
+
+/* A threshold is a difference that can be resolved, not one that was seen in some signal: twice the
+ * power; the spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice
+ * the damping or stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one
+ * contour. */
+const criterion_rule ss_criterion_rules[SS_CRITERIA] = {
+    [SS_BY_RESIDUAL]   = { "residual", "dB", 3, 1 },
+    [SS_BY_ADJUSTMENT] = { "adjustment", "", 1, 1 },
+    [SS_BY_MAXIMUM]    = { "maximum", "", 0.5, 1 },
+    [SS_BY_FREQUENCY]  = { "frequency", "Hz", 0.154, 1 },
+    [SS_BY_DAMPING]    = { "damping", "", M_LN2, 1 },
+    [SS_BY_JUMP]       = { "jump", "dB", 6, 1 },
+    [SS_BY_SPIKES]     = { "spikes", "", 1, 1 },
+    [SS_BY_SLOPE]      = { "slope", "dB/octave", 6, 1 },
+    [SS_BY_STIFFNESS]  = { "stiffness", "N/m", M_LN2, 1 },
+    [SS_BY_MAP]        = { "map", "dB", 80. / 18, 0.25 },
+};
+
+double
+ss_rank_score(const ss_rank_row *row, ss_criterion criterion)
+{
+    double d = row->distance[criterion];
+    return isnan(d) ? 1 : fmin(d / ss_criterion_rules[criterion].threshold, SCORE_MOST);
+}
+
+static int
+less_first(const void *a, const void *b)
+{
+    const ss_rank_row *p = a, *q = b;
+    if (p->total != q->total)
+        return p->total > q->total ? 1 : -1;
+    return (p->scene > q->scene) - (p->scene < q->scene);
+}
+
+void
+ss_ranking_sort(ss_ranking *r)
+{
+    for (size_t i = 0; i < r->n; i++) {
+        r->row[i].total = 0;
+        for (int k = 0; k < SS_CRITERIA; k++)
+            r->row[i].total += ss_criterion_rules[k].weight * ss_rank_score(&r->row[i], (ss_criterion)k);
+    }
+    qsort(r->row, r->n, sizeof *r->row, less_first);
+}
+
+/* --- the ranking --------------------------------------------------------------------------- */
 
 static int
 report_part(double done, void *user)
@@ -113,4 +163,144 @@ ss_ranking_free(ss_ranking *ranking)
         return;
     free(ranking->row);
     free(ranking);
+}
+
+/* --- its text ------------------------------------------------------------------------------ */
+
+enum { DIGITS = 4 };            /* more than a criterion deserves */
+
+/* The answer as one text, to be freed; NULL: there is no memory. */
+static char *
+answer_of(const ss_ranking *r, const char *const *scene)
+{
+    const ss_rank_row *best = &r->row[0];       /* if none is named, the one that explains most */
+    for (size_t i = 1; i < r->n; i++)
+        if (r->verdict != SS_NAMED && r->row[i].explained > best->explained)
+            best = &r->row[i];
+    char part[SS_NUMBER_MAX], *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (out == NULL)
+        return NULL;
+    if (r->verdict == SS_NAMED)
+        fprintf(out, "%s explains ", scene[best->scene]);
+    else
+        fprintf(out, "%s: %s", r->verdict == SS_NONE_FITS ? "none of these" : "cannot tell", r->why);
+    if (r->verdict != SS_NAMED && is_compared(r))
+        fprintf(out, "; %s explains most, ", scene[best->scene]);
+    if (is_compared(r)) {
+        double left = fmax(1 - best->explained, 1e-9);          /* in per cent it has two digits: 99.98 */
+        fprintf(out, "%s %%", ss_number_fixed(part, 100 * (1 - left), (int)fmax(ceil(-log10(left)) - 2, 0) + 1));
+    }
+    fputs(r->verdict == SS_NAMED ? " of the signal's power" : "", out);
+    if (fclose(out) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+/* Write "# key: name number, name number" for the criteria first ... last - 1. */
+static void
+write_criteria(FILE *out, const char *key, int first, int last, const ss_ranking *values)
+{
+    char text[SS_NUMBER_MAX];
+    fprintf(out, "# %s:", key);
+    for (int i = first; i < last; i++) {
+        double x = values != NULL ? values->value[i] : ss_criterion_rules[i].threshold;
+        fprintf(out, "%s %s %s", i > first ? "," : "", ss_criterion_rules[i].name,
+                ss_number_rounded(text, x, DIGITS));
+    }
+    fputc('\n', out);
+}
+
+static void
+write_notes(FILE *out, const ss_ranking *r, const ss_ranking_text *about, const ss_rank_opts *opts)
+{
+    char text[SS_NUMBER_MAX];
+    fprintf(out, "# signal_name: %s\n", about->signal);
+    fprintf(out, "# spread: %s\n", ss_number_rounded(text, 100 * opts->spread, DIGITS));
+    fprintf(out, "# column: %s\n", about->column);
+    fprintf(out, "# quantity: %s (%s)\n", ss_quantity_names[opts->quantity], about->known_by);
+    fprintf(out, "# forcing_frequency: %s\n", ss_number_rounded(text, r->forcing_frequency, DIGITS));
+    write_criteria(out, "thresholds", 0, SS_CRITERIA, NULL);
+    write_criteria(out, "signal", SS_BY_MAXIMUM, SS_BY_MAP, r);
+    fprintf(out, "# noise: %s %% of the power, at most\n", ss_number_rounded(text, 100 * r->noise, DIGITS));
+}
+
+/* The criterion of the largest score above 0, or a hyphen. */
+static const char *
+worst_of(const ss_rank_row *row)
+{
+    const char *name = "-";
+    double most = 0;
+    for (int k = 0; k < SS_CRITERIA; k++) {
+        double score = ss_rank_score(row, (ss_criterion)k);
+        if (score > most) {
+            most = score;
+            name = ss_criterion_rules[k].name;
+        }
+    }
+    return name;
+}
+
+static void
+write_row(struct rows *rows, const ss_ranking *r, size_t i, const ss_ranking_text *about, const char *answer)
+{
+    const ss_rank_row *row = &r->row[i];
+    int compared = !isnan(row->total);
+    ss_rows_number(rows, "rank", "", r->verdict == SS_NAMED && compared ? (double)(i + 1) : NAN);
+    ss_rows_word(rows, "scene", about->scene[row->scene]);
+    ss_rows_rounded(rows, "total", "", compared ? row->total : NAN, DIGITS);
+    if (about->brief) {
+        ss_rows_rounded(rows, "residual", "dB", compared ? row->value[SS_BY_RESIDUAL] : NAN, DIGITS);
+        ss_rows_word(rows, "worst", compared ? worst_of(row) : "-");
+    }
+    for (int k = 0; k < SS_CRITERIA && !about->brief; k++) {
+        const criterion_rule *rule = &ss_criterion_rules[k];
+        char score[64];
+        snprintf(score, sizeof score, "%s_score", rule->name);
+        ss_rows_rounded(rows, rule->name, rule->unit, compared ? row->value[k] : NAN, DIGITS);
+        ss_rows_rounded(rows, score, "", compared ? ss_rank_score(row, (ss_criterion)k) : NAN, DIGITS);
+    }
+    if (!rows->format->has_notes)
+        ss_rows_whole_word(rows, "answer", answer);
+    ss_rows_end(rows);
+}
+
+ss_status
+ss_ranking_write(const ss_ranking *ranking, const ss_ranking_text *about, const ss_rank_opts *opts,
+                 FILE *out, ss_format format, ss_error *err)
+{
+    struct rows rows;
+    ss_rank_opts own;
+    if (ranking == NULL || about == NULL || about->signal == NULL || about->column == NULL
+        || about->known_by == NULL || about->scene == NULL || out == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_rank_opts_take(&own, opts, err);
+    if (st == SS_OK && ranking->n == 0)
+        st = ss_fail(err, SS_EINVAL, "no scene is ranked");
+    if (st != SS_OK)
+        return st;
+    char *answer = answer_of(ranking, about->scene);
+    if (answer == NULL)
+        st = ss_fail_memory(err, NULL);
+    if (st == SS_OK)
+        st = ss_rows_begin(&rows, out, format, SS_KIND_RANKING, err);
+    if (st == SS_OK) {
+        int notes = rows.format->has_notes, all = notes && !about->brief;
+        if (notes)
+            ss_rows_whole_word(&rows, "answer", answer);
+        if (all)
+            write_notes(out, ranking, about, &own);
+        for (size_t i = 0; i < ranking->n && notes && is_compared(ranking); i++)
+            if (isnan(ranking->row[i].total))
+                fprintf(out, "# does not fit: %s, which is %s\n", about->scene[ranking->row[i].scene],
+                        ss_scene_is_pulled(&ranking->row[i].adjusted) ? "pulled" : "forced");
+        write_row(&rows, ranking, 0, about, answer);       /* the names */
+        for (size_t i = 0; i < ranking->n; i++)
+            write_row(&rows, ranking, i, about, answer);
+        st = ss_rows_finish(&rows, err);
+    }
+    free(answer);
+    return st;
 }

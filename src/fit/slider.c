@@ -11,7 +11,6 @@
 #include "fit/slider.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { ORDER = 20, MOST_STEPS = 20000 };        /* steps: between two times */
 

@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include "base/error.h"
 #include "io/record.h"
 
 #define AS_GOOD 0.03                /* of the least loss, or of the noise: laws that differ by less are as good */

@@ -2,7 +2,6 @@
 #include <stickslip/sweep.h>
 
 #include <math.h>
-#include <string.h>
 #include "base/options.h"
 #include "base/range.h"
 #include "motion/method.h"

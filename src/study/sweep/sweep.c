@@ -9,7 +9,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <stickslip/signal.h>
 #include "base/number.h"
 #include "base/options.h"
 #include "base/pool.h"

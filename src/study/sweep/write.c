@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <stickslip/signal.h>
 #include "base/error.h"
 #include "io/input.h"
 #include "io/record.h"

@@ -4,7 +4,6 @@
  * only for samples that were not compared, and by the error of the reference.  The margin covers
  * these. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
 #include "base/range.h"

@@ -12,12 +12,10 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 #include "base/error.h"
 #include "base/list.h"
 #include "base/progress.h"
-#include "motion/engine.h"
 #include "study/curve.h"
 
 /* At most so many samples are compared.  It is a prime, so that samples fall on all phases of the base

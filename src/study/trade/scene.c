@@ -1,7 +1,6 @@
 /* scene.c -- measure error and time of a scene's simulation, in a row for each method and tolerance. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "base/options.h"
 #include "base/progress.h"
 #include "base/sort.h"
