@@ -51,17 +51,10 @@ ss_section_distance(const cycles *c, section a, section b)
  * is not the pull itself, at which a steady slide stays. */
 #define ASIDE 0.01
 
-/* Walks keep this part of the tolerance. */
-static double
-tolerance_of_walks(const cycles *c)
-{
-    return fmax(1e-14, c->opts->tol / 1000);
-}
-
 void
 ss_cycles_begin(cycles *c)
 {
-    const ss_sim_opts sim = { .method = c->how->name, .tol = tolerance_of_walks(c) };
+    const ss_sim_opts sim = { .method = c->how->name, .tol = fmax(1e-14, c->opts->tol / 1000) };
     const state *m = &c->w.m.now;
     c->n = 0;
     c->status = ss_walk_begin(&c->w, c->scene, &sim, c->err);
@@ -83,22 +76,6 @@ ss_cycles_begin_at(cycles *c, const motion *from)
     const motion copy = *from;          /* from may be the walk's own motion */
     c->n = c->was_faster = 0;
     ss_walk_begin_at(&c->w, &copy);
-}
-
-/* A rough tolerance is this part of a distance, and at most ROUGHEST: where v passes 0 steeply, an error
- * grows a hundredfold in a cycle. */
-#define ROUGH 1e-4
-#define ROUGHEST 1e-6
-
-int
-ss_cycles_keep(cycles *c, double distance)
-{
-    double magnified = fmax(1 - c->multiplier, 0), tol = fmin(ROUGH * distance, ROUGHEST) * magnified;
-    double finest = fmax(1e-14, tolerance_of_walks(c) * magnified);
-    if (c->w.e->type->keep == NULL)
-        return 1;
-    c->w.e->type->keep(c->w.e, fmax(tol, finest));
-    return tol <= finest;
 }
 
 /* --- walking ------------------------------------------------------------------------------- */

@@ -80,17 +80,13 @@ typedef struct cycles {
     walk w;
     double n;                           /* cycles since the walk's t = 0 */
     section unit;                       /* the units of differences */
-    double multiplier;                  /* the largest one of the period that Newton's method is near to;
-                                         * the error of its steps is that of a walk over 1 - this */
+    double multiplier;                  /* the largest one of the period that Newton's method has found */
 } cycles;
 
 /* Begin at the scene's initial state, or if it is autonomous at its first onset of stick. */
 void ss_cycles_begin(cycles *c);
 /* Begin at a state at which a cycle begins. */
 void ss_cycles_begin_at(cycles *c, const motion *from);
-/* Let the engine, if it can, continue with errors that are small beside this distance, in units of
- * c; 0: with errors within the tolerance.  Returns 1 if the errors are so small. */
-int ss_cycles_keep(cycles *c, double distance);
 /* Walk so many cycles, with a meter unless it is NULL.  SS_EDATA: an autonomous scene slides on
  * without a stick. */
 void ss_cycles_go(cycles *c, int n, meter *r);

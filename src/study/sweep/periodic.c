@@ -80,24 +80,16 @@ measure_cycles(finder *f, int n, int period)
 /* There are at most NEWTON_STEPS steps, and at most MOST_IN_VAIN of them may shorten the distance by less
  * than a quarter.  (At the end of a line of motions the root is a double one, and each step halves it.) */
 enum { NEWTON_STEPS = 20, MOST_IN_VAIN = 6 };
-/* Without a closed form a derivative costs as much as three steps.  When a step is as short as CLOSE, the
- * next one uses the derivative of the last, unless such steps shrink too little (SHRINKS).  Where the
- * multiplier is near 1, the error of the derivative is magnified, so CLOSE is multiplied by the rest. */
-#define CLOSE 0.05
-#define SHRINKS 0.1
 
-/* Make one step of Newton's method, which moves *at.  The derivative is *t if it is known; else *t becomes
- * the derivative at *at.  Returns the larger of the step and of the distance by which the motion misses its
- * start; INFINITY if the step was shortened, unless this distance is rounding. */
+/* Make one step of Newton's method, which moves *at; *t becomes the derivative there.  Returns the larger of the
+ * step and of the distance by which the motion misses its start; INFINITY if the step was shortened, unless this
+ * distance is rounding. */
 static double
-newton_step(cycles *c, int period, motion *at, int known, tangent *t)
+newton_step(cycles *c, int period, motion *at, tangent *t)
 {
     double unit[D_MOST], from[D_MOST], r[D_MOST], d[D_MOST];
     ss_cycles_begin_at(c, at);
-    if (known)
-        ss_cycles_go(c, period, NULL);
-    else
-        ss_cycles_derive(c, period, NEWTON, t);
+    ss_cycles_derive(c, period, NEWTON, t);
     if (c->status != SS_OK)
         return INFINITY;
     const motion end = c->w.m;
@@ -129,21 +121,16 @@ newton_step(cycles *c, int period, motion *at, int known, tangent *t)
 static int
 converge(cycles *c, int period, motion *at, tangent *t)
 {
-    double off = INFINITY, nearest = off, second, angle, tol = c->opts->tol;
-    int serves = 0, is_fine = 0, in_vain = 0, closed = c->how->kind == CLOSED_FORM;
-    for (int i = 0; c->status == SS_OK && !(is_fine && off <= tol) && i < NEWTON_STEPS && in_vain < MOST_IN_VAIN;
-         i++) {
+    double off = INFINITY, second, angle;
+    int in_vain = 0;
+    for (int i = 0; c->status == SS_OK && off > c->opts->tol && i < NEWTON_STEPS && in_vain < MOST_IN_VAIN; i++) {
         double last = off;
-        int old = serves;
-        is_fine = ss_cycles_keep(c, nearest = fmin(nearest, off));
-        off = newton_step(c, period, at, old, t);
-        if (c->status == SS_OK && !old && (!closed || off <= tol))
-            c->status = ss_tangent_multipliers(t, &c->multiplier, &second, &angle);
+        off = newton_step(c, period, at, t);
         in_vain += off > 0.75 * last;
-        serves = !closed && off <= CLOSE * (1 - c->multiplier) && (!old || off <= SHRINKS * last);
     }
-    ss_cycles_keep(c, 0);
-    return c->status == SS_OK && is_fine && off <= tol;
+    if (c->status == SS_OK && off <= c->opts->tol)
+        c->status = ss_tangent_multipliers(t, &c->multiplier, &second, &angle);
+    return c->status == SS_OK && off <= c->opts->tol;
 }
 
 /* --- which motion is approached ------------------------------------------------------------- */
@@ -233,7 +220,6 @@ is_approached(cycles *c, const motion *from, const motion *at, const tangent *t,
     times(near.slow, before, left);
     double size = size_of(before), shrinks = 1 - c->multiplier;
     double allowed_slow = shrinks > NEUTRAL ? MEASURABLE * size * shrinks + tol : INFINITY;
-    ss_cycles_keep(c, size);
     yes = yes && size_of(left) * exp(near.scale) <= tol;
     for (int n = 0; c->status == SS_OK && yes && n < REPETITIONS; n++) {
         ss_cycles_go(c, period, NULL);
@@ -251,7 +237,6 @@ is_approached(cycles *c, const motion *from, const motion *at, const tangent *t,
             && size_of(slow_off) <= SAME_WAY * size_of(slow_change) + allowed_slow;
         memcpy(before, after, sizeof before);
     }
-    ss_cycles_keep(c, 0);
     return yes;
 }
 
@@ -319,8 +304,6 @@ shoot(finder *f, which_motion which, int n)
         measure_cycles(f, period, period);
         period = f->missed > most || f->unresolved > 0 ? 0 : period;
     }
-    c->multiplier = 0;
-    ss_cycles_keep(c, 0);
     if (c->status == SS_EDATA) {        /* a step has led to a state without cycles */
         c->status = SS_OK;
         period = 0;
