@@ -240,29 +240,12 @@ block_length(const decay *d, bend at, double amplitude, double noise)
     return (size_t)ceil(fmax(fmax(length, (double)(d->end - d->first) / MANY), 14 + 3. * (double)d->beside.n));
 }
 
-/* Fit the first block, a part of it first if it is long: that is found from a frequency that is not near. */
-static int
-first_block(const decay *d, block *b, size_t length, double s)
-{
-    size_t part = (size_t)fmin((double)length, ceil(LONG * 2 * M_PI / d->w));
-    bend at = { .s = s, .w = d->w };
-    for (;; part = 3 * part < length ? 3 * part : length) {
-        if (!ss_block_fit(b, d->x, d->first, d->first + part, at, &d->beside, 0))
-            return 0;
-        if (part == length)
-            return fabs(b->rate[PHASE] - d->w) < 3 * NEAR * d->w;
-        at.w = b->rate[PHASE];
-    }
-}
-
-/* Follow the decay, from first on, as far as it is seen.  Each block starts from s and w of those before, weighed
- * so that older ones count less by each e-fold lost. */
+/* Follow the decay, from first on, as far as it is seen.  Each block starts from s and w of the one before. */
 static ss_status
 follow(decay *d)
 {
-    double s = 1 / (double)(d->end - d->first + 1), sure[TRACKS] = { 0 };
     double noise = 0, free_of_noise = 0;
-    bend at = { .s = s, .w = d->w };
+    bend at = { .s = 1 / (double)(d->end - d->first + 1), .w = d->w };
     size_t first = d->first;
     d->n_blocks = 0;
     d->stop = "end of the record";
@@ -276,33 +259,26 @@ follow(decay *d)
         size_t length = last != NULL ? block_length(d, at, exp(level), noise) : block_length(d, at, 1, 0);
         if (first + length > d->n)
             return SS_OK;
-        int found = last != NULL ? ss_block_fit(b, d->x, first, first + length, at, &d->beside, 0)
-            : first_block(d, b, length, s);
-        if (!found || (last != NULL && fabs(b->rate[PHASE] - at.w) > 2 * NEAR * at.w)) {
+        if (!ss_block_fit(b, d->x, first, first + length, at, &d->beside, 0)
+            || fabs(b->rate[PHASE] - at.w) > (last != NULL ? 2 : 3) * NEAR * at.w) {
             d->stop = "noise";
             return SS_OK;
         }
         if (last == NULL && -b->rate[LEVEL] * (double)length > 1.5 * FALL) {
-            s = -b->rate[LEVEL];                /* it decays so fast that the block must be shorter */
-            at = (bend){ .s = s, .w = b->rate[PHASE] };
+            at = (bend){ .s = -b->rate[LEVEL], .w = b->rate[PHASE] };   /* so fast that the block must be shorter */
             length = block_length(d, at, 1, 0);
             if (!ss_block_fit(b, d->x, first, first + length, at, &d->beside, 0))
                 return SS_OK;
         }
         noise = last == NULL ? b->left / b->free : (noise * free_of_noise + b->left) / (free_of_noise + b->free);
         free_of_noise = fmin(free_of_noise + b->free, 5 * b->free);
-        double error = sqrt(b->cov[LEVEL][0] * noise), lost = fmax(at.s * (double)length, 0);
+        double error = sqrt(b->cov[LEVEL][0] * noise);
         if (last != NULL && error > .2)
             d->stop = "noise";
         else if (last != NULL && b->y[LEVEL] > last->y[LEVEL] + FALL + 5 * error)
             d->stop = "the amplitude grows";
         else {
-            for (int k = 0; k < TRACKS; k++) {
-                double r = b->cov[k][2] * noise, *to = k == LEVEL ? &at.s : &at.w;
-                double moved = sure[k] + at.s * at.s * lost, gain = last != NULL ? moved / (moved + r) : 1;
-                *to += gain * ((k == LEVEL ? -b->rate[k] : b->rate[k]) - *to);
-                sure[k] = gain * r;
-            }
+            at = (bend){ .s = -b->rate[LEVEL], .w = b->rate[PHASE] };
             d->n_blocks++;
             first = b->end;
             continue;

@@ -45,9 +45,6 @@ struct engine_type {
     /* The derivative of x_ref, q[0] and v at s from now, within that step, by the same three numbers now.  NULL
      * if the engine cannot compute it. */
     void (*response)(engine *e, double s, double d[D_MOST][D_MOST]);
-    /* Keep another tolerance from the next step on.  NULL if the engine cannot change its
-     * tolerance, or has none. */
-    void (*keep)(engine *e, double tol);
     /* The motion has reached the end of the step: let u have a new origin if the engine needs one.  NULL: u counts
      * from there. */
     void (*go_on)(engine *e);

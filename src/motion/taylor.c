@@ -185,28 +185,19 @@ taylor_at(engine *e, reading where, double s, turn base, double q[], double dqdt
     dqdt[1] = t->sample[MAX_DIM][i];
 }
 
-static void
-taylor_keep(engine *e, double tol)
-{
-    taylor *t = (taylor *)e;
-    int order = 2 * (int)ceil(2 - log10(tol) * 2 / 3);
-    t->order = order < LEAST_ORDER ? LEAST_ORDER : order > MOST_ORDER ? MOST_ORDER : order;
-    e->tol = tol;
-    t->relative = ss_motion_relative(&e->m->now, tol) / tol;
-}
-
 static ss_status
 taylor_make(engine *e, ss_error *err)
 {
     taylor *t = (taylor *)e;
+    int order = 2 * (int)ceil(2 - log10(e->tol) * 2 / 3);
     (void)err;
-    taylor_keep(e, e->tol);
+    t->order = order < LEAST_ORDER ? LEAST_ORDER : order > MOST_ORDER ? MOST_ORDER : order;
+    t->relative = ss_motion_relative(&e->m->now, e->tol) / e->tol;
     for (int n = 0; n < MOST_ORDER + 2; n++)
         t->per_order[n] = 1.0 / (n + 1);
     return SS_OK;
 }
 
 const struct engine_type ss_taylor_engine = {
-    .size = sizeof(taylor), .make = taylor_make, .begin = taylor_begin, .step = taylor_step, .at = taylor_at,
-    .keep = taylor_keep
+    .size = sizeof(taylor), .make = taylor_make, .begin = taylor_begin, .step = taylor_step, .at = taylor_at
 };
