@@ -7,7 +7,6 @@
 #include "shipped.h"
 #include "fit/cycle.h"
 #include "fit/forced.h"
-#include "fit/order.h"
 #include "unit.h"
 #include "signal/noise.h"
 #include "signal/header.h"

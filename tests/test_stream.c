@@ -3,7 +3,7 @@
 #include <stickslip/store.h>
 #include <stdlib.h>
 #include <string.h>
-#include "fit/order.h"
+#include "fit/verdict.h"
 #include "map/map.h"
 #include "morlet_oracle.h"
 #include "unit.h"

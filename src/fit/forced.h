@@ -105,4 +105,8 @@ typedef struct forced_held {
 ss_status ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m,
                           const rank_record *record);
 
+/* forced_rank.c: rank the scenes of r's rows, whose base moves. */
+ss_status ss_forced_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
+                            const ss_rank_opts *opts, ss_error *err);
+
 #endif

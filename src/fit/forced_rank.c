@@ -8,7 +8,6 @@
  * A scene is named only if its residual is no more than the noise; no criterion replaces this.  A
  * model of a real rig is wrong in details, which the residual shows too; the other criteria then
  * tell which model has the features of the signal. */
-#include "fit/order.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>

@@ -12,7 +12,6 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "base/progress.h"
-#include "fit/order.h"
 #include "scene/model.h"
 
 /* A scene and its fit to the falls. */

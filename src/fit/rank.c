@@ -1,5 +1,5 @@
-/* rank.c -- find the scene that explains a signal: scores by each criterion, the order of their totals, and a
- * ranking as text.
+/* rank.c -- find the scene that explains a signal, among scenes that are forced and scenes that are pulled, and write
+ * the ranking as text.
  *
  * Scenes of one kind, forced or pulled, are ranked together (forced_rank.c, pull_rank.c).  If there are both, the
  * answer is that of the kind to which the signal belongs. */
@@ -10,57 +10,9 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "fit/forced.h"
-#include "fit/order.h"
 #include "fit/pulled.h"
+#include "fit/verdict.h"
 #include "io/record.h"
-
-/* --- order --------------------------------------------------------------------------------- */
-
-/* A threshold is a difference that can be resolved, not one that was seen in some signal: twice the
- * power; the spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice
- * the damping or stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one
- * contour. */
-const criterion_rule ss_criterion_rules[SS_CRITERIA] = {
-    [SS_BY_RESIDUAL]   = { "residual", "dB", 3, 1 },
-    [SS_BY_ADJUSTMENT] = { "adjustment", "", 1, 1 },
-    [SS_BY_MAXIMUM]    = { "maximum", "", 0.5, 1 },
-    [SS_BY_FREQUENCY]  = { "frequency", "Hz", 0.154, 1 },
-    [SS_BY_DAMPING]    = { "damping", "", M_LN2, 1 },
-    [SS_BY_JUMP]       = { "jump", "dB", 6, 1 },
-    [SS_BY_SPIKES]     = { "spikes", "", 1, 1 },
-    [SS_BY_SLOPE]      = { "slope", "dB/octave", 6, 1 },
-    [SS_BY_STIFFNESS]  = { "stiffness", "N/m", M_LN2, 1 },
-    [SS_BY_MAP]        = { "map", "dB", 80. / 18, 0.25 },
-};
-
-double
-ss_rank_score(const ss_rank_row *row, ss_criterion criterion)
-{
-    double d = row->distance[criterion];
-    return isnan(d) ? 1 : fmin(d / ss_criterion_rules[criterion].threshold, SCORE_MOST);
-}
-
-static int
-less_first(const void *a, const void *b)
-{
-    const ss_rank_row *p = a, *q = b;
-    if (p->total != q->total)
-        return p->total > q->total ? 1 : -1;
-    return (p->scene > q->scene) - (p->scene < q->scene);
-}
-
-void
-ss_ranking_sort(ss_ranking *r)
-{
-    for (size_t i = 0; i < r->n; i++) {
-        r->row[i].total = 0;
-        for (int k = 0; k < SS_CRITERIA; k++)
-            r->row[i].total += ss_criterion_rules[k].weight * ss_rank_score(&r->row[i], (ss_criterion)k);
-    }
-    qsort(r->row, r->n, sizeof *r->row, less_first);
-}
-
-/* --- the ranking --------------------------------------------------------------------------- */
 
 static int
 report_part(double done, void *user)

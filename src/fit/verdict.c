@@ -1,4 +1,5 @@
-/* verdict.c -- when a fit explains a record, when it is as good as another, and what is then said.
+/* verdict.c -- when a fit explains a record, when it is as good as another, what is then said; and the order of
+ * scenes in a ranking.
  *
  * * Scenes are fitted to all samples: one explains them if it leaves no more than noise.
  *
@@ -12,6 +13,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "io/record.h"
 
@@ -124,4 +126,50 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
              c[simplest].name, ss_number_fixed(number, 1 - c[simplest].left, 4),
              others[0] != '\0' ? ", no less than " : "", others, ss_number_rounded(times, c[simplest].excess, 4));
     return SS_NAMED;
+}
+
+/* --- scenes -------------------------------------------------------------------------------- */
+
+/* A threshold is a difference that can be resolved, not one that was seen in some signal: twice the
+ * power; the spread itself; one of two transitions; one wavelet bandwidth, 1/6 of the frequency; twice
+ * the damping or stiffness; half the amplitude; one spike; one order of smoothness, jump to kink; one
+ * contour. */
+const criterion_rule ss_criterion_rules[SS_CRITERIA] = {
+    [SS_BY_RESIDUAL]   = { "residual", "dB", 3, 1 },
+    [SS_BY_ADJUSTMENT] = { "adjustment", "", 1, 1 },
+    [SS_BY_MAXIMUM]    = { "maximum", "", 0.5, 1 },
+    [SS_BY_FREQUENCY]  = { "frequency", "Hz", 0.154, 1 },
+    [SS_BY_DAMPING]    = { "damping", "", M_LN2, 1 },
+    [SS_BY_JUMP]       = { "jump", "dB", 6, 1 },
+    [SS_BY_SPIKES]     = { "spikes", "", 1, 1 },
+    [SS_BY_SLOPE]      = { "slope", "dB/octave", 6, 1 },
+    [SS_BY_STIFFNESS]  = { "stiffness", "N/m", M_LN2, 1 },
+    [SS_BY_MAP]        = { "map", "dB", 80. / 18, 0.25 },
+};
+
+double
+ss_rank_score(const ss_rank_row *row, ss_criterion criterion)
+{
+    double d = row->distance[criterion];
+    return isnan(d) ? 1 : fmin(d / ss_criterion_rules[criterion].threshold, SCORE_MOST);
+}
+
+static int
+less_first(const void *a, const void *b)
+{
+    const ss_rank_row *p = a, *q = b;
+    if (p->total != q->total)
+        return p->total > q->total ? 1 : -1;
+    return (p->scene > q->scene) - (p->scene < q->scene);
+}
+
+void
+ss_ranking_sort(ss_ranking *r)
+{
+    for (size_t i = 0; i < r->n; i++) {
+        r->row[i].total = 0;
+        for (int k = 0; k < SS_CRITERIA; k++)
+            r->row[i].total += ss_criterion_rules[k].weight * ss_rank_score(&r->row[i], (ss_criterion)k);
+    }
+    qsort(r->row, r->n, sizeof *r->row, less_first);
 }

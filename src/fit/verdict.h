@@ -1,7 +1,9 @@
-/* verdict.h -- when a fit explains a record, when it is as good as another, and what is then said. */
+/* verdict.h -- when a fit explains a record, when it is as good as another, what is then said; and the order of
+ * scenes in a ranking. */
 #ifndef VERDICT_H
 #define VERDICT_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stickslip/rank.h>
 
@@ -53,5 +55,28 @@ ss_verdict ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, d
 double ss_verdict_error(const double a[BLOCKS], const double b[BLOCKS]);
 /* Append a word to a list. */
 void ss_verdict_append(char *text, size_t room, const char *word);
+
+/* --- scenes, by several criteria ------------------------------------------------------------- */
+
+/* A score is the distance over the threshold, at most SCORE_MOST.  If only one of signal and scene has the
+ * number, the score is 1; if neither has it, 0.  The total is the sum of weight times score. */
+typedef struct criterion_rule {
+    const char *name, *unit;    /* "residual", "dB" */
+    double threshold, weight;
+} criterion_rule;
+extern const criterion_rule ss_criterion_rules[SS_CRITERIA];
+#define SCORE_MOST 3
+
+/* Was anything compared? */
+static inline int
+is_compared(const ss_ranking *r)
+{
+    return r != NULL && !isnan(r->row[0].total);
+}
+
+/* The score of a row by one criterion. */
+double ss_rank_score(const ss_rank_row *row, ss_criterion criterion);
+/* Find the totals of the rows, and sort these by them. */
+void ss_ranking_sort(ss_ranking *r);
 
 #endif
