@@ -8,6 +8,7 @@
  * A scene is named only if its residual is no more than the noise; no criterion replaces this.  A
  * model of a real rig is wrong in details, which the residual shows too; the other criteria then
  * tell which model has the features of the signal. */
+#include "fit/forced.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
@@ -20,7 +21,6 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "find/search.h"
-#include "fit/forced.h"
 #include "map/map.h"
 #include "signal/gaps.h"
 #include "signal/noise.h"

@@ -82,7 +82,7 @@ measure_cycles(finder *f, int n, int period)
 enum { NEWTON_STEPS = 20, MOST_IN_VAIN = 6 };
 
 /* Make one step of Newton's method, which moves *at; *t becomes the derivative there.  Returns the larger of the
- * step and of the distance by which the motion misses its start; INFINITY if the step was shortened, unless this
+ * step and of the distance by which the motion misses its start; INFINITY if no step is possible, unless this
  * distance is rounding. */
 static double
 newton_step(cycles *c, int period, motion *at, tangent *t)
@@ -95,21 +95,15 @@ newton_step(cycles *c, int period, motion *at, tangent *t)
     const motion end = c->w.m;
     motion moved = *at;
     double missed = ss_section_distance(c, ss_section_of(&end), ss_section_of(at));
-    int allowed = 0, halvings = 0;
     ss_cycles_coordinates(at, from);
     ss_cycles_coordinates(&end, r);
     ss_cycles_units(c, unit);
     for (int i = 0; i < D_MOST; i++)
         r[i] -= from[i];
     c->status = ss_tangent_solve(t, unit, r, d);
-    if (end.now.mode == at->now.mode && isfinite(d[0] + d[1] + d[2]))
-        for (; !(allowed = ss_cycles_move(&moved, d)) && halvings < 8; halvings++) {
-            moved = *at;
-            for (int i = 0; i < D_MOST; i++)
-                d[i] /= 2;
-        }
+    int allowed = end.now.mode == at->now.mode && isfinite(d[0] + d[1] + d[2]) && ss_cycles_move(&moved, d);
     double off = missed <= ROUNDING ? missed : INFINITY;
-    if (allowed && halvings == 0)
+    if (allowed)
         off = fmax(missed, ss_section_distance(c, ss_section_of(&moved), ss_section_of(at)));
     *at = allowed ? moved : end;        /* if no step is possible, simulate on */
     ss_motion_rebase(at);

@@ -42,7 +42,8 @@ ss_trade_cheapest(const ss_trade *trade, double accuracy)
     const ss_trade_row *best = NULL;
     for (const ss_trade_row *row = trade->row; row < trade->row + trade->n; row++)
         if (row->status == SS_OK && row->missed == 0 && row->invented == 0 && MARGIN * row->error_x <= accuracy
-            && (best == NULL || row->seconds < best->seconds))
+            && (best == NULL || row->seconds < best->seconds
+                || (row->seconds == best->seconds && row->error_x < best->error_x)))
             best = row;
     return best;
 }
