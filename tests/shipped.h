@@ -12,7 +12,7 @@ read_shipped_named(const char *name)
 {
     ss_scene scene;
     ss_error err = { 0 };
-    if (ss_scene_load(&scene, name, NULL, 0, &err) != SS_OK) {
+    if (ss_scene_read(&scene, NULL, name, NULL, 0, &err) != SS_OK) {
         fprintf(stderr, "%s\n", err.text);
         exit(1);
     }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+#include "fit/backbone.h"
 #include "decay.h"
 #include "new_signal.h"
 #include "uniform.h"

@@ -28,7 +28,7 @@ scene_of(const char *name, const char *list)
         setting[i] = word;
         n = i < n ? n : n + 1;
     }
-    if (ss_scene_load(&scene, name, setting, n, &err) != SS_OK)
+    if (ss_scene_read(&scene, NULL, name, setting, n, &err) != SS_OK)
         fail_msg("%s: %s", name, err.text);
     return scene;
 }

@@ -206,7 +206,7 @@ paths_of_10000_letters_are_refused(void **state)
         assert_fails(ss_signal_read(&read, NULL, place, NULL, &err), &err);
         assert_fails(ss_coefficients_read(&c, NULL, name[i], &err), &err);
         assert_fails(ss_record_write(&(ss_record){ .signal = signal }, NULL, name[i], SS_H5, &err), &err);
-        assert_fails(ss_scene_load(&scene, name[i], NULL, 0, &err), &err);
+        assert_fails(ss_scene_read(&scene, NULL, name[i], NULL, 0, &err), &err);
     }
     ss_signal_free(signal);
 }
@@ -271,11 +271,11 @@ keys_and_options_of_10000_letters_are_refused(void **state)
         assert_true(isnan(ss_scene_get(&scene, name[i])));
         assert_told(ss_scene_set(&scene, name[i], 1, &err), &err);
         snprintf(setting, sizeof setting, "%s=1", name[i]);
-        assert_fails(ss_scene_load(&scene, "coulomb", set, 1, &err), &err);
+        assert_fails(ss_scene_read(&scene, NULL, "coulomb", set, 1, &err), &err);
         snprintf(setting, sizeof setting, "mass=%s", name[i]);
-        assert_fails(ss_scene_load(&scene, "coulomb", set, 1, &err), &err);
+        assert_fails(ss_scene_read(&scene, NULL, "coulomb", set, 1, &err), &err);
         snprintf(setting, sizeof setting, "model=%s", name[i]);
-        assert_fails(ss_scene_load(&scene, "coulomb", set, 1, &err), &err);
+        assert_fails(ss_scene_read(&scene, NULL, "coulomb", set, 1, &err), &err);
         snprintf(setting, sizeof setting, "%s=1:2:3", name[i]);
         assert_fails(ss_axis_parse(&axis, setting, &err), &err);
         assert_fails(ss_axis_parse(&axis, name[i], &err), &err);

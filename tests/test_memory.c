@@ -569,20 +569,15 @@ features(int variant)
 static ss_status
 feature_streams(int variant)
 {
-    ss_features_stream *stream = NULL;
+    ss_reader *reader = NULL;
     ss_features_opts opts;
-    double *column[8];
     ss_features_opts_init(&opts, sizeof opts);
     opts.fmin = 20;
     rewind(scrap);
-    for (size_t c = 0; c < cycles->head->n_columns; c++)
-        column[c] = cycles->values + c * cycles->n;
-    ss_status st = ss_features_stream_new(&stream, cycles->head, 2, &opts, scrap, variant ? SS_JSON : SS_TSV, &err);
+    ss_status st = ss_reader_of_signal(&reader, cycles, &err);
     if (st == SS_OK)
-        st = ss_features_stream_push(stream, column, cycles->n, &err);
-    if (st == SS_OK)
-        st = ss_features_stream_end(stream, &err);
-    ss_features_stream_free(stream);
+        st = ss_features_follow(reader, 2, &opts, scrap, variant ? SS_JSON : SS_TSV, &err);
+    ss_reader_free(reader);
     return st;
 }
 
@@ -714,7 +709,8 @@ steps(int variant)
             + 1e-5 * sin(i * i);
         values[2 * ROWS + i] = i;
     }
-    ss_status st = ss_steps_new(&made, &slid_rock, 0, 1, -1, 0, variant, &err);
+    ss_status st = ss_steps_find(&made, &slid_rock, 0, 1,
+                                 &(ss_steps_opts){ sizeof(ss_steps_opts), .normal = -1, .shared = variant }, &err);
     if (st == SS_OK && made->n != 1)
         fail_msg("%zu steps", made->n);
     ss_steps_free(made);
@@ -787,7 +783,6 @@ reductions(int variant)
     const size_t column[] = { 0, 1 };
     ss_plot_opts opts;
     ss_reader *reader = NULL, *over = NULL;
-    ss_spectrum *spectrum[1] = { NULL };
     ss_plot_opts_init(&opts, sizeof opts);
     opts.decibels = 1;
     FILE *in = fmemopen(text[1], length[1], "r");
@@ -797,12 +792,10 @@ reductions(int variant)
     opts.over = &over;
     opts.n_over = opts.difference = variant == 2;
     if (st == SS_OK)
-        st = variant == 0 ? ss_plot_spectra(spectrum, reader, column, 1, &opts, &err)
+        st = variant == 0 ? ss_plot_spectrum(scrap, reader, column, 1, &opts, &err)
+            : variant == 3 ? ss_spectrum_write(scrap, reader, column, 1, &opts, SS_TSV, &err)
             : variant == 1 ? ss_plot_xy(scrap, reader, 0, 1, &opts, &err)
             : ss_plot_signal(scrap, reader, NULL, 0, &opts, &err);
-    if (st == SS_OK && variant == 0)
-        st = ss_plot_spectrum(scrap, ss_reader_header(reader), column, 1, spectrum, &opts, &err);
-    ss_spectrum_free(spectrum[0]);
     ss_reader_free(over);
     ss_reader_free(reader);
     fclose(in);
@@ -940,7 +933,7 @@ static const struct row {
     { "rankings", rankings, 1, 4 }, { "motions", motions, 1, 10 }, { "decays", decays, 3, 20 }, { "steps", steps, 2, 20 },
     { "fits", fits, 1, 4 }, { "pulls", pulls, 2, 10 }, { "sweeps", sweeps, 6, 20 },
     { "reading tables", read_tables, 2, 100 }, { "reading overlays", read_overlays, 2, 100 }, { "plots", plots, 6, 30 },
-    { "reductions", reductions, 3, 100 },
+    { "reductions", reductions, 4, 100 },
     { "overviews", overviews, 2, 30 },
     { "each scale", each_scale, 2, 30 }, { "stores", stores, 2, 30 },
     { "storing pieces", store_pieces, 2, 30 }, { "loads", loads, 5, 60 },

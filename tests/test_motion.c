@@ -64,7 +64,7 @@ drives_as_it_simulates(void **unused)
     ss_scene scene;
     places p = { 0 };
     ss_sim_opts opts;
-    assert_int_equal(ss_scene_load(&scene, "compliant-light", settings, 3, NULL), SS_OK);
+    assert_int_equal(ss_scene_read(&scene, NULL, "compliant-light", settings, 3, NULL), SS_OK);
     ss_sim_opts_init(&opts, sizeof opts);
     opts.samples = add_samples;
     opts.events = add_event;
@@ -96,7 +96,7 @@ drives_rate_and_state_as_it_simulates(void **unused)
         ss_scene s;
         places p = { 0 };
         ss_sim_opts opts;
-        assert_int_equal(ss_scene_load(&s, "rate-and-state-mild", settings, 4, NULL), SS_OK);
+        assert_int_equal(ss_scene_read(&s, NULL, "rate-and-state-mild", settings, 4, NULL), SS_OK);
         ss_sim_opts_init(&opts, sizeof opts);
         opts.samples = add_samples;
         opts.user = &p;

@@ -113,29 +113,29 @@ loads_a_shipped_scene_by_its_name_and_a_file_by_its_path(void **state)
     (void)state;
     for (const ss_shipped_scene *shipped = ss_shipped_scenes; shipped->name; shipped++) {
         assert_int_equal(read_text(&a, shipped->text, setting, 1, &err), SS_OK);
-        assert_int_equal(ss_scene_load(&b, shipped->name, setting, 1, &err), SS_OK);
+        assert_int_equal(ss_scene_read(&b, NULL, shipped->name, setting, 1, &err), SS_OK);
         assert_memory_equal(&a, &b, sizeof a);
     }
     ss_base *base = (ss_base *)path;            /* none: */
-    assert_int_equal(ss_scene_load_base(&base, &b, "coulomb", &err), SS_OK);
+    assert_int_equal(ss_base_load(&base, &b, "coulomb", &err), SS_OK);
     assert_null(base);
-    assert_int_equal(ss_scene_load(&b, "coulomb", (const char *[]){ "c = 1" }, 1, &err), SS_EINVAL);
+    assert_int_equal(ss_scene_read(&b, NULL, "coulomb", (const char *[]){ "c = 1" }, 1, &err), SS_EINVAL);
     assert_memory_equal(&a, &b, sizeof a);
 
     int fd = mkstemp(path);
     assert_true(fd >= 0 && write(fd, coulomb, sizeof coulomb - 1) == sizeof coulomb - 1);
     close(fd);
     assert_int_equal(read_text(&a, coulomb, NULL, 0, &err), SS_OK);
-    assert_int_equal(ss_scene_load(&b, path, NULL, 0, &err), SS_OK);
+    assert_int_equal(ss_scene_read(&b, NULL, path, NULL, 0, &err), SS_OK);
     assert_memory_equal(&a, &b, sizeof a);
     unlink(path);
     snprintf(wanted, sizeof wanted, "%s: no such file, and the shipped scenes are compliant-heavy, "
              "compliant-light, coulomb, state-variable, chaos, dahl, den-hartog-stops, den-hartog, free-decay, "
              "leine, lugre, pulled-slider, rate-and-state-lab, rate-and-state-mild, "
              "shaw, subharmonic", path);
-    assert_int_equal(ss_scene_load(&b, path, NULL, 0, &err), SS_EIO);
+    assert_int_equal(ss_scene_read(&b, NULL, path, NULL, 0, &err), SS_EIO);
     assert_string_equal(err.text, wanted);
-    assert_int_equal(ss_scene_load(&b, "/tmp", NULL, 0, &err), SS_EIO);
+    assert_int_equal(ss_scene_read(&b, NULL, "/tmp", NULL, 0, &err), SS_EIO);
     assert_string_equal(err.text, "/tmp: Is a directory");
 }
 
@@ -265,7 +265,7 @@ models_do_what_their_tables_say(void **state)
         ss_sim_opts opts;
         ss_sim_opts_init(&opts, sizeof opts);
         ss_sim_stats stats;
-        assert_int_equal(ss_scene_load(&s, row[i].shipped, NULL, 0, NULL), SS_OK);
+        assert_int_equal(ss_scene_read(&s, NULL, row[i].shipped, NULL, 0, NULL), SS_OK);
         assert_ptr_equal(s.model, ss_model_named(row[i].name));
         assert_string_equal(ss_model_name(s.model), row[i].name);
         opts.method = "rk8pd";

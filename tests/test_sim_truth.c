@@ -106,7 +106,7 @@ exact_and_integrated_agree_where_formulas_are_singular(void **state)
         while (n < 6 && hard[i].set[n] != NULL)
             n++;
         memcpy(set + 2, hard[i].set, n * sizeof *set);
-        if (ss_scene_load(&s, "compliant-light", set, n + 2, &err) != SS_OK)
+        if (ss_scene_read(&s, NULL, "compliant-light", set, n + 2, &err) != SS_OK)
             fail_msg("%s: %s", hard[i].what, err.text);
         run a = run_by(&s, "exact", 1e-12), b = run_by(&s, "rk8pd", 1e-12);
         if (a.n_events != b.n_events)

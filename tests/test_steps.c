@@ -11,6 +11,8 @@
 #include "uniform.h"
 #include "unit.h"
 
+#define STEPS_OPTS .size = sizeof(ss_steps_opts), .normal = -1
+
 /* mu0 .6, k 1e-3/um, Dc 10 um, load 1 -> 10 um/s at 10 s; by two independent methods, all digits shown agree, and the
  * first eight are rsfmodel's. */
 static void
@@ -107,7 +109,7 @@ answers(const char *what, const rock *r, uint64_t seed, size_t n, double stiffne
     ss_signal *s = rock_signal(r, &seed);
     ss_steps *steps = NULL;
     ss_error err = { 0 };
-    if (ss_steps_new(&steps, s, 0, 1, -1, stiffness, 0, &err) != SS_OK)
+    if (ss_steps_find(&steps, s, 0, 1, &(ss_steps_opts){ STEPS_OPTS, .stiffness = stiffness }, &err) != SS_OK)
         fail_msg("%s: %s", what, err.text);
     assert_int_equal(steps->n, n);
     for (size_t i = 0; i < n; i++) {
@@ -220,8 +222,8 @@ shares_what_steps_have_in_common(void **state)
     r.n = 2400;
     ss_signal *s = rock_signal(&r, &seed);
     ss_steps *each = NULL, *all = NULL;
-    assert_int_equal(ss_steps_new(&each, s, 0, 1, -1, 0, 0, NULL), SS_OK);
-    assert_int_equal(ss_steps_new(&all, s, 0, 1, -1, 0, 1, NULL), SS_OK);
+    assert_int_equal(ss_steps_find(&each, s, 0, 1, NULL, NULL), SS_OK);
+    assert_int_equal(ss_steps_find(&all, s, 0, 1, &(ss_steps_opts){ STEPS_OPTS, .shared = 1 }, NULL), SS_OK);
     assert_true(each->n == 3 && all->n == 3);
     const double truth[4] = { r.a, r.b, r.Dc, r.k };
     double weights[4] = { 0 }, ahead = 0;
@@ -263,7 +265,7 @@ a_poor_first_step_does_not_lead_the_others(void **state)
     r.noise = 5e-4;
     ss_signal *s = rock_signal(&r, &seed);
     ss_steps *all = NULL;
-    assert_int_equal(ss_steps_new(&all, s, 0, 1, -1, 0, 1, NULL), SS_OK);
+    assert_int_equal(ss_steps_find(&all, s, 0, 1, &(ss_steps_opts){ STEPS_OPTS, .shared = 1 }, NULL), SS_OK);
     assert_int_equal(all->n, 3);
     assert_int_equal(all->step[0].answer, SS_STEP_AGING);
     const ss_step_law *l = &all->step[0].law[SS_STEP_AGING];
@@ -285,10 +287,10 @@ scales_do_not_matter(void **state)
     ss_steps *small = NULL, *large = NULL;
     (void)state;
     ss_signal *s = rock_signal(&usual, &seed);
-    assert_int_equal(ss_steps_new(&small, s, 0, 1, -1, 0, 0, NULL), SS_OK);
+    assert_int_equal(ss_steps_find(&small, s, 0, 1, NULL, NULL), SS_OK);
     for (size_t i = 0; i < s->n; i++)
         s->values[i] *= by;
-    assert_int_equal(ss_steps_new(&large, s, 0, 1, -1, 0, 0, NULL), SS_OK);
+    assert_int_equal(ss_steps_find(&large, s, 0, 1, NULL, NULL), SS_OK);
     assert_int_equal(large->n, small->n);
     const ss_step_law *is = large->step[0].law, *was = small->step[0].law;
     near("a", is->direct_effect.value, was->direct_effect.value, 1e-3 * was->direct_effect.error);
@@ -317,7 +319,7 @@ begins_in_a_hold(void **state)
     for (size_t c = 0; c < 3; c++)
         memmove(s->values + c * n, s->values + c * s->n + first, n * sizeof *s->values);
     s->n = n;
-    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, NULL), SS_OK);
+    assert_int_equal(ss_steps_find(&steps, s, 0, 1, NULL, NULL), SS_OK);
     assert_int_equal(steps->n, 1);
     within("a", steps->step[0].law[0].direct_effect, r.a, 5);
     within("Dc", steps->step[0].law[0].critical_slip_distance, r.Dc, 5);
@@ -339,19 +341,19 @@ says_what_is_none(void **state)
     ss_signal *s = rock_signal(&r, &seed);
     for (size_t i = 0; i < s->n; i++)
         s->values[s->n + i] = 0.6 + 1e-3 * rock_gauss(&seed);
-    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, &err), SS_OK);
+    assert_int_equal(ss_steps_find(&steps, s, 0, 1, NULL, &err), SS_OK);
     assert_int_equal(steps->step[0].answer, SS_STEP_NONE);
     assert_non_null(strstr(steps->step[0].why, "straight line"));
     ss_steps_free(steps);
     for (size_t i = 0; i < s->n; i++)
         s->values[i] = 3 * s->values[2 * s->n + i];
-    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, &err), SS_EDATA);
+    assert_int_equal(ss_steps_find(&steps, s, 0, 1, NULL, &err), SS_EDATA);
     assert_null(steps);
     assert_string_equal(err.text, "the speed of column load has no step behind a steady slide");
-    assert_int_equal(ss_steps_new(&steps, s, 1, 0, -1, 0, 0, &err), SS_EDATA);
+    assert_int_equal(ss_steps_find(&steps, s, 1, 0, NULL, &err), SS_EDATA);
     assert_string_equal(err.text, "column mu: '' is not a unit of length, as m, mm or um is");
     s->values[s->n + 3] = NAN;
-    assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, &err), SS_EDATA);
+    assert_int_equal(ss_steps_find(&steps, s, 0, 1, NULL, &err), SS_EDATA);
     ss_signal_free(s);
 }
 
@@ -377,13 +379,13 @@ answers_the_basalt(void **state)
         }
         assert_int_equal(ss_signal_read(&s, in, path, &opts, NULL), SS_OK);
         fclose(in);
-        assert_int_equal(ss_steps_new(&steps, s, 0, 1, -1, 0, 0, NULL), SS_OK);
+        assert_int_equal(ss_steps_find(&steps, s, 0, 1, NULL, NULL), SS_OK);
         assert_int_equal(steps->n, 1);
         const ss_step *step = &steps->step[0];
         assert_int_not_equal(step->answer, SS_STEP_NONE);
         for (int law = 0; law < SS_STEP_LAWS; law++) {
             const ss_step_law *l = &step->law[law];
-            print_message("%s %s: a %.4f +- %.4f, b %.4f +- %.4f, Dc %.3g +- %.2g\n", name[i], ss_step_law_names[law],
+            print_message("%s %s: a %.4f +- %.4f, b %.4f +- %.4f, Dc %.3g +- %.2g\n", name[i], law == 0 ? "aging" : "slip",
                           l->direct_effect.value, l->direct_effect.error, l->evolution_effect.value,
                           l->evolution_effect.error, l->critical_slip_distance.value, l->critical_slip_distance.error);
             assert_true(l->direct_effect.error < l->direct_effect.value / 5);

@@ -153,16 +153,15 @@ tool_read_scene(const char *path, const tool_texts *settings, const char *option
     const char *slash = strrchr(path, '/');
     char name[PATH_MAX + SS_BASE_FILE];
     ss_scene scene;
-    ss_status st = is_stdin(path)
-        ? ss_scene_read(&scene, stdin, tool_input_name(path), settings->text, settings->n, &tool_error)
-        : ss_scene_load(&scene, path, settings->text, settings->n, &tool_error);
+    ss_status st = ss_scene_read(&scene, is_stdin(path) ? stdin : NULL, tool_input_name(path), settings->text,
+                                 settings->n, &tool_error);
     if (st == SS_EINVAL)
         tool_usage("%s: %s", options, tool_error.text);
     tool_check(st);
     snprintf(name, sizeof name, "%.*s%s", slash != NULL ? (int)(slash - path) + 1 : 0, path, scene.base_file);
     if (scene.base_file[0] != '\0')
         tool_reads(name);
-    tool_check_base(ss_scene_load_base(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &tool_error));
+    tool_check_base(ss_base_load(&base, &scene, strcmp(path, "-") == 0 ? "" : path, &tool_error));
     return scene;
 }
 

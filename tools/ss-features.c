@@ -81,36 +81,35 @@ find_features(const request *req, const char *path)
         tool_warn("'ss-rank --motion %s --column %s' gives the gap, stiffness and friction of either side, and the "
                   "law", head->column[motion].name, head->column[f.column].name);
     tool_note("noise of rms %.3g, local maxima: %zu, spikes: %zu, %s", f.features->noise,
-              f.features->n_maxima, f.features->spikes->n, ss_spikes_verdict(f.features->spikes));
+              f.features->n_maxima, f.features->spikes->n, f.features->spikes->verdict);
     if (f.opts.stiffness > f.features->number[SS_TOTAL_STIFFNESS].value)
         tool_warn("the oscillation's stiffness with --mass, %.4g N/m, is below --stiffness: it "
                   "leaves none to the contact", f.features->number[SS_TOTAL_STIFFNESS].value);
     return f;
 }
 
+static int
+is_stopped(double done, void *user)
+{
+    (void)done, (void)user;
+    return tool_stopping();
+}
+
 /* Write each row when nothing behind it can change it, and the numbers at the end or when the user stops. */
 static void
 follow(const request *req, const char *path, tool_kind kind)
 {
-    ss_features_stream *stream;
     ss_features_opts opts = req->opts;
     ss_reader *reader = tool_read_rows(path, &req->reading.opts);
     const ss_header *head = ss_reader_header(reader);
-    size_t n, piece = ss_reader_piece(reader), column = tool_column(head, path, req->column);
+    size_t column = tool_column(head, path, req->column);
     opts.displacement = find_column(head, path, req->displacement, usual_displacement);
     opts.force = find_column(head, path, req->force, usual_force);
-    opts.progress = (ss_progress){ NULL, NULL };
-    double **x = tool_columns(head->n_columns, piece);
+    opts.progress = (ss_progress){ is_stopped, NULL };
     tool_end_at_rows(req->output);
-    tool_check(ss_features_stream_new(&stream, head, column, &opts, tool_output(req->output), tool_stream(kind),
-                                      &tool_error));
     tool_note("rows come at most %.3g s behind the end of a transition", 2 / opts.fmin + 0.2);
-    while ((n = tool_rows(reader, x, piece)) > 0)
-        tool_check(ss_features_stream_push(stream, x, n, &tool_error));
-    tool_check(ss_features_stream_end(stream, &tool_error));
-    ss_features_stream_free(stream);
+    tool_check(ss_features_follow(reader, column, &opts, tool_output(req->output), tool_stream(kind), &tool_error));
     ss_reader_free(reader);
-    free(x);
 }
 
 typedef struct table {

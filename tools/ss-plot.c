@@ -35,7 +35,6 @@ typedef struct drawing {
     size_t *column, n;          /* panels; or with xy the two columns */
     int spectrum, xy;
     tool_kind kind;             /* of output */
-    ss_spectrum **density;      /* of each column */
 } drawing;
 
 static void
@@ -45,8 +44,7 @@ draw(const drawing *d, const char *output, ss_plot_opts *opts)
     if (d->xy)
         tool_drawn(out, ss_plot_xy(out, d->reader, d->column[0], d->column[1], opts, &tool_error));
     else if (d->spectrum)
-        tool_drawn(out, ss_plot_spectrum(out, ss_reader_header(d->reader), d->column, d->n, d->density, opts,
-                                         &tool_error));
+        tool_drawn(out, ss_plot_spectrum(out, d->reader, d->column, d->n, opts, &tool_error));
     else
         tool_drawn(out, ss_plot_signal(out, d->reader, d->column, d->n, opts, &tool_error));
 }
@@ -222,21 +220,12 @@ draw_signal(const char *path, const tool_texts *name, drawing d, char *const ove
     tool_note("%s: columns: %zu, at %.9g Hz", tool_input_name(path), head->n_columns, head->rate);
     ss_overlay *overlay = tool_read_overlay(features, SS_KIND_FEATURES);
     opts->features = overlay;
-    if (d.spectrum) {
-        d.density = tool_room(NULL, d.n, sizeof *d.density);
-        tool_check(ss_plot_spectra(d.density, d.reader, d.column, d.n, opts, &tool_error));
-        for (size_t i = 0; i < d.n; i++)
-            d.density[i]->decibels = opts->decibels;
-    }
     if (d.kind >= TOOL_STREAM)
-        tool_check(ss_spectra_write(d.density, head, d.column, d.n, tool_output(output), tool_stream(d.kind),
-                                    &tool_error));
+        tool_check(ss_spectrum_write(tool_output(output), d.reader, d.column, d.n, opts, tool_stream(d.kind),
+                                     &tool_error));
     else
         draw(&d, output, opts);
     ss_overlay_free(overlay);
-    for (size_t i = 0; d.density != NULL && i < d.n; i++)
-        ss_spectrum_free(d.density[i]);
-    free(d.density);
     for (size_t k = 0; k < n; k++)
         ss_reader_free(others[k]);
     ss_reader_free(d.reader);

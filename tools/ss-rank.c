@@ -409,26 +409,30 @@ static void
 fit_load(job *j)
 {
     static const char key[] = "stiffness=";
-    double stiffness = 0;
     ss_steps *steps = NULL;
     ss_plot_opts plot;
+    ss_steps_opts opts;
+    ss_steps_opts_init(&opts, sizeof opts);
+    opts.shared = j->shared;
     for (size_t i = 0; i < j->settings.n; i++) {
         if (strncmp(j->settings.text[i], key, sizeof key - 1) != 0)
             tool_usage("--set %s: with --load only stiffness can be given", j->settings.text[i]);
-        stiffness = tool_number("--set stiffness", j->settings.text[i] + sizeof key - 1, 1e-12, 1e12);
+        opts.stiffness = tool_number("--set stiffness", j->settings.text[i] + sizeof key - 1, 1e-12, 1e12);
     }
     ss_signal *signal = tool_read_signal(j->signal_path, &j->reading.opts);
     const size_t load = tool_column(signal->head, j->signal_path, j->load);
     const size_t friction = tool_column(signal->head, j->signal_path, j->column_name);
-    const int normal = j->normal != NULL ? (int)tool_column(signal->head, j->signal_path, j->normal) : -1;
+    if (j->normal != NULL)
+        opts.normal = (int)tool_column(signal->head, j->signal_path, j->normal);
+    const char *unit = opts.normal >= 0 ? signal->head->column[opts.normal].unit : "";
     if (load == friction)
         tool_usage("--load and --column name the same column, %s", signal->head->column[load].name);
-    if (strcmp(signal->head->column[friction].unit, normal >= 0 ? signal->head->column[normal].unit : "") != 0)
+    if (strcmp(signal->head->column[friction].unit, unit) != 0)
         tool_die("column %s is in '%s': friction has no unit, and --normal-stress has that of its shear stress",
                  signal->head->column[friction].name, signal->head->column[friction].unit);
     if (signal->head->column[load].unit[0] == '\0')
         tool_die("column %s has no unit: --unit %s=um says that it is in um", j->load, j->load);
-    tool_check(ss_steps_new(&steps, signal, load, friction, normal, stiffness, j->shared, &tool_error));
+    tool_check(ss_steps_find(&steps, signal, load, friction, &opts, &tool_error));
     for (size_t i = 0; i < steps->n; i++)
         tool_note("step at %.9g s: %zu rows, noise of %.2g", steps->step[i].at, steps->step[i].n,
                   steps->step[i].law[steps->step[i].best].noise);

@@ -125,11 +125,10 @@ set_base(ss_scene *scene, const char *given)
         *colon = '\0';
         column = colon + 1;
     }
-    tool_check_base(ss_base_load(&base, tool_reads(path), column, &tool_error));
     const char *slash = strrchr(path, '/');
     snprintf(scene->base_file, sizeof scene->base_file, "%s", slash != NULL ? slash + 1 : path);
     snprintf(scene->base_column, sizeof scene->base_column, "%s", column);
-    scene->base = base;
+    tool_check_base(ss_base_load(&base, scene, tool_reads(path), &tool_error));
     scene->base_amplitude = scene->base_frequency = scene->phase = 0;
     free(path);
 }

@@ -21,7 +21,6 @@ typedef enum ss_mechanism {
     SS_QUADRATIC,               /* s = c A */
     SS_MECHANISMS
 } ss_mechanism;
-extern const char *const ss_mechanism_names[SS_MECHANISMS + 1];     /* "viscous", ..., NULL */
 
 typedef struct ss_backbone_opts {
     size_t size;                /* set by ss_backbone_opts_init */

@@ -95,8 +95,6 @@ typedef struct ss_loading {
 #define SS_FEATURE_ENUMERATOR(NAME, name, unit, about, needs, by) NAME,
 typedef enum ss_feature { SS_FEATURE_NUMBER_LIST(SS_FEATURE_ENUMERATOR) SS_FEATURE_NUMBERS } ss_feature;
 #undef SS_FEATURE_ENUMERATOR
-/* "transition_frequency", "Hz"; a NULL unit contains that of the column; NULL from SS_FEATURE_NUMBERS on. */
-const ss_label *ss_feature_label(ss_feature which);
 
 typedef struct ss_features {
     size_t n;                   /* transitions */
@@ -156,21 +154,15 @@ ss_status ss_features_write(const ss_features *features, const ss_signal *signal
 
 /* --- streams --------------------------------------------------------------------------------- */
 
-/* Features of a signal without end, in memory for 128 periods of the lowest frequency, opts->fmin, which must be
- * given.  Each transition is written to the caller's file, which is flushed, when no later sample can change it:
- * at the latest two periods and 0.2 s behind its end, but for the work.  Each row tells what up to 64 periods before it
- * show, of which a search takes as many as have 8 transitions; the first rows come after 16 periods. */
-typedef struct ss_features_stream ss_features_stream;
-/* head is copied; the caller keeps `to` open until the end, and closes it.  SS_EINVAL: there is no fmin, or it is not
- * below half the rate. */
-ss_status ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t column,
-                                 const ss_features_opts *opts, FILE *to, ss_format format, ss_error *err);
-/* Add n samples of all columns, which must be finite and are copied. */
-ss_status ss_features_stream_push(ss_features_stream *stream, double *const column[], size_t n, ss_error *err);
-/* Write the rows that are left, and then the numbers that they have in common: means over windows of 64 periods,
- * and errors that have their scatter.  SS_ESCALE: the signal is too short for fmin. */
-ss_status ss_features_stream_end(ss_features_stream *stream, ss_error *err);
-void ss_features_stream_free(ss_features_stream *stream);       /* NULL is allowed */
+/* Write the features of a column of a signal without end, in memory for 128 periods of the lowest frequency,
+ * opts->fmin, which must be given.  Each transition is written, and the caller's file flushed, when no later sample can
+ * change it: at the latest two periods and 0.2 s behind its end, but for the work.  Each row tells what up to 64 periods
+ * before it show, of which a search takes as many as have 8 transitions; the first rows come after 16 periods.  At the
+ * end of the rows, or when opts->progress, which is called with 0, returns non-zero, the rows that are left are written,
+ * and the numbers that all have in common: means over windows of 64 periods, and errors that have their scatter.
+ * SS_EINVAL: there is no fmin, or it is not below half the rate; SS_ESCALE: the signal is too short for fmin. */
+ss_status ss_features_follow(ss_reader *reader, size_t column, const ss_features_opts *opts, FILE *out,
+                             ss_format format, ss_error *err);
 
 /* --- many recordings ----------------------------------------------------------------------- */
 

@@ -14,7 +14,6 @@
 #include <stickslip/overlay.h>
 #include <stickslip/rank.h>
 #include <stickslip/steps.h>
-#include <stickslip/spectrum.h>
 #include <stickslip/table.h>
 #include <stickslip/trade.h>
 
@@ -44,8 +43,8 @@ typedef struct ss_plot_opts {
     int difference;             /* 1: ss_plot_signal draws the first column less those over it in a panel below,
                                    by lines between their samples; the readers can go back */
     const ss_overlay *features; /* ss_plot_signal shades its transitions in every panel; NULL: none */
-    double resolution;          /* [Hz] of ss_plot_spectra, as for ss_spectrum_new; 0: that of seven segments */
-    int decibels;               /* 1: ss_plot_spectrum draws dB re 1 unit^2/Hz */
+    double resolution;          /* [Hz] of spectra, as for ss_spectrum_new; 0: that of seven segments */
+    int decibels;               /* 1: spectra are in dB re 1 unit^2/Hz; a density of 0 is then "-" in text */
     const double *curve;        /* ss_plot_map draws this line: x, y, x, y, ..., NaN where it breaks; NULL: none */
     size_t n_curve;             /* its points */
 } ss_plot_opts;
@@ -67,13 +66,14 @@ ss_status ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], si
 ss_status ss_plot_xy(FILE *out, ss_reader *reader, size_t x, size_t y,
                      const ss_plot_opts *opts, ss_error *err);
 
-/* Estimate the spectra of n columns of a signal of any length, which can go back to its first row,
- * in the span of opts.  The caller frees each spectrum, even after a failure. */
-ss_status ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[], size_t n,
-                          const ss_plot_opts *opts, ss_error *err);
-/* Draw these spectra of n columns, one panel each. */
-ss_status ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t n,
-                           ss_spectrum *const spectrum[], const ss_plot_opts *opts, ss_error *err);
+/* Draw the spectra of n columns of a signal of any length, which can go back to its first row, one panel each, as
+ * ss_spectrum_new finds them, in the span of opts. */
+ss_status ss_plot_spectrum(FILE *out, ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *opts,
+                           ss_error *err);
+/* Write them as text: notes of the header, resolution and segments, then a row for each frequency.  ss_table_read
+ * reads it (SS_KIND_SPECTRUM).  SS_EINVAL: the format holds numbers only; SS_EIO. */
+ss_status ss_spectrum_write(FILE *out, ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *opts,
+                            ss_format format, ss_error *err);
 
 typedef struct ss_contour_opts {
     size_t size;                /* set by ss_contour_opts_init */

@@ -42,7 +42,7 @@ typedef struct ss_scene {
     double own[SS_SCENE_OWN];   /* the model's own parameters, which ss_scene_get and ss_scene_set find
                                    by their keys; for a word, its number */
 
-    char base_file[SS_BASE_FILE];       /* the file of z(t), "": none; ss_scene_load_base reads it */
+    char base_file[SS_BASE_FILE];       /* the file of z(t), "": none; ss_base_load reads it */
     char base_column[SS_BASE_COLUMN];   /* its column; "": the column z, or the only column */
     const ss_base *base;                /* z(t) in place of Z_e cos(...), owned by the caller;
                                            NULL: the cosine */
@@ -81,15 +81,11 @@ typedef struct ss_event {
 } ss_event;
 
 /* Read a scene from text, in which the n settings "key=value" then replace values; settings may be NULL if
- * n is 0.  Messages call the file by name.  On failure *scene does not change.  SS_EDATA: a key is
- * unknown, repeated, missing, malformed, out of its range, or not one of the model's; SS_EINVAL: a
- * setting is; SS_EIO: reading failed. */
+ * n is 0.  Messages call the file by name.  If in is NULL, name is that of a shipped scene ("compliant-light"), or else
+ * the path of a file.  On failure *scene does not change.  SS_EDATA: a key is unknown, repeated, missing, malformed,
+ * out of its range, or not one of the model's; SS_EINVAL: a setting is; SS_EIO: reading failed, or there is no such
+ * scene, and err lists the shipped names. */
 ss_status ss_scene_read(ss_scene *scene, FILE *in, const char *name, const char *const settings[], size_t n,
-                        ss_error *err);
-
-/* Read the shipped scene whose name is path ("compliant-light"), or else the file at path, with
- * settings as above.  SS_EIO also if there is neither; err then lists the shipped names. */
-ss_status ss_scene_load(ss_scene *scene, const char *path, const char *const settings[], size_t n,
                         ss_error *err);
 
 /* SS_OK if every parameter that the model has lies in its range, else SS_EINVAL. */
@@ -99,15 +95,12 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
  * digits from which ss_scene_read gets the same double.  SS_EIO: writing failed. */
 ss_status ss_scene_write(const ss_scene *scene, FILE *out, ss_error *err);
 
-/* Make z(t) [m], the natural cubic spline through one column of a file, of any format that ss_reader_new opens.
- * column is its name or number; NULL or "": the column z, or the only column.  The clock of the file is
- * the scene's: its t = 0 is the start of settling.  The caller frees *base with ss_base_free.
- * SS_EDATA: the column's unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
-ss_status ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err);
-/* If the scene names a base_file, read it and set scene->base to *base; else *base becomes NULL.
- * The name is relative to the folder of scene_path, the file from which the scene was read.  The
- * caller frees *base after the last use of the scene. */
-ss_status ss_scene_load_base(ss_base **base, ss_scene *scene, const char *scene_path, ss_error *err);
+/* If the scene names a base_file, make z(t) [m] of it, the natural cubic spline through its base_column, and set
+ * scene->base to *base; else *base becomes NULL.  The name is relative to the folder of scene_path, the file from which
+ * the scene was read; the file is of any format that ss_reader_new opens.  Its clock is the scene's: its t = 0 is the
+ * start of settling.  The caller frees *base after the last use of the scene.  SS_EDATA: the column's unit is not m, or
+ * it has fewer than 3 samples; SS_ENOMEM. */
+ss_status ss_base_load(ss_base **base, ss_scene *scene, const char *scene_path, ss_error *err);
 void ss_base_free(ss_base *base);                   /* NULL is allowed */
 
 /* The number that key names, of the scene or of its model.  NaN: the model has no such number. */
@@ -123,7 +116,7 @@ ss_status ss_scene_set_text(ss_scene *scene, const char *key, const char *value,
 size_t ss_scene_samples(const ss_scene *scene);     /* round(duration * rate); SIZE_MAX from 2^53 on */
 int ss_scene_is_pulled(const ss_scene *scene);      /* 1: U or S moves it, and no forcing does */
 
-/* The built-in scenes.  ss_scene_load finds one by its name. */
+/* The built-in scenes.  ss_scene_read finds one by its name. */
 typedef struct ss_shipped_scene {
     const char *name;           /* "compliant-light" */
     const char *summary;        /* its first comment line, one line of plain text */

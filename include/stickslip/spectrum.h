@@ -3,7 +3,6 @@
 #define STICKSLIP_SPECTRUM_H
 
 #include <stddef.h>
-#include <stdio.h>
 #include <stickslip/signal.h>
 #include <stickslip/status.h>
 
@@ -18,7 +17,6 @@ typedef struct ss_spectrum {
     double *density;            /* [unit^2/Hz] */
     double resolution;          /* [Hz] the bandwidth of the window, 1.5 step */
     size_t segments;            /* each of 2 (n - 1) samples, a power of 2 */
-    int decibels;               /* 1: ss_spectra_write writes dB re 1 unit^2/Hz, - for 0; a caller sets it */
 } ss_spectrum;
 
 /* Estimate the spectrum of n >= 16 samples.  The segments are the longest whose bandwidth is at
@@ -28,12 +26,6 @@ typedef struct ss_spectrum {
 ss_status ss_spectrum_new(ss_spectrum **out, const double *x, size_t n, double rate, double resolution,
                           ss_error *err);
 void ss_spectrum_free(ss_spectrum *spectrum);           /* NULL is allowed */
-
-/* Write spectra of columns of one record, which are alike but for their densities, as text: notes of the
- * header, resolution and segments, then a row for each frequency, with a column for each of n
- * columns.   SS_EINVAL: the format holds numbers only; SS_EIO. */
-ss_status ss_spectra_write(ss_spectrum *const spectrum[], const ss_header *head, const size_t column[],
-                           size_t n, FILE *out, ss_format format, ss_error *err);
 
 SS_END_DECLARATIONS
 #endif

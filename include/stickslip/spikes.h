@@ -43,11 +43,9 @@ typedef struct ss_spikes {
                                    shortest scale shows them.  0: there is no spike */
     int conclusive;             /* 1: floor <= -6, so that a spike half as strong as the strongest is
                                    seen; 0: too much noise to count or to group spikes */
+    const char *verdict;        /* constant text: "counted", or why they are not: there is too much noise, or the
+                                   signal is smooth */
 } ss_spikes;
-
-/* "counted", or why the spikes are not: there is too much noise, or the signal is smooth.  A
- * constant text. */
-const char *ss_spikes_verdict(const ss_spikes *found);
 
 SS_END_DECLARATIONS
 #endif

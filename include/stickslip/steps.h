@@ -16,11 +16,11 @@ typedef enum ss_step_answer {
     SS_STEP_NONE                        /* neither follows the friction */
 } ss_step_answer;
 enum { SS_STEP_LAWS = 2 };
-extern const char *const ss_step_law_names[SS_STEP_LAWS];   /* "aging", "slip" */
 
 /* A law fitted to a step, mu = mu0 + a ln(V/V0) + b ln(V0 theta/Dc); each number with its standard error, or NaN
  * where the step does not show it. */
 typedef struct ss_step_law {
+    const char *name;           /* "aging" or "slip" */
     double log_likelihood;      /* of the rows; NaN: no fit */
     double gain;                /* how much larger it is than that of a straight line along the path */
     ss_value direct_effect, evolution_effect;   /* a, b */
@@ -47,17 +47,23 @@ typedef struct ss_steps {
     ss_step *step;              /* in the order of time */
 } ss_steps;
 
-/* Fit both laws to each step in speed of a load point, from the columns `load` (a unit of length) and `friction`,
- * which is divided by the column `normal`, unless that is negative.  The last column of the signal holds the times
- * of its rows, see ss_read_opts.stamps.  stiffness [1/m] of the machine; 0: it is fitted.  shared: 1 if all steps
- * have one law, a, b, Dc and stiffness.
+typedef struct ss_steps_opts {
+    size_t size;                /* set by ss_steps_opts_init */
+    int normal;                 /* the column by which friction is divided; -1: none */
+    double stiffness;           /* [1/m] >= 0 of the machine; 0: it is fitted */
+    int shared;                 /* 1: all steps have one law, a, b, Dc and stiffness */
+} ss_steps_opts;
+void ss_steps_opts_init(ss_steps_opts *opts, size_t size);      /* no normal, 0, each step its own */
+
+/* Fit both laws to each step in speed of a load point, from the columns `load` (a unit of length) and `friction`.
+ * The last column of the signal holds the times of its rows, see ss_read_opts.stamps.
  *
  * A hold and the slide behind it are one step.  The slider begins in a steady slide and has no inertia.  The
  * load point moves on lines that meet between rows, or as recorded; of more than 4096 rows means are taken.
- * SS_EDATA: the unit is not one of length, a value is not finite, or there is no step; SS_ENOMEM.
+ * SS_EDATA: the unit is not one of length, a value is not finite, or there is no step; SS_ENOMEM.  opts may be NULL.
  * The caller frees *out with ss_steps_free. */
-ss_status ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t friction, int normal,
-                       double stiffness, int shared, ss_error *err);
+ss_status ss_steps_find(ss_steps **out, const ss_signal *signal, size_t load, size_t friction,
+                        const ss_steps_opts *opts, ss_error *err);
 void ss_steps_free(ss_steps *steps);            /* NULL is allowed */
 
 /* Write a row a law and step, as ss-rank(1) describes.  SS_EINVAL: the format holds numbers only; SS_EIO. */

@@ -15,12 +15,6 @@ SS_FEATURE_NUMBER_LIST(DECLARATION)
 #define ROW(NAME, name, unit, about, needs, by) [NAME] = { { name, unit }, about, needs, by },
 const feature_number ss_feature_numbers[SS_FEATURE_NUMBERS] = { SS_FEATURE_NUMBER_LIST(ROW) };
 
-const ss_label *
-ss_feature_label(ss_feature which)
-{
-    return (unsigned)which < SS_FEATURE_NUMBERS ? &ss_feature_numbers[which].label : NULL;
-}
-
 unsigned
 ss_features_have(const ss_features *f, const ss_features_opts *opts)
 {

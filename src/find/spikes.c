@@ -28,19 +28,6 @@ typedef struct spike_search {
     ss_spikes *found;
 } spike_search;
 
-/* If spikes are there but none is sharp, this is not because of noise. */
-const char *
-ss_spikes_verdict(const ss_spikes *found)
-{
-    if (found == NULL)
-        return NULL;
-    size_t bends = 0;
-    for (size_t i = 0; i < found->n; i++)
-        bends += found->spike[i].kind == SS_SPIKE_BEND;
-    return found->conclusive ? "counted"
-        : found->n > 0 && bends == found->n ? "none to count, the signal is smooth" : "too much noise to count them";
-}
-
 const char *
 ss_spike_kind_name(ss_spike_kind kind)
 {
@@ -188,6 +175,11 @@ finish(spike_search *s)
     }
     sort(found);
     found->conclusive = found->floor <= -EVENT_CLEAR;
+    size_t bends = 0;
+    for (size_t i = 0; i < found->n; i++)
+        bends += found->spike[i].kind == SS_SPIKE_BEND;
+    found->verdict = found->conclusive ? "counted"
+        : found->n > 0 && bends == found->n ? "none to count, the signal is smooth" : "too much noise to count them";
 }
 
 ss_status

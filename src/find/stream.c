@@ -30,8 +30,8 @@ struct mean {
     size_t n;
 };
 
-struct ss_features_stream {
-    ss_header *head;
+struct stream {
+    const ss_header *head;
     size_t column;
     ss_features_opts opts;
     struct rows rows;
@@ -55,59 +55,9 @@ struct ss_features_stream {
     ss_number shown[SS_FEATURE_NUMBERS];        /* of the last search that found all */
 };
 
-ss_status
-ss_features_stream_new(ss_features_stream **out, const ss_header *head, size_t column, const ss_features_opts *opts,
-                       FILE *to, ss_format format, ss_error *err)
-{
-    ss_features_opts usual;
-    if (out == NULL || head == NULL || to == NULL)
-        return SS_FAIL_NULL(err);
-    *out = NULL;
-    if (column >= head->n_columns)
-        return ss_fail_column(err, column, head->n_columns);
-    ss_features_opts_init(&usual, sizeof usual);
-    ss_features_stream *s = calloc(1, sizeof *s);
-    ss_status st = s != NULL ? ss_options_take(&s->opts, sizeof s->opts, &usual, opts, err) : ss_fail_memory(err, NULL);
-    double period = st == SS_OK ? head->rate / s->opts.fmin : 0, room = 2 * ((PERIODS + 4) * period + head->rate);
-    if (st == SS_OK && !(s->opts.fmin > 0 && period > 2 && room < 1e9))
-        st = ss_fail(err, SS_EINVAL, "a stream of features needs fmin, below half the rate and not far below it");
-    if (st == SS_OK)
-        st = ss_header_select(&s->head, head, NULL, head->n_columns, 0, err);
-    if (st == SS_OK)
-        st = ss_rows_begin(&s->rows, to, format, SS_KIND_FEATURES, err);
-    if (st == SS_OK) {
-        s->column = column;
-        s->written = -INFINITY;
-        s->behind = (size_t)ceil(BEHIND * period);
-        s->hop = (size_t)(2 * period + DELAY * head->rate) - s->behind;
-        s->first = (size_t)(FIRST * period);
-        s->few = (size_t)(LEAST * period);
-        s->part = s->window = s->hop + s->behind + (size_t)(PERIODS * period);
-        s->x = ss_columns_new(head->n_columns, 2 * s->window);
-        if (s->x == NULL)
-            st = ss_fail_memory(err, NULL);
-    }
-    if (st == SS_OK)
-        *out = s;
-    else
-        ss_features_stream_free(s);
-    return st;
-}
-
-void
-ss_features_stream_free(ss_features_stream *s)
-{
-    if (s == NULL)
-        return;
-    ss_header_free(s->head);
-    ss_features_free(s->before);
-    free(s->x);
-    free(s);
-}
-
 /* Add the numbers of a window to the means. */
 static void
-add_numbers(ss_features_stream *s, const ss_features *f)
+add_numbers(struct stream *s, const ss_features *f)
 {
     s->windows++;
     for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++) {
@@ -133,14 +83,14 @@ is_lone(const ss_transition *tr)
 
 /* Is a transition new, and known up to a time [s] on the source's clock? */
 static int
-is_due(const ss_features_stream *s, const ss_transition *tr, double start, double until)
+is_due(const struct stream *s, const ss_transition *tr, double start, double until)
 {
     return start + tr->onset > s->written + SAME / s->head->rate && start + tr->end <= until;
 }
 
 /* How many of them are, lone maxima or others? */
 static size_t
-count_due(const ss_features_stream *s, const ss_features *f, int lone, double start, double until)
+count_due(const struct stream *s, const ss_features *f, int lone, double start, double until)
 {
     size_t n = 0;
     for (size_t i = 0; i < f->n; i++)
@@ -152,7 +102,7 @@ count_due(const ss_features_stream *s, const ss_features *f, int lone, double st
  * maxima the extent and the ringing that the last search found there: a fit of few transitions leaves out now one,
  * now another. */
 static ss_status
-find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features **f, double *start, ss_error *err)
+find_last(struct stream *s, size_t n, const stream_part *part, ss_features **f, double *start, ss_error *err)
 {
     ss_signal *now = NULL;
     ss_status st = ss_signal_new(&now, s->head, n, err);
@@ -181,7 +131,7 @@ find_last(ss_features_stream *s, size_t n, const stream_part *part, ss_features 
 
 /* Write the transitions that are known now, or all at the end. */
 static ss_status
-write_known(ss_features_stream *s, int last, ss_error *err)
+write_known(struct stream *s, int last, ss_error *err)
 {
     ss_features *f = NULL;
     double start, until = last ? INFINITY
@@ -249,40 +199,11 @@ write_known(ss_features_stream *s, int last, ss_error *err)
     return ss_rows_finish(&s->rows, err);
 }
 
-ss_status
-ss_features_stream_push(ss_features_stream *s, double *const column[], size_t n, ss_error *err)
-{
-    if (s == NULL || (column == NULL && n > 0))
-        return SS_FAIL_NULL(err);
-    for (size_t done = 0, some; done < n; done += some) {
-        if (s->n == 2 * s->window) {
-            s->n = s->window;
-            for (size_t c = 0; c < s->head->n_columns; c++)
-                memcpy(s->x[c], s->x[c] + s->window, s->window * sizeof *s->x[c]);
-        }
-        some = s->hop - (size_t)(s->seen % s->hop);             /* up to the next search */
-        some = some < n - done ? some : n - done;
-        some = some < 2 * s->window - s->n ? some : 2 * s->window - s->n;
-        for (size_t c = 0; c < s->head->n_columns; c++)
-            memcpy(s->x[c] + s->n, column[c] + done, some * sizeof *s->x[c]);
-        s->n += some;
-        s->seen += some;
-        ss_status st = s->seen % s->hop == 0 && s->seen >= s->first ? write_known(s, 0, err) : SS_OK;
-        if (st != SS_OK)
-            return st;
-    }
-    return SS_OK;
-}
-
-ss_status
-ss_features_stream_end(ss_features_stream *s, ss_error *err)
+/* Write the numbers that all rows have in common. */
+static ss_status
+write_numbers(struct stream *s, ss_error *err)
 {
     ss_features all = { .n = 0 };
-    if (s == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status st = write_known(s, 1, err);
-    if (st != SS_OK)
-        return st;
     for (size_t k = 0; k < SS_FEATURE_NUMBERS; k++) {
         const struct mean *m = &s->mean[k];
         double spread = m->n > 1 ? m->squares / (double)(m->n - 1) : 1;
@@ -299,4 +220,78 @@ ss_features_stream_end(ss_features_stream *s, ss_error *err)
     all.number[SS_TRANSITIONS].value = (double)s->transitions;
     ss_features_numbers(&s->rows, &all, s->has);
     return ss_rows_finish(&s->rows, err);
+}
+
+static ss_status
+begin(struct stream *s, const ss_header *head, FILE *to, ss_format format, ss_error *err)
+{
+    double period = head->rate / s->opts.fmin, room = 2 * ((PERIODS + 4) * period + head->rate);
+    if (s->column >= head->n_columns)
+        return ss_fail_column(err, s->column, head->n_columns);
+    if (!(s->opts.fmin > 0 && period > 2 && room < 1e9))
+        return ss_fail(err, SS_EINVAL, "a stream of features needs fmin, below half the rate and not far below it");
+    s->head = head;
+    s->written = -INFINITY;
+    s->behind = (size_t)ceil(BEHIND * period);
+    s->hop = (size_t)(2 * period + DELAY * head->rate) - s->behind;
+    s->first = (size_t)(FIRST * period);
+    s->few = (size_t)(LEAST * period);
+    s->part = s->window = s->hop + s->behind + (size_t)(PERIODS * period);
+    s->x = ss_columns_new(head->n_columns, 2 * s->window);
+    return s->x != NULL ? ss_rows_begin(&s->rows, to, format, SS_KIND_FEATURES, err) : ss_fail_memory(err, NULL);
+}
+
+/* Read up to the next search, in the room that there is; *n: so many rows. */
+static ss_status
+read_on(struct stream *s, ss_reader *reader, double **to, size_t *n, ss_error *err)
+{
+    size_t hop = s->hop - (size_t)(s->seen % s->hop);
+    if (s->n == 2 * s->window) {
+        s->n = s->window;
+        for (size_t c = 0; c < s->head->n_columns; c++)
+            memcpy(s->x[c], s->x[c] + s->window, s->window * sizeof *s->x[c]);
+    }
+    for (size_t c = 0; c < s->head->n_columns; c++)
+        to[c] = s->x[c] + s->n;
+    return ss_reader_rows(reader, to, hop < 2 * s->window - s->n ? hop : 2 * s->window - s->n, n, err);
+}
+
+ss_status
+ss_features_follow(ss_reader *reader, size_t column, const ss_features_opts *opts, FILE *to, ss_format format,
+                   ss_error *err)
+{
+    struct stream s = { .column = column };
+    ss_features_opts usual;
+    if (reader == NULL || to == NULL)
+        return SS_FAIL_NULL(err);
+    ss_features_opts_init(&usual, sizeof usual);
+    ss_status st = ss_options_take(&s.opts, sizeof s.opts, &usual, opts, err), read = SS_OK;
+    const ss_progress progress = s.opts.progress;
+    s.opts.progress = (ss_progress){ NULL, NULL };
+    if (st == SS_OK)
+        st = begin(&s, ss_reader_header(reader), to, format, err);
+    double **place = st == SS_OK ? ss_columns_new(s.head->n_columns, 0) : NULL;
+    if (st == SS_OK && place == NULL)
+        st = ss_fail_memory(err, NULL);
+    for (size_t n = 1; st == SS_OK && read == SS_OK && n > 0;) {
+        read = read_on(&s, reader, place, &n, err);
+        if (progress.function != NULL && progress.function(0, progress.user) != 0) {
+            read = SS_OK;               /* the last row may be a part of one */
+            break;
+        }
+        s.n += n;
+        s.seen += n;
+        if (n > 0 && s.seen % s.hop == 0 && s.seen >= s.first)
+            st = write_known(&s, 0, err);
+    }
+    if (st == SS_OK)
+        st = read;
+    if (st == SS_OK)
+        st = write_known(&s, 1, err);
+    if (st == SS_OK)
+        st = write_numbers(&s, err);
+    ss_features_free(s.before);
+    free(s.x);
+    free(place);
+    return st;
 }

@@ -99,7 +99,7 @@ ss_features_write(const ss_features *f, const ss_signal *signal, size_t column,
     if (st != SS_OK)
         return st;
     unsigned has = ss_features_have(f, opts);
-    ss_rows_note(&rows, "spikes: %s", ss_spikes_verdict(f->spikes));
+    ss_rows_note(&rows, "spikes: %s", f->spikes->verdict);
     ss_features_numbers(&rows, f, has);
     ss_features_notes(&rows, head, column, opts);
     ss_features_row(&rows, f, f->n, head->start, has);  /* the names */

@@ -105,6 +105,7 @@ typedef struct decay_source {
 /* Draw smooth s and, if there is a phase, w, with errors, through n blocks whose noise is known: at, error and level;
  * at.s and at.w must be near. */
 ss_status ss_blocks_smooth(block *b, size_t n, const decay_source *source);
+extern const char *const ss_mechanism_names[SS_MECHANISMS];     /* "viscous", ... */
 /* 0, 1, 2 for a unit of x, x' or x'', a length or an angle, -1: it is none; and its size in SI units, 0 of an
  * angle. */
 int ss_motion_order(const char *unit, double *size);

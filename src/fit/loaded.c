@@ -573,7 +573,8 @@ ss_loaded_report(loaded *s, ss_step_law out[SS_STEP_LAWS], double *model)
     for (size_t k = 0; st == SS_OK && k < SS_STEP_LAWS; k++, model += n) {
         law *l = &s->law[k];
         const ss_value none = { NAN, NAN };
-        out[k] = (ss_step_law){ NAN, NAN, none, none, none, none, none, NAN, model };
+        out[k] = (ss_step_law){ k == SS_STEP_AGING ? "aging" : "slip", NAN, NAN, none, none, none, none, none, NAN,
+                                model };
         if (isinf(l->squares)) {
             for (size_t i = 0; i < n; i++)
                 model[i] = NAN;

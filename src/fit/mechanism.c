@@ -40,8 +40,8 @@ enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
 #define SOFTER .5               /* of its losses c: by Masing's rules friction softens by pi/4 (1 + 2/p) c */
 #define REJECT 1e-3             /* probability of so large a chi^2 */
 
-const char *const ss_mechanism_names[SS_MECHANISMS + 1] = {
-    "viscous", "coulomb", "viscous+coulomb", "jenkins", "microslip", "quadratic", NULL };
+const char *const ss_mechanism_names[SS_MECHANISMS] = {
+    "viscous", "coulomb", "viscous+coulomb", "jenkins", "microslip", "quadratic" };
 
 static const struct law {
     int free[UNKNOWNS];

@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
+#include "base/options.h"
 #include "base/list.h"
 #include "base/number.h"
 #include "find/medians.h"
@@ -36,7 +37,9 @@ enum { ROOM = 6 };              /* columns of a step: time, friction, two paths,
 #define SIGNIFICANT 30          /* times the noise: squares that a cut must save */
 #define STILL FAINT             /* a hold's speed over that of the lines beside it */
 
-const char *const ss_step_law_names[SS_STEP_LAWS] = { "aging", "slip" };
+static const ss_steps_opts defaults = { .size = sizeof defaults, .normal = -1 };
+
+SS_OPTIONS(ss_steps_opts, defaults)
 
 /* What the lines of a slide say of it, however its sensor jumps between them. */
 typedef struct slide {
@@ -600,18 +603,22 @@ fit_steps(ss_steps *out, const path *p, const double *mu, double stiffness, int 
 }
 
 ss_status
-ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t friction, int normal, double stiffness,
-             int shared, ss_error *err)
+ss_steps_find(ss_steps **out, const ss_signal *signal, size_t load, size_t friction, const ss_steps_opts *opts,
+              ss_error *err)
 {
+    ss_steps_opts o;
     if (out == NULL || signal == NULL)
         return SS_FAIL_NULL(err);
     *out = NULL;
+    ss_status st = ss_options_take(&o, sizeof o, &defaults, opts, err);
+    if (st != SS_OK)
+        return st;
     const size_t n = signal->n, columns = signal->head->n_columns;
-    if (load >= columns || friction >= columns || normal >= (int)columns)
-        return ss_fail_column(err, load >= columns ? load : friction >= columns ? friction : (size_t)normal,
+    if (load >= columns || friction >= columns || o.normal >= (int)columns)
+        return ss_fail_column(err, load >= columns ? load : friction >= columns ? friction : (size_t)o.normal,
                               columns);
-    if (!(stiffness >= 0) || isinf(stiffness))
-        return ss_fail(err, SS_EINVAL, "a stiffness of %g 1/m is out of range", stiffness);
+    if (!(o.stiffness >= 0) || isinf(o.stiffness))
+        return ss_fail(err, SS_EINVAL, "a stiffness of %g 1/m is out of range", o.stiffness);
     const ss_column *of = &signal->head->column[load];
     const char *named = *of->unit != '\0' ? of->unit : ss_unit_of_name(of->name, NULL);
     const double unit = ss_unit_in_si(named, 'm');
@@ -621,10 +628,10 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
     double *x = malloc((2 * n + 1) * sizeof *x), *mu = x + n;
     path p = { .t = signal->values + (columns - 1) * n, .x = x, .n = n };
     ss_steps *made = calloc(1, sizeof *made);
-    ss_status st = x != NULL && made != NULL ? SS_OK : SS_ENOMEM;
+    st = x != NULL && made != NULL ? SS_OK : SS_ENOMEM;
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         x[i] = unit * signal->values[load * n + i];
-        mu[i] = signal->values[friction * n + i] / (normal >= 0 ? signal->values[(size_t)normal * n + i] : 1);
+        mu[i] = signal->values[friction * n + i] / (o.normal >= 0 ? signal->values[(size_t)o.normal * n + i] : 1);
         if (!isfinite(x[i] + mu[i]))
             st = ss_fail(err, SS_EDATA, "row %zu: path or friction is not a finite number", i + 1);
     }
@@ -633,7 +640,7 @@ ss_steps_new(ss_steps **out, const ss_signal *signal, size_t load, size_t fricti
     if (st == SS_OK && n >= 2 * LEAST)
         st = find_lines(&p);
     if (st == SS_OK)
-        st = fit_steps(made, &p, mu, stiffness, shared);
+        st = fit_steps(made, &p, mu, o.stiffness, o.shared);
     if (st == SS_OK && made->n == 0)
         st = ss_fail(err, SS_EDATA, "the speed of column %s has no step behind a steady slide", of->name);
     free(p.sum);
@@ -668,7 +675,7 @@ write_answer(struct rows *rows, const ss_step *s)
     if (s->answer == SS_STEP_NONE || s->answer == SS_STEP_UNDECIDED)
         snprintf(answer, sizeof answer, "%s: %s", s->answer == SS_STEP_NONE ? "none of these" : "cannot tell", s->why);
     else
-        snprintf(answer, sizeof answer, "%s is likelier by a factor of e^%s", ss_step_law_names[s->best],
+        snprintf(answer, sizeof answer, "%s is likelier by a factor of e^%s", s->law[s->best].name,
                  ss_number_rounded(ahead, s->ahead, 2));
     ss_rows_whole_word(rows, "answer", answer);
 }
@@ -678,7 +685,7 @@ write_row(struct rows *rows, size_t rank, const ss_step *s, size_t law)
 {
     const ss_step_law *l = &s->law[law];
     ss_rows_count(rows, "rank", rank);
-    ss_rows_word(rows, "law", ss_step_law_names[law]);
+    ss_rows_word(rows, "law", s->law[law].name);
     ss_rows_rounded(rows, "log_likelihood", "", l->log_likelihood, 10);
     ss_rows_value(rows, "direct_effect", "", l->direct_effect);
     ss_rows_value(rows, "evolution_effect", "", l->evolution_effect);

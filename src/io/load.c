@@ -39,14 +39,12 @@ sum_file(char text[48], const char *file, ss_error *err)
     return why == 0 ? SS_OK : ss_fail_errno(err, file, why);
 }
 
-ss_status
-ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err)
+static ss_status
+load(ss_base **base, const char *path, const char *column, ss_error *err)
 {
     ss_signal *signal = NULL;
     ss_base *b = NULL;
     ss_error why = { 0 };
-    if (base == NULL || path == NULL)
-        return SS_FAIL_NULL(err);
     struct stat is;
     const char *place;
     char *file = ss_file_of(path, &place);
@@ -55,7 +53,7 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
     int regular = stat(file, &is) != 0 || S_ISREG(is.st_mode) || S_ISDIR(is.st_mode); /* these fail when opened */
     ss_status st = regular ? ss_signal_read(&signal, NULL, path, NULL, err)     /* a pipe can be read only once */
         : ss_fail(err, SS_EDATA, "%s: not a regular file, which the motion of a base must be", path);
-    int is_named = column != NULL && *column != '\0';
+    int is_named = *column != '\0';
     const char *name = is_named ? column : "z";
     int c = st != SS_OK || (!is_named && signal->head->n_columns == 1) ? 0 : ss_header_column(signal->head, name);
     if (c < 0)
@@ -74,7 +72,7 @@ ss_base_load(ss_base **base, const char *path, const char *column, ss_error *err
 }
 
 ss_status
-ss_scene_load_base(ss_base **base, ss_scene *scene, const char *scene_path, ss_error *err)
+ss_base_load(ss_base **base, ss_scene *scene, const char *scene_path, ss_error *err)
 {
     if (base == NULL || scene == NULL || scene_path == NULL)
         return SS_FAIL_NULL(err);
@@ -88,7 +86,7 @@ ss_scene_load_base(ss_base **base, ss_scene *scene, const char *scene_path, ss_e
         return ss_fail_memory(err, scene->base_file);
     memcpy(path, scene_path, folder);
     strcpy(path + folder, scene->base_file);
-    ss_status st = ss_base_load(base, path, scene->base_column, err);
+    ss_status st = load(base, path, scene->base_column, err);
     free(path);
     if (st == SS_OK)
         scene->base = *base;

@@ -1,12 +1,12 @@
-/* spectra.c -- the power spectral density of columns over a logarithmic axis of frequency, a panel
- * each. */
+/* spectra.c -- the power spectral density of columns over a logarithmic axis of frequency, a panel each, or as
+ * text. */
 #include "plot/series.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <stickslip/spectrum.h>
 #include "base/error.h"
+#include "io/record.h"
 #include "signal/header.h"
 #include "signal/welch.h"
 
@@ -40,31 +40,28 @@ write_densities(FILE *out, const char *name, const ss_spectrum *s, int decibels)
     fputs("EOD\n", out);
 }
 
-/* The rows are read once to be counted, and once for each column. */
-ss_status
-ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[], size_t n,
-                const ss_plot_opts *given, ss_error *err)
+/* Estimate the spectra of n columns, *spectrum, which the caller frees even after a failure.  The rows are read once to
+ * be counted, and once for each column. */
+static ss_status
+find_spectra(ss_spectrum ***spectrum, ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *opts,
+             ss_error *err)
 {
-    ss_plot_opts opts;
     series s;
     script_span span;
-    if (spectrum == NULL || reader == NULL || column == NULL)
-        return SS_FAIL_NULL(err);
-    memset(spectrum, 0, n * sizeof *spectrum);
-    ss_status st = ss_script_take(&opts, given, err);
-    if (st != SS_OK)
-        return st;
-    st = ss_series_begin(&s, reader, column, n, NAN, &opts, err);
+    *spectrum = calloc(n + 1, sizeof **spectrum);
+    if (*spectrum == NULL)
+        return ss_fail_memory(err, NULL);
+    ss_status st = ss_series_begin(&s, reader, column, n, NAN, opts, err);
     s.n_gaps = 0;                       /* values in gaps count as they were filled in */
     if (st == SS_OK)
         st = ss_series_rewind(&s, err);
     for (size_t got = 1; st == SS_OK && got > 0;)
         st = ss_series_next(&s, &got, err);
     if (st == SS_OK)
-        st = ss_script_find_span(&span, s.start, s.head->rate, s.rows, &opts, err);
+        st = ss_script_find_span(&span, s.start, s.head->rate, s.rows, opts, err);
     for (size_t i = 0; st == SS_OK && i < n; i++) {
         ss_welch *welch = NULL;
-        st = ss_welch_new(&welch, span.n, s.head->rate, opts.resolution, err);
+        st = ss_welch_new(&welch, span.n, s.head->rate, opts->resolution, err);
         if (st == SS_OK)
             st = ss_series_rewind(&s, err);
         for (size_t got = 1; st == SS_OK && got > 0;) {
@@ -73,12 +70,72 @@ ss_plot_spectra(ss_spectrum *spectrum[], ss_reader *reader, const size_t column[
                 st = ss_welch_add(welch, s.value + i * s.piece, got, err);
         }
         if (st == SS_OK)
-            st = ss_welch_end(&spectrum[i], welch, err);
+            st = ss_welch_end(&(*spectrum)[i], welch, err);
         ss_welch_free(welch);
     }
     ss_series_free(&s);
     return st;
 }
+
+static void
+free_spectra(ss_spectrum **spectrum, size_t n)
+{
+    for (size_t i = 0; spectrum != NULL && i < n; i++)
+        ss_spectrum_free(spectrum[i]);
+    free(spectrum);
+}
+
+/* --- as text ------------------------------------------------------------------------------- */
+
+/* Write the densities at one frequency. */
+static void
+write_row(struct rows *rows, ss_spectrum *const spectrum[], size_t k, const ss_column column[], const size_t index[],
+          size_t n, int decibels)
+{
+    char unit[DENSITY_UNIT];
+    ss_rows_number(rows, "frequency", "Hz", (double)k * spectrum[0]->step);
+    for (size_t i = 0; i < n; i++) {
+        const ss_column *of = &column[index[i]];
+        double density = spectrum[i]->density[k];
+        ss_density_unit(unit, of->unit, decibels);
+        ss_rows_number(rows, of->name, unit, !decibels ? density : density > 0 ? 10 * log10(density) : NAN);
+    }
+    ss_rows_end(rows);
+}
+
+ss_status
+ss_spectrum_write(FILE *out, ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *given,
+                  ss_format format, ss_error *err)
+{
+    static const char *const own_notes[] = { "resolution", "segments", NULL };
+    char resolution[SS_NUMBER_MAX];
+    struct rows rows;
+    ss_plot_opts opts;
+    ss_spectrum **spectrum = NULL;
+    if (out == NULL || reader == NULL || column == NULL)
+        return SS_FAIL_NULL(err);
+    const ss_header *head = ss_reader_header(reader);
+    ss_status st = ss_script_take(&opts, given, err);
+    if (st == SS_OK && n == 0)
+        st = ss_fail(err, SS_EINVAL, "no spectra to write");
+    if (st == SS_OK)
+        st = find_spectra(&spectrum, reader, column, n, &opts, err);
+    if (st == SS_OK)
+        st = ss_rows_begin(&rows, out, format, SS_KIND_SPECTRUM, err);
+    if (st == SS_OK) {
+        ss_rows_notes(&rows, head, own_notes);
+        ss_rows_note(&rows, "resolution: %s Hz", ss_number_text(resolution, spectrum[0]->resolution));
+        ss_rows_note(&rows, "segments: %zu", spectrum[0]->segments);
+        write_row(&rows, spectrum, 0, head->column, column, n, opts.decibels);   /* the names */
+        for (size_t k = 0; k < spectrum[0]->n; k++)
+            write_row(&rows, spectrum, k, head->column, column, n, opts.decibels);
+        st = ss_rows_finish(&rows, err);
+    }
+    free_spectra(spectrum, n);
+    return st;
+}
+
+/* --- as a picture -------------------------------------------------------------------------- */
 
 /* The spectrum of a layer in a panel; NULL: none. */
 static const ss_spectrum *
@@ -148,32 +205,29 @@ write_panels(FILE *out, const ss_header *head, size_t n, const layer layers[], s
 }
 
 ss_status
-ss_plot_spectrum(FILE *out, const ss_header *head, const size_t column[], size_t n, ss_spectrum *const spectrum[],
-                 const ss_plot_opts *given, ss_error *err)
+ss_plot_spectrum(FILE *out, ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *given,
+                 ss_error *err)
 {
     ss_plot_opts own;
     layer layers[LAYERS] = { { .n = 0 } };
-    ss_spectrum **over[LAYERS] = { NULL };
-    ss_spectrum *const *of[LAYERS] = { spectrum };
-    if (out == NULL || head == NULL || column == NULL || spectrum == NULL)
+    ss_spectrum **found[LAYERS] = { NULL };
+    ss_spectrum *const *of[LAYERS] = { NULL };
+    if (out == NULL || reader == NULL || column == NULL)
         return SS_FAIL_NULL(err);
+    const ss_header *head = ss_reader_header(reader);
     ss_status st = ss_script_take(&own, given, err);
     if (st == SS_OK && n == 0)
         st = ss_fail(err, SS_EINVAL, "no columns to draw");
     if (st == SS_OK)
         st = ss_layers_find(layers, head, column, n, &own, err);
-    for (size_t k = 1; st == SS_OK && k <= own.n_over; k++) {
-        of[k] = over[k] = calloc(layers[k].n, sizeof *over[k]);
-        st = over[k] == NULL ? ss_fail_memory(err, NULL)
-            : ss_plot_spectra(over[k], own.over[k - 1], layers[k].column, layers[k].n, &own, err);
+    for (size_t k = 0; st == SS_OK && k <= own.n_over; k++) {
+        st = find_spectra(&found[k], k == 0 ? reader : own.over[k - 1], layers[k].column, layers[k].n, &own, err);
+        of[k] = found[k];
     }
     if (st == SS_OK)
         st = write_panels(out, head, n, layers, of, &own, err);
-    for (size_t k = 1; k < LAYERS; k++) {
-        for (size_t i = 0; over[k] != NULL && i < layers[k].n; i++)
-            ss_spectrum_free(over[k][i]);
-        free(over[k]);
-    }
+    for (size_t k = 0; k < LAYERS; k++)
+        free_spectra(found[k], layers[k].n);
     ss_layers_free(layers);
     return st;
 }

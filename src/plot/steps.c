@@ -44,7 +44,7 @@ draw_step(script_stack *stack, const ss_step *s, size_t number)
              "plot $step%zu using 1:2 with lines lw 0.6 lc rgb '" SKY_BLUE "' title 'measured'", number);
     for (int k = 0; k < SS_STEP_LAWS; k++)
         ss_print(out, ", '' using 1:%d with lines lw 1.2 lc rgb '%s' title '%s'", 3 + 2 * k, colour[k],
-                 ss_step_law_names[k]);
+                 s->law[k].name);
     fputs("\nunset key; unset title\n", out);
     ss_script_write_panel(stack, LEFT, AXIS, &rest, LEFT_ROOM, 4);
     ss_script_write_x_label(out, &path, ss_script_power(0));

@@ -1,4 +1,4 @@
-/* lines.c -- read a scene: lines "key = value", and settings that replace them.
+/* lines.c -- read a scene, shipped or of a file: lines "key = value", and settings that replace them.
  *
  * A message names the line; that of a setting names no place, which is known to the caller. */
 #include <stickslip/scene.h>
@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stdint.h>
 #include <string.h>
+#include <sys/stat.h>
 #include "base/error.h"
 #include "base/number.h"
 #include "scene/model.h"
@@ -186,7 +187,56 @@ check_keys(ss_scene *scene, given *g, struct key_origin last, ss_error *err)
     return SS_OK;
 }
 
-/* --- a file -------------------------------------------------------------------------------- */
+/* --- a file, or a shipped scene --------------------------------------------------------------- */
+
+static const ss_shipped_scene *const shipped_lists[] = { ss_shipped_scenes, ss_catalogue_scenes };
+enum { SHIPPED_LISTS = sizeof shipped_lists / sizeof *shipped_lists };
+
+static const ss_shipped_scene *
+find_shipped(const char *name)
+{
+    for (int i = 0; i < SHIPPED_LISTS; i++)
+        for (const ss_shipped_scene *s = shipped_lists[i]; s->name != NULL; s++)
+            if (strcmp(s->name, name) == 0)
+                return s;
+    return NULL;
+}
+
+static void
+fail_absent(const char *path, ss_error *err)
+{
+    char names[256] = "";
+    for (int i = 0; i < SHIPPED_LISTS; i++)
+        for (const ss_shipped_scene *s = shipped_lists[i]; s->name != NULL; s++)
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
+                     *names == '\0' ? "" : ", ", s->name);
+    ss_fail(err, SS_EIO, "%s: no such file, and the shipped scenes are %s", path, names);
+}
+
+/* The text of a shipped scene, a file, or NULL with the reason in err. */
+static FILE *
+open_scene(const char *path, ss_error *err)
+{
+    const ss_shipped_scene *shipped = find_shipped(path);
+    if (shipped != NULL) {
+        FILE *text = fmemopen((void *)shipped->text, strlen(shipped->text), "r");
+        if (text == NULL)
+            ss_fail_errno(err, path, errno);
+        return text;
+    }
+    FILE *in = fopen(path, "rb");
+    int why = errno;
+    struct stat st;
+    if (in != NULL && fstat(fileno(in), &st) == 0 && !S_ISDIR(st.st_mode))
+        return in;
+    if (in != NULL)
+        fclose(in);
+    if (in != NULL || why != ENOENT)
+        ss_fail_errno(err, path, in != NULL ? EISDIR : why);
+    else
+        fail_absent(path, err);
+    return NULL;
+}
 
 /* Read one line without its newline and comment; *end becomes 1 after the last line. */
 static ss_status
@@ -210,18 +260,14 @@ read_line(FILE *in, char *line, size_t size, struct key_origin at, int *end, ss_
     return SS_OK;
 }
 
-ss_status
-ss_scene_read(ss_scene *out, FILE *in, const char *name, const char *const settings[], size_t n,
-              ss_error *err)
+static ss_status
+read_lines(ss_scene *out, FILE *in, const char *name, const char *const settings[], size_t n, ss_error *err)
 {
     ss_scene scene = ss_scene_defaults;
     given g = { .n = 0 };
     struct key_origin at = { name, 0 };
     char line[1024];
     ss_status st = SS_OK;
-
-    if (out == NULL || in == NULL || name == NULL || (settings == NULL && n > 0))
-        return SS_FAIL_NULL(err);
     for (int end = 0; st == SS_OK && !end;) {
         at.line++;
         st = read_line(in, line, sizeof line, at, &end, err);
@@ -239,5 +285,19 @@ ss_scene_read(ss_scene *out, FILE *in, const char *name, const char *const setti
         st = check_keys(&scene, &g, at, err);
     if (st == SS_OK)
         *out = scene;
+    return st;
+}
+
+ss_status
+ss_scene_read(ss_scene *scene, FILE *in, const char *name, const char *const settings[], size_t n, ss_error *err)
+{
+    if (scene == NULL || name == NULL || (settings == NULL && n > 0))
+        return SS_FAIL_NULL(err);
+    FILE *opened = in == NULL ? open_scene(name, err) : NULL;
+    if (in == NULL && opened == NULL)
+        return SS_EIO;
+    ss_status st = read_lines(scene, in != NULL ? in : opened, name, settings, n, err);
+    if (opened != NULL)
+        fclose(opened);
     return st;
 }

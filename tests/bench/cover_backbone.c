@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <stickslip.h>
+#include "fit/backbone.h"
 #include "chance.h"
 #include "../decay.h"
 

@@ -522,7 +522,7 @@ read_record(tally *t, record *r, const sensor *by, const char *where)
     t->long_sticks += (size_t)is_long;
     for (int i = 0; i < SS_FEATURE_NUMBERS; i++) {
         const ss_number *got = &found->number[i];
-        count(t, r, ss_feature_label((ss_feature)i)->name, got->value, got->error, where);
+        count(t, r, ss_feature_numbers[i].label.name, got->value, got->error, where);
         t->stiff += is_long && i == SS_TOTAL_STIFFNESS && !isnan(got->value);
     }
     ss_features_free(found);

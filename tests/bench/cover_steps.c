@@ -80,7 +80,8 @@ main(int argc, char *argv[])
                     continue;
                 }
                 clock_t from = clock();
-                ss_status st = ss_steps_new(&steps, s, 0, 1, -1, 0, argc > 3, &err);
+                ss_status st = ss_steps_find(&steps, s, 0, 1,
+                                             &(ss_steps_opts){ sizeof(ss_steps_opts), -1, 0, argc > 3 }, &err);
                 cpu += clock() - from;
                 ss_signal_free(s);
                 const size_t expected = kind == FEW ? 2 : 1;
@@ -109,7 +110,7 @@ main(int argc, char *argv[])
                 ss_steps_free(steps);
             }
             size_t sum[2] = { 0 };
-            printf("%s\t%s\t%zu\t%zu\t%zu\t%zu\t%zu", kinds[kind], ss_step_law_names[law], numbers, named[0],
+            printf("%s\t%s\t%zu\t%zu\t%zu\t%zu\t%zu", kinds[kind], law == 0 ? "aging" : "slip", numbers, named[0],
                    named[1], named[2], named[3]);
             for (int k = 0; k < NUMBERS; k++) {
                 printf("\t%.0f/%.0f", 100. * (double)within[0][k] / (double)numbers,

@@ -43,7 +43,7 @@ main(int argc, char *argv[])
      * library checks GSL's statuses itself, but leaves this setting, a global one, to the program. */
 
     const char *path = argc > 1 ? argv[1] : "compliant-light";
-    ss_status status = ss_scene_load(&scene, path, NULL, 0, &err);
+    ss_status status = ss_scene_read(&scene, NULL, path, NULL, 0, &err);
     if (status == SS_OK)
         status = ss_sim_signal(&signal, &scene, &err);
     if (status == SS_OK) {

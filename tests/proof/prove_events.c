@@ -703,7 +703,7 @@ examine_shipped(const char *name, double seconds)
 {
     ss_scene scene;
     ss_error err;
-    if (ss_scene_load(&scene, name, NULL, 0, &err) != SS_OK) {
+    if (ss_scene_read(&scene, NULL, name, NULL, 0, &err) != SS_OK) {
         fprintf(stderr, "%s\n", err.text);
         exit(1);
     }

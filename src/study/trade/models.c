@@ -46,8 +46,8 @@ ss_compared_name(size_t i)
 {
     if (i < SS_COMPARED_FEATURES)
         return compared[i].name;
-    const ss_label *feature = ss_feature_label(feature_at(i));
-    return feature != NULL ? feature->name : NULL;
+    const ss_feature feature = feature_at(i);
+    return feature < SS_FEATURE_NUMBERS ? ss_feature_numbers[feature].label.name : NULL;
 }
 
 const char *
