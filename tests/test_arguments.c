@@ -21,6 +21,7 @@
 #include "find/events.h"
 #include "find/numbers.h"
 #include "study/trade/trade.h"
+#include "study/sweep/grid.h"
 #include "motion/kind.h"
 #include "scene/scene.h"
 
@@ -443,7 +444,6 @@ options_know_their_size(void **state)
     ss_steady_opts steady;
     ss_sweep_opts sweep;
     ss_trade_opts trade;
-    ss_models_opts models;
     ss_error e = { 0 };
     (void)state;
     ss_features_opts_init(&features, sizeof features);
@@ -453,12 +453,10 @@ options_know_their_size(void **state)
     ss_steady_opts_init(&steady, sizeof steady);
     ss_sweep_opts_init(&sweep, sizeof sweep);
     ss_trade_opts_init(&trade, sizeof trade);
-    ss_models_opts_init(&models, sizeof models);
     assert_true(features.size == sizeof features && features.displacement == -1 && features.threads == 1);
     assert_true(steady.size == sizeof steady && steady.max_period == 8);
     assert_true(sweep.size == sizeof sweep && sweep.shards == 1 && sweep.steady == NULL);
-    assert_true(trade.size == sizeof trade && trade.budget == 10);
-    assert_true(models.size == sizeof models && models.span == 80);
+    assert_true(trade.size == sizeof trade && trade.budget == 10 && trade.span == 80);
     steady.max_steps = 0;
     ss_steady_opts_init(&steady, offsetof(ss_steady_opts, max_steps));
     assert_true(steady.size == offsetof(ss_steady_opts, max_steps) && steady.max_steps == 0);
@@ -733,14 +731,10 @@ plots_refuse_null(void **state)
     assert_refused(ss_plot_trade(NULL, &trade, &opts, &e), &e);
     assert_refused(ss_plot_trade(out, NULL, &opts, &e), &e);
     assert_int_equal(ss_plot_trade(out, &trade, &none, &e), SS_EINVAL);
-    assert_refused(ss_plot_map(NULL, &table, y, 2, &opts, &e), &e);
-    assert_refused(ss_plot_map(out, NULL, y, 2, &opts, &e), &e);
-    assert_refused(ss_plot_map(out, &table, NULL, 2, &opts, &e), &e);
-    assert_int_equal(ss_plot_map(out, &table, y, 2, &none, &e), SS_EINVAL);
-    assert_refused(ss_plot_diagram(NULL, &table, y, 2, &opts, &e), &e);
-    assert_refused(ss_plot_diagram(out, NULL, y, 2, &opts, &e), &e);
-    assert_refused(ss_plot_diagram(out, &table, NULL, 2, &opts, &e), &e);
-    assert_int_equal(ss_plot_diagram(out, &table, y, 2, &none, &e), SS_EINVAL);
+    assert_refused(ss_plot_sweep(NULL, &table, y, 2, &opts, &e), &e);
+    assert_refused(ss_plot_sweep(out, NULL, y, 2, &opts, &e), &e);
+    assert_refused(ss_plot_sweep(out, &table, NULL, 2, &opts, &e), &e);
+    assert_int_equal(ss_plot_sweep(out, &table, y, 2, &none, &e), SS_EINVAL);
     assert_int_equal(ftell(out), 0);
     assert_non_null(ss_store_calls(&e));
     fclose(out);

@@ -330,7 +330,7 @@ sweeps_keep_long_names(void **state)
         fail_msg("%.300s", err.text);
     assert_string_equal(ss_table_note(table, "scene"), longest);
     assert_string_equal(table->column[1].name, longest);
-    assert_int_equal(ss_plot_map(out, table, (const size_t[]){ 1, 2, 3 }, 3, NULL, &err), SS_OK);
+    assert_int_equal(ss_plot_sweep(out, table, (const size_t[]){ 1, 2, 3 }, 3, NULL, &err), SS_OK);
     ss_table_free(table);
     fclose(in);
     fclose(out);

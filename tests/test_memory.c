@@ -821,7 +821,7 @@ plots(int variant)
         ss_reader_free(reader);
         return st;
     case 2: return ss_plot_contour(scrap, coefficients, &contour, NULL, &err);
-    case 3: return ss_plot_map(scrap, sweep, (const size_t[]){ 1, 2, 3, 4 }, 4, NULL, &err);
+    case 3: return ss_plot_sweep(scrap, sweep, (const size_t[]){ 1, 2, 3, 4 }, 4, NULL, &err);
     case 5: contour.fill = contour.ridge = 1;
             return ss_plot_contour(scrap, coefficients, &contour, NULL, &err);
     }

@@ -136,19 +136,10 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
     if (in != stdin)
         fclose(in);
     size_t n = find_columns(table, path, names, column, COLUMNS);
-    const char *vary = ss_table_note(table, "vary");
-    int diagram = vary != NULL;                 /* was the same single parameter varied in every part of the table? */
-    for (size_t i = 0; diagram && i < table->n_notes; i++)
-        diagram = strncmp(table->note[i], "vary: ", 6) != 0 || strcmp(table->note[i] + 6, vary) == 0;
-    if (n < 2 || (!diagram && (n < 3 || n > 4)))
-        tool_usage("--map: '%s' is not %s", names, diagram ? "X,Y[,Y...]: one key was varied"
-                   : "X,Y,Z or X,Y,Z,Z: two keys were varied");
-    if (diagram && line != NULL)
-        tool_usage("--line needs a map over two keys");
     opts->curve = curve;
     tool_note("%s: %zu point%s", tool_input_name(path), table->n, tool_s(table->n));
     FILE *out = tool_draw(output, opts);
-    tool_drawn(out, (diagram ? ss_plot_diagram : ss_plot_map)(out, table, column, n, opts, &tool_error));
+    tool_drawn(out, ss_plot_sweep(out, table, column, n, opts, &tool_error));
     ss_table_free(table);
     free(curve);
 }

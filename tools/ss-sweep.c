@@ -43,15 +43,6 @@ typedef struct request {
 } request;
 
 static void
-pick_measure(request *req, ss_measure m)
-{
-    if (req->steady.measures & 1u << m)
-        tool_usage("--measure: '%s' is repeated", ss_measure_label(m)->name);
-    req->steady.measures |= 1u << m;
-    req->pick[req->n_picks++] = m;
-}
-
-static void
 set_measures(const tool_option *o, char *names)
 {
     request *req = o->to;
@@ -63,7 +54,11 @@ set_measures(const tool_option *o, char *names)
     for (char *comma; names != NULL; names = comma) {
         if ((comma = strchr(names, ',')) != NULL)
             *comma++ = '\0';
-        pick_measure(req, (ss_measure)tool_choice("--measure", names, known));
+        ss_measure m = (ss_measure)tool_choice("--measure", names, known);
+        if (req->steady.measures & 1u << m)
+            tool_usage("--measure: '%s' is repeated", known[m]);
+        req->steady.measures |= 1u << m;
+        req->pick[req->n_picks++] = m;
     }
 }
 
@@ -165,8 +160,6 @@ read_scene(const request *req)
 int
 main(int argc, char *argv[])
 {
-    static const ss_measure usual[] = { SS_STOPS, SS_STICK_FRACTION, SS_AMPLITUDE, SS_V_MAX,
-                                        SS_A_MAX, SS_ENERGY, SS_PERIOD };
     static request req = { .kind = TOOL_TSV };
     ss_steady_opts_init(&req.steady, sizeof req.steady);
     ss_sweep_opts_init(&req.opts, sizeof req.opts);
@@ -176,13 +169,6 @@ main(int argc, char *argv[])
     tool_begin(argv, "ss-sweep", usage);
     parse(&req, argc, argv);
     ss_scene scene = read_scene(&req);
-    for (size_t i = 0, given = req.n_picks; given == 0 && i < sizeof usual / sizeof *usual; i++) {
-        ss_steady_opts has;
-        ss_steady_opts_init(&has, sizeof has);
-        has.measures = 1u << usual[i];
-        if (ss_steady_check(&has, &scene, NULL) == SS_OK)       /* the model has it */
-            pick_measure(&req, usual[i]);
-    }
     req.opts.axis = req.axis;
     if (ss_sweep_check(&scene, &req.opts, &tool_error) != SS_OK)
         tool_usage("%s", tool_error.text);

@@ -156,13 +156,10 @@ static void
 compare_models(request *req, tool_kind kind, ss_plot_opts *plot)
 {
     ss_models *models = NULL;
-    ss_models_opts opts;
-    ss_models_opts_init(&opts, sizeof opts);
     ss_scene scene = tool_read_scene(req->path, &req->settings, "--set");
     req->name = tool_name_scene(req->path, &req->settings);
     plot->title = strcmp(req->name, tool_input_name("-")) == 0 ? NULL : req->name;
-    opts.progress = (ss_progress){ tool_progress, req };
-    tool_check(ss_models_measure(&models, &scene, &opts, &tool_error));
+    tool_check(ss_models_measure(&models, &scene, &req->opts, &tool_error));
     tool_note("%zu scene%s, samples of each that are compared: %zu", models->n, tool_s(models->n),
               models->samples);
     if (kind < TOOL_STREAM) {

@@ -45,7 +45,7 @@ typedef struct ss_plot_opts {
     const ss_overlay *features; /* ss_plot_signal shades its transitions in every panel; NULL: none */
     double resolution;          /* [Hz] of spectra, as for ss_spectrum_new; 0: that of seven segments */
     int decibels;               /* 1: spectra are in dB re 1 unit^2/Hz; a density of 0 is then "-" in text */
-    const double *curve;        /* ss_plot_map draws this line: x, y, x, y, ..., NaN where it breaks; NULL: none */
+    const double *curve;        /* a map of ss_plot_sweep has this line: x, y, x, y, ..., NaN where it breaks; NULL: none */
     size_t n_curve;             /* its points */
 } ss_plot_opts;
 /* All that may be NULL is, times are NaN, the style is SS_PAPER.  Where a function takes options, NULL stands
@@ -148,16 +148,17 @@ ss_status ss_plot_steps(FILE *out, const ss_steps *steps, const ss_plot_opts *op
 ss_status ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size_t force,
                          const ss_motion_ranking *ranking, const ss_plot_opts *opts, ss_error *err);
 
-/* Draw a map of a sweep over two parameters: columns 0 and 1 of these make a grid, and the other one or two
- * are drawn over it.  A column with at most ten different values is drawn as regions, any other as lines of
- * equal value.  "-" is no value, and "aperiodic" a period of 0.  SS_EDATA: a drawn column has another word. */
-ss_status ss_plot_map(FILE *out, const ss_table *table, const size_t column[], size_t n,
-                      const ss_plot_opts *opts, ss_error *err);
-
-/* Draw a sweep over one parameter: columns 1 to n - 1 of these over column 0, one panel each.  They are
- * points if rows of the same x differ (a bifurcation diagram), else a line.  Words are as in ss_plot_map. */
-ss_status ss_plot_diagram(FILE *out, const ss_table *table, const size_t column[], size_t n,
-                          const ss_plot_opts *opts, ss_error *err);
+/* Draw n columns of a sweep, whose notes say whether one parameter was varied or two.
+ *
+ * Two: columns 0 and 1 of these make a grid, and the other one or two are drawn over it.  A column with at most ten
+ * different values is drawn as regions, any other as lines of equal value.
+ * One: columns 1 to n - 1, at most seven, over column 0, one panel each.  They are points if rows of the same x differ
+ * (a bifurcation diagram), else a line.
+ *
+ * "-" is no value, and "aperiodic" a period of 0.  SS_EDATA: a drawn column has another word; SS_EINVAL: these columns
+ * cannot be drawn. */
+ss_status ss_plot_sweep(FILE *out, const ss_table *table, const size_t column[], size_t n, const ss_plot_opts *opts,
+                        ss_error *err);
 
 /* Draw a free decay: its amplitude [dB] and blocks over time, and its frequency and damping ratio over amplitude,
  * with errors; what is known by the mechanism's name dashed.  SS_EINVAL: there are no rows. */

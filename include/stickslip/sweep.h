@@ -127,8 +127,6 @@ typedef struct ss_steady {
  * are no cycles.  With any other error, which is one of ss_sim_run, no measure is known. */
 ss_status ss_steady_find(ss_steady *steady, const ss_scene *scene, const ss_steady_opts *opts,
                          ss_error *err);
-/* SS_EINVAL if this is impossible for the scene: it lacks a measure, or an option is out of its range. */
-ss_status ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err);
 
 /* --- a grid ----------------------------------------------------------------------------------- */
 
@@ -185,8 +183,9 @@ ss_status ss_sweep_run(const ss_scene *scene, const ss_sweep_opts *opts, ss_erro
 typedef struct ss_sweep_text {
     const char *name;           /* of the scene */
     const ss_scene *scene;
-    const ss_sweep_opts *opts;  /* those of ss_sweep_run */
-    const ss_measure *measure;  /* the measures that have a column, in this order */
+    const ss_sweep_opts *opts;  /* those of ss_sweep_run; the measures of columns are added to theirs */
+    const ss_measure *measure;  /* the measures that have a column, in this order; n_measures 0: of stops, stick,
+                                   amplitude, v_max, a_max, energy and period those that the model has */
     size_t n_measures;
     ss_format format;           /* one that holds words */
 } ss_sweep_text;

@@ -43,10 +43,13 @@ typedef struct ss_trade_opts {
                                    times as long, else SS_EBUDGET */
     double target;              /* > 0: an error; rows slower than twice the fastest row that reaches it
                                    are given up; 0: none is */
+    double span;                /* [dB] > 0: the maps of ss_models_measure show |W| from this far below the largest
+                                   on */
+    int threads;                /* of its transforms, 1 ... SS_THREADS_MAX */
     ss_progress progress;
 } ss_trade_opts;
 extern const ss_range ss_trade_accuracies;          /* the accuracies that ss_trade_choose can keep */
-/* 10 s, no target.  size: sizeof (ss_trade_opts). */
+/* 10 s, no target, 80 dB, one thread.  size: sizeof (ss_trade_opts). */
 void ss_trade_opts_init(ss_trade_opts *opts, size_t size);
 
 /* Run the scene with every method at the tolerances 1e-2, 1e-3, ... 1e-13, on this machine.  A
@@ -122,22 +125,13 @@ typedef struct ss_models {
     ss_models_row *row;
 } ss_models;
 
-typedef struct ss_models_opts {
-    size_t size;                /* set by ss_models_opts_init */
-    double span;                /* [dB] > 0: the maps show |W| from this far below the largest on */
-    int threads;                /* of the transforms, 1 ... SS_THREADS_MAX */
-    ss_progress progress;
-} ss_models_opts;
-/* 80 dB, one thread.  size: sizeof (ss_models_opts). */
-void ss_models_opts_init(ss_models_opts *opts, size_t size);
-
 /* Compare a scene with each simpler scene that it contains (ss_scene_simpler), and with its own
  * periodic state at the same phase (ss_steady_find).  Each is run in closed form if it has one,
  * else by ss_sim_method_for at 1e-12, and transformed with the default options.  A simpler scene
  * that cannot be run has a row with the reason.  A record without usable scales has no map.  Times
  * are measured as by ss_trade_measure.  opts may be NULL.  The caller frees *out with
  * ss_models_free.  SS_STOP; other errors are those of ss_sim_run. */
-ss_status ss_models_measure(ss_models **out, const ss_scene *scene, const ss_models_opts *opts,
+ss_status ss_models_measure(ss_models **out, const ss_scene *scene, const ss_trade_opts *opts,
                             ss_error *err);
 void ss_models_free(ss_models *models);             /* NULL is allowed */
 

@@ -59,19 +59,15 @@ ss_status
 ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, const ss_plot_opts *opts,
                 ss_error *err)
 {
-    ss_plot_opts own;
     script_stack stack;
     map_label label;
-    if (out == NULL || t == NULL || drawn == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status st = ss_script_take(&own, opts, err);
-    if (st != SS_OK)
-        return st;
     if (n < 2 || n > COLUMNS_MAX)
-        return ss_fail(err, SS_EINVAL, "a diagram shows 1 ... %d columns", COLUMNS_MAX - 1);
+        return ss_fail(err, SS_EINVAL, "one key was varied, so X,Y[,Y...] are drawn, at most %d columns", COLUMNS_MAX);
+    if (opts->curve != NULL)
+        return ss_fail(err, SS_EINVAL, "a line needs a map over two keys, and one was varied");
     map_column column[COLUMNS_MAX];
     map_axis x = { .n = 0 };
-    st = ss_map_read_columns(column, n, t, drawn, err);
+    ss_status st = ss_map_read_columns(column, n, t, drawn, err);
     if (st == SS_OK)
         st = ss_map_make_axis(&x, &column[0], t->n, err);
     for (size_t i = 1; st == SS_OK && i < n; i++) {
@@ -79,7 +75,7 @@ ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, co
         if (!(e.lo <= e.hi))
             st = ss_fail(err, SS_EINVAL, "%s has no value to draw", column[i].label->name);
     }
-    own = ss_map_titled(&own, t);
+    const ss_plot_opts own = ss_map_titled(opts, t);
     if (st == SS_OK)
         st = ss_script_begin_stack(&stack, out, &own, NULL, FIRST + (double)(n - 2) * (GAP + NEXT) + KEY, err);
     if (st == SS_OK) {

@@ -231,20 +231,13 @@ write_map(FILE *out, const drawn *d, const ss_plot_opts *opts, ss_error *err)
     return ss_script_end(out);
 }
 
-ss_status
-ss_plot_map(FILE *out, const ss_table *t, const size_t column[], size_t n, const ss_plot_opts *opts,
-            ss_error *err)
+static ss_status
+draw_map(FILE *out, const ss_table *t, const size_t column[], size_t n, const ss_plot_opts *opts, ss_error *err)
 {
-    ss_plot_opts own;
     drawn d = { .n = n };
-    if (out == NULL || t == NULL || column == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status st = ss_script_take(&own, opts, err);
-    if (st != SS_OK)
-        return st;
     if (n < 3 || n > COLUMNS_MAX)
-        return ss_fail(err, SS_EINVAL, "a map shows one column or two");
-    st = ss_map_read_columns(d.column, n, t, column, err);
+        return ss_fail(err, SS_EINVAL, "two keys were varied, so X,Y,Z or X,Y,Z,Z are drawn");
+    ss_status st = ss_map_read_columns(d.column, n, t, column, err);
     size_t stick = (size_t)ss_table_column(t, ss_measure_label(SS_STICK_FRACTION)->name);
     size_t amplitude = (size_t)ss_table_column(t, ss_measure_label(SS_AMPLITUDE)->name);
     for (size_t c = 2; st == SS_OK && c < n; c++)
@@ -256,10 +249,34 @@ ss_plot_map(FILE *out, const ss_table *t, const size_t column[], size_t n, const
         st = ss_map_make_grid(&d.g, d.column, n, t->n, err);
     if (st == SS_OK)
         st = choose_forms(&d, err);
-    own = ss_map_titled(&own, t);
+    const ss_plot_opts own = ss_map_titled(opts, t);
     if (st == SS_OK)
         st = write_map(out, &d, &own, err);
     ss_map_free_columns(d.column, n);
     ss_map_free_grid(&d.g);
     return st;
+}
+
+/* Was the same single parameter varied in every part of the table? */
+static int
+varies_one(const ss_table *t)
+{
+    const char *vary = ss_table_note(t, "vary");
+    int one = vary != NULL;
+    for (size_t i = 0; one && i < t->n_notes; i++)
+        one = strncmp(t->note[i], "vary: ", 6) != 0 || strcmp(t->note[i] + 6, vary) == 0;
+    return one;
+}
+
+ss_status
+ss_plot_sweep(FILE *out, const ss_table *table, const size_t column[], size_t n, const ss_plot_opts *opts,
+              ss_error *err)
+{
+    ss_plot_opts own;
+    if (out == NULL || table == NULL || column == NULL)
+        return SS_FAIL_NULL(err);
+    ss_status st = ss_script_take(&own, opts, err);
+    if (st != SS_OK)
+        return st;
+    return (varies_one(table) ? ss_plot_diagram : draw_map)(out, table, column, n, &own, err);
 }

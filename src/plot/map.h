@@ -63,4 +63,10 @@ void ss_map_write_axis(FILE *out, char name, const map_axis *a);
 /* Write $line and $label: lines of equal height on the grid, and their labels. */
 ss_status ss_map_write_lines(FILE *out, const map_grid *g, const double *height, ss_error *err);
 
+/* --- diagram.c ------------------------------------------------------------------------------ */
+
+/* Draw a sweep over one parameter, as ss_plot_sweep does; opts are complete. */
+ss_status ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, const ss_plot_opts *opts,
+                          ss_error *err);
+
 #endif

@@ -96,7 +96,7 @@ draw_map(FILE *out, const material *m, const ss_plot_opts *opts, ss_error *err)
     }
     const ss_table table = { .n_notes = 1, .note = notes, .n_columns = 4, .column = column, .n = POINTS,
                              .cell = cell };
-    return ss_plot_map(out, &table, (const size_t[]){ 0, 1, 2, 3 }, 4, opts, err);
+    return ss_plot_sweep(out, &table, (const size_t[]){ 0, 1, 2, 3 }, 4, opts, err);
 }
 
 static ss_status

@@ -44,7 +44,7 @@ draw(const ss_table *t)
     const size_t column[] = { n - 4, n - 3, n - 2, n - 1 };
     FILE *out = open_memstream(&text, &length);
     fuzz_check(out != NULL, "memory for a stream");
-    ss_status status = ss_plot_map(out, t, column, 4, NULL, &err);
+    ss_status status = ss_plot_sweep(out, t, column, 4, NULL, &err);
     if (status != SS_OK)
         fuzz_check_refusal(status == SS_EINVAL ? SS_EDATA : status, &err);
     fclose(out);

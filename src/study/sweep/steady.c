@@ -6,6 +6,7 @@
 #include "base/range.h"
 #include "motion/method.h"
 #include "study/curve.h"
+#include "study/sweep/grid.h"
 #include "study/sweep/cycles.h"
 
 const ss_range ss_steady_tolerances = { 1e-13, 0.1 };

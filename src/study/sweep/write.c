@@ -73,6 +73,7 @@ write_row(struct rows *rows, const ss_sweep_text *sweep, const ss_sweep_row *row
 
 typedef struct writing {
     ss_sweep_text text;         /* with options as the library takes them */
+    ss_measure measure[SS_MEASURES];    /* of the text, if it names none */
     ss_sweep_opts opts;
     ss_steady_opts steady;
     FILE *out;
@@ -81,6 +82,22 @@ typedef struct writing {
     ss_status status;
     ss_error *err;
 } writing;
+
+/* Choose the measures of a text that names none: of the usual ones those that the model has. */
+static void
+take_usual(writing *own)
+{
+    static const ss_measure usual[] = { SS_STOPS, SS_STICK_FRACTION, SS_AMPLITUDE, SS_V_MAX, SS_A_MAX, SS_ENERGY,
+                                        SS_PERIOD };
+    ss_steady_opts has;
+    ss_steady_opts_init(&has, sizeof has);
+    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++) {
+        has.measures = 1u << usual[i];
+        if (ss_steady_check(&has, own->text.scene, NULL) == SS_OK)
+            own->measure[own->text.n_measures++] = usual[i];
+    }
+    own->text.measure = own->measure;
+}
 
 /* SS_EINVAL: something is missing. */
 static ss_status
@@ -92,9 +109,13 @@ take(writing *own, const ss_sweep_text *given, ss_error *err)
     own->text = *given;
     own->text.opts = &own->opts;
     ss_status st = ss_sweep_opts_take(&own->opts, &own->steady, given->opts, err);
-    for (size_t i = 0; st == SS_OK && i < given->n_measures; i++)
-        if ((unsigned)given->measure[i] >= SS_MEASURES)
-            st = ss_fail(err, SS_EINVAL, "no measure %d", given->measure[i]);
+    if (given->n_measures == 0)
+        take_usual(own);
+    for (size_t i = 0; st == SS_OK && i < own->text.n_measures; i++)
+        if ((unsigned)own->text.measure[i] >= SS_MEASURES)
+            st = ss_fail(err, SS_EINVAL, "no measure %d", own->text.measure[i]);
+        else
+            own->steady.measures |= 1u << own->text.measure[i];
     for (size_t i = 0; st == SS_OK && i < own->opts.n_axes; i++)
         if (ss_scene_unit(given->scene, own->opts.axis[i].key) == NULL)
             st = ss_fail(err, SS_EINVAL, "the scene has no number '%s'", own->opts.axis[i].key);

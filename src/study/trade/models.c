@@ -8,16 +8,12 @@
 #include <stdlib.h>
 #include <stickslip/features.h>
 #include <stickslip/sweep.h>
-#include "base/options.h"
+#include "base/error.h"
 #include "find/numbers.h"
 #include "map/map.h"
 #include "motion/method.h"
 #include "study/curve.h"
 #include "study/trade/trade.h"
-
-static const ss_models_opts usual = { .size = sizeof usual, .span = 80, .threads = 1 };
-
-SS_OPTIONS(ss_models_opts, usual)
 
 /* --- what is compared ---------------------------------------------------------------------- */
 
@@ -127,7 +123,7 @@ simulate(const ss_scene *scene, portrait *p, double *seconds, ss_error *err)
 
 /* Simulate a scene, transform its record and find its features.  A record may have no usable scale. */
 static ss_status
-portray(portrait *p, const ss_scene *scene, const ss_models_opts *how, double *seconds, ss_error *err)
+portray(portrait *p, const ss_scene *scene, const ss_trade_opts *how, double *seconds, ss_error *err)
 {
     const ss_sim_columns columns = { 1, COLUMNS, { 0, 1, 2, 3 } };
     ss_header *head = NULL;
@@ -194,7 +190,7 @@ difference(size_t a, size_t b)
 
 static void
 compare(ss_models_row *row, const portrait *p, const portrait *ref, const ss_scene *scene,
-        const ss_models_opts *how)
+        const ss_trade_opts *how)
 {
     double *error = row->error;
     size_t n = ref->signal->n;
@@ -267,7 +263,7 @@ make_rows(ss_models *models, const ss_scene *scene, const portrait *ref)
 
 typedef struct comparison {
     ss_models *models;
-    const ss_models_opts *how;
+    const ss_trade_opts *how;
     portrait ref;               /* that of row 0 */
     double seconds;             /* that it took */
 } comparison;
@@ -301,7 +297,7 @@ run_row(size_t i, int again, double done, double *seconds, void *user)
 }
 
 static ss_status
-measure_rows(ss_models *models, const ss_scene *scene, const ss_models_opts *how, ss_error *err)
+measure_rows(ss_models *models, const ss_scene *scene, const ss_trade_opts *how, ss_error *err)
 {
     comparison c = { .models = models, .how = how };
     double *seconds = NULL;
@@ -319,14 +315,12 @@ measure_rows(ss_models *models, const ss_scene *scene, const ss_models_opts *how
 }
 
 ss_status
-ss_models_measure(ss_models **out, const ss_scene *scene, const ss_models_opts *given, ss_error *err)
+ss_models_measure(ss_models **out, const ss_scene *scene, const ss_trade_opts *given, ss_error *err)
 {
-    ss_models_opts opts;
+    ss_trade_opts opts;
     if (out == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
-    ss_status st = ss_options_take(&opts, sizeof opts, &usual, given, err);
-    if (st == SS_OK && !(opts.span > 0))
-        return ss_fail(err, SS_EINVAL, "a span is more than 0 dB");
+    ss_status st = ss_trade_opts_take(&opts, given, err);
     if (st == SS_OK)
         st = ss_record_check(scene, err);
     if (st == SS_OK && ss_scene_samples(scene) == 0)

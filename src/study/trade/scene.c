@@ -16,7 +16,7 @@ enum { REPEATS = 5 };               /* short rows are measured so many times */
  * machine, limits its runs by right-hand sides only. */
 #define REFERENCE_BUDGET 100
 
-static const ss_trade_opts usual = { .size = sizeof usual, .budget = 10 };
+static const ss_trade_opts usual = { .size = sizeof usual, .budget = 10, .span = 80, .threads = 1 };
 
 SS_OPTIONS(ss_trade_opts, usual)
 
@@ -24,7 +24,9 @@ ss_status
 ss_trade_opts_take(ss_trade_opts *own, const ss_trade_opts *given, ss_error *err)
 {
     ss_status st = ss_options_take(own, sizeof *own, &usual, given, err);
-    return st != SS_OK || own->budget > 0 ? st : ss_fail(err, SS_EINVAL, "a budget is more than 0 s");
+    if (st == SS_OK && !(own->budget > 0))
+        return ss_fail(err, SS_EINVAL, "a budget is more than 0 s");
+    return st != SS_OK || own->span > 0 ? st : ss_fail(err, SS_EINVAL, "a span is more than 0 dB");
 }
 
 typedef struct measurement {
