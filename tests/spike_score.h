@@ -142,7 +142,7 @@ score_add(score *sc, const score_scene *s, const ss_spikes *found)
         if (s->event[e].kind != SS_SLIP || slip > 0 || isnan(onset))
             continue;
         sc->transitions++;
-        sc->grouped += ss_spikes_within(found, onset, s->event[e].t, 60).inside > 0;
+        sc->grouped += ss_spikes_within(found, onset, s->event[e].t, 60) > 2;
     }
 }
 

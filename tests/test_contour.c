@@ -7,12 +7,11 @@
 #include <stickslip.h>
 #include "map/map.h"
 #include "plot/contour.h"
-#include "signal/wave.h"
 #include "contour_script.h"
 #include "shipped.h"
 #include "unit.h"
-#include "signal/noise.h"
 #include "signal/header.h"
+#include "signal/noise.h"
 
 static const char *const scene[] = { "coulomb", "state-variable", "compliant-heavy", "compliant-light" };
 

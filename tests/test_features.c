@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stickslip.h>
 #include "find/maxima.h"
-#include "find/quantity.h"
 #include "map/map.h"
+#include "signal/header.h"
 
 #include "new_signal.h"
 

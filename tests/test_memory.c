@@ -29,13 +29,12 @@
 #include "find/drops.h"
 #include "find/events.h"
 #include "find/maxima.h"
-#include "signal/wave.h"
 #include "store_samples.h"
 #include "unit.h"
 #include "read_opts.h"
-#include "signal/noise.h"
-#include "signal/header.h"
 #include "scene/scene.h"
+#include "signal/header.h"
+#include "signal/noise.h"
 #include "morlet_point.h"
 
 /* --- the allocator ------------------------------------------------------------------------- */

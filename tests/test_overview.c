@@ -6,7 +6,7 @@
 #include <stickslip.h>
 #include "map/map.h"
 
-#include "signal/wave.h"
+#include "signal/noise.h"
 #include "unit.h"
 #include "signal/header.h"
 

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include "signal/wave.h"
+#include "signal/noise.h"
 #include "signal_text.h"
 #include "read_opts.h"
 #include "signal/gaps.h"

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <unistd.h>
-#include "signal/wave.h"
+#include "signal/noise.h"
 #include "signal_text.h"
 
 /* --- our own forms ---------------------------------------------------------------------- */

@@ -4,17 +4,16 @@
 #include <float.h>
 #include <math.h>
 #include <stickslip.h>
+#include "find/cycles.h"
 #include "find/drops.h"
 #include "find/fitter.h"
-#include "find/hum.h"
-#include "find/line.h"
-#include "find/rests.h"
+#include "find/window.h"
 #include "spike_score.h"
 #include "uniform.h"
 #include "unit.h"
+#include "find/events.h"
 #include "signal/gaps.h"
 #include "signal/noise.h"
-#include "find/events.h"
 
 #define RATE 2000.
 
@@ -170,7 +169,7 @@ coulomb_friction_makes_one_spike_a_transition(void **state)
     }
     assert_int_equal(strong, 16);
     for (size_t e = 0; e + 1 < s.n_events; e += 2)
-        assert_int_equal(ss_spikes_within(found, s.event[e].t, s.event[e + 1].t, 30).n, 1);
+        assert_int_equal(ss_spikes_within(found, s.event[e].t, s.event[e + 1].t, 30), 1);
     ss_spikes_free(found);
     ss_signal_free(s.signal);
 }
@@ -515,7 +514,7 @@ an_offset_takes_no_digits_of_a_slope(void **state)
     (void)state;
     for (int i = 0; i < 64; i++)
         y[i] = 0x1p30 + i * 0x1p-20;
-    line l = ss_line_through(y, NULL, (ss_window){ 0, 64 });
+    ss_line l = ss_line_through(y, NULL, (ss_window){ 0, 64 });
     assert_true(fabs(l.slope * 0x1p20 - 1) < 1e-9);
 }
 

@@ -6,7 +6,6 @@
 #include <stickslip.h>
 #include "map/map.h"
 
-#include "signal/wave.h"
 #include "unit.h"
 #include "signal/noise.h"
 

@@ -1,7 +1,6 @@
 /* test_waves.c -- benchmark signals, noise and the digits of a converter. */
 #include <float.h>
 #include <math.h>
-#include "signal/wave.h"
 #include "signal_text.h"
 #include "signal/noise.h"
 

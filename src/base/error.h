@@ -27,6 +27,14 @@ ss_status ss_fail_errno(ss_error *err, const char *name, int number);
 /* SS_ENOMEM of a call that reads or writes a file, or of one that does not (name NULL). */
 ss_status ss_fail_memory(ss_error *err, const char *name);
 
+/* SS_EINVAL: a number lies outside the range that a public header gives it. */
+static inline ss_status
+ss_range_check(double x, ss_range range, const char *name, ss_error *err)
+{
+    return x >= range.from && x <= range.to ? SS_OK
+        : ss_fail(err, SS_EINVAL, "%s %g is out of range %g ... %g", name, x, range.from, range.to);
+}
+
 /* The first line of text of a kind; NULL: it has none. */
 const char *ss_kind_magic(ss_kind kind);
 /* SS_EKIND, with both kinds, for a file whose first n bytes show a known kind other than the wanted

@@ -1,4 +1,4 @@
-/* list.h -- a list that grows, and a search in a list that is sorted by time. */
+/* list.h -- lists that grow, are sorted and searched by time; room for rows, column by column. */
 #ifndef LIST_H
 #define LIST_H
 
@@ -42,6 +42,26 @@ ss_list_from(const void *list, size_t n, size_t size, double t)
             hi = mid;
     }
     return lo;
+}
+
+/* Ascending, by the double that an element is or begins with; without NaN. */
+static inline int
+ss_ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Room for so many rows of n columns, to be freed by one free(); NULL: no memory. */
+static inline double **
+ss_columns_new(size_t n, size_t rows)
+{
+    if (rows > SIZE_MAX / sizeof(double) / (n + 1) - 1)
+        return NULL;
+    double **column = malloc(n * sizeof *column + (n * rows + 1) * sizeof **column);
+    for (size_t c = 0; column != NULL && c < n; c++)
+        column[c] = (double *)(column + n) + c * rows;
+    return column;
 }
 
 #endif

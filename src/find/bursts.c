@@ -11,10 +11,9 @@
  * oscillation crosses the line more often.) */
 #include <math.h>
 #include <stdlib.h>
-#include "base/sort.h"
+#include "base/list.h"
 #include "find/events.h"
 #include "find/judgement.h"
-#include "find/line.h"
 
 #define LONGEST 20.0            /* fewest scales in the record: some of them must be quiet */
 #define AWAY 4.0                /* periods: a wavelet's reach, and the fewest periods of quiet for a line */
@@ -71,7 +70,7 @@ last_of(const double *x, size_t at, size_t end, double period)
     double height = 0;
     if (n < 2 * away + 4)
         return at;
-    line quiet = ss_line_through(x, NULL, end > at ? (ss_window){ at + away + 1, end + 1 }
+    ss_line quiet = ss_line_through(x, NULL, end > at ? (ss_window){ at + away + 1, end + 1 }
                                                    : (ss_window){ end, at - away });
     for (size_t k = 0; k <= away; k++)
         height = fmax(height, fabs(ss_line_off(&quiet, x, end > at ? at + k : at - k)));

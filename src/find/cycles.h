@@ -1,4 +1,4 @@
-/* cycles.h -- whether a signal repeats itself from cycle to cycle, and how regularly. */
+/* cycles.h -- whether a signal repeats itself from cycle to cycle, and how regularly; what hums beside it. */
 #ifndef CYCLES_H
 #define CYCLES_H
 
@@ -34,5 +34,17 @@ ss_status ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out
 /* The time after which n samples repeat themselves, in samples, with its standard error; NaN: nothing repeats
  * twice. */
 ss_status ss_period_find(const double *x, size_t n, ss_value *period);
+
+/* --- hum.c -------------------------------------------------------------------------------------- */
+
+typedef enum ss_hum {
+    SS_HUM_NONE, SS_HUM_SUBTRACTED,
+    SS_HUM_HIDDEN               /* there is one, but too near a harmonic of the cycle */
+} ss_hum;
+
+/* Subtract from the n samples of x the steady lines between half and one and a half times the frequency f
+ * [per sample] that do not repeat with the period [samples].  None is sought in fewer than six periods.
+ * None is subtracted from a part in which one is hidden. */
+ss_status ss_hum_subtract(double *x, size_t n, double f, double period, ss_hum *found);
 
 #endif

@@ -1,6 +1,6 @@
-/* events.h -- find the spikes of a signal, and the single events of one that is quiet elsewhere.
+/* events.h -- find the spikes of a signal, the single events of one that is quiet elsewhere, and rests.
  *
- * Both are maxima of |W| along single scales (scale_rows.h).  Nothing is found near the source's gaps. */
+ * The first two are maxima of |W| along single scales (scale_rows.h).  Nothing is found near the source's gaps. */
 #ifndef EVENTS_H
 #define EVENTS_H
 
@@ -15,26 +15,14 @@ is_event(const ss_spike *spike)
     return spike->kind == SS_SPIKE_JUMP || spike->kind == SS_SPIKE_KINK;
 }
 
-/* The time, in samples, at which x is best explained by two cubics that meet there, in the samples
- * [first, last]; at is where it is thought to be, and reach how far it may be from there.  The
- * cubics may differ in value (a jump) where that explains so much more that it is worth its
- * parameter.  At least BREAKPOINT_SIDE samples on either side are needed, else at is the answer. */
-enum { BREAKPOINT_DEGREE = 3, BREAKPOINT_SIDE = BREAKPOINT_DEGREE + 2 };
-double ss_breakpoint(const double *x, size_t first, size_t last, double at, double reach);
-
 /* Find all spikes of a source, whose memory is freed.  n = 0 if no |W| exceeds the noise. */
 ss_status ss_spikes_find(ss_spikes **out, row_source *source);
 void ss_spikes_free(ss_spikes *found);          /* NULL is allowed */
 
-/* The spikes of a transition. */
-typedef struct ss_spike_group {
-    size_t n;                   /* spikes from onset to end, these two included */
-    size_t inside;              /* spikes between them; > 0: the transition is grouped */
-} ss_spike_group;
 /* Count the spikes of a transition that begins at onset and ends, with its last release, at end,
  * both in seconds from the first sample.  Jumps and kinks count that are at most range dB below
  * the strongest.  A spike nearer to onset or end than its scale is that of onset or end. */
-ss_spike_group ss_spikes_within(const ss_spikes *found, double onset, double end, double range);
+size_t ss_spikes_within(const ss_spikes *found, double onset, double end, double range);
 
 typedef struct ss_bursts {
     size_t n;
@@ -53,6 +41,17 @@ ss_status ss_bursts_find(ss_bursts *out, row_source *source, double range);
  * that are off a line through the quiet samples before and behind the event.  Both become `at` if too few
  * samples are quiet.  period: of the oscillation that shows the event best, in samples. */
 ss_window ss_extent(const double *x, ss_window win, size_t at, double period);
+
+typedef struct ss_rests {
+    size_t n;
+    ss_window *rest;            /* in time order; to be freed */
+    int is_doubtful;            /* 1: others may be rests, too, or some of these none */
+    int is_end_of_range;        /* 1: no sample lies beyond the level, on one side, and it is not 0 */
+    double level, band;         /* the samples of a rest are within the band about the level */
+} ss_rests;
+
+/* Find the rests of n samples x.  n = 0: it does not rest. */
+ss_status ss_rests_find(const double *x, size_t n, ss_rests *out);
 
 const char *ss_spike_kind_name(ss_spike_kind kind);     /* "glitch", "jump", "kink", "bend" */
 

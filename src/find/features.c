@@ -12,11 +12,9 @@
 #include "base/progress.h"
 #include "find/maxima.h"
 #include "find/numbers.h"
-#include "find/hum.h"
-#include "find/search.h"
 #include "map/map.h"
-#include "signal/header.h"
 #include "signal/gaps.h"
+#include "signal/header.h"
 
 static const ss_features_opts defaults = { .threshold = 80. / 18, .displacement = -1, .force = -1,
                                            .threads = 1 };

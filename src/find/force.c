@@ -16,7 +16,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "find/drops.h"
 #include "find/medians.h"
 #include "signal/gaps.h"
 

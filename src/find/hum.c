@@ -10,14 +10,14 @@
  * The band about the frequency is first shifted to zero and thinned, so that a bin costs little.  The
  * error of the period, over all m periods, must be a small part of an oscillation; so the period is
  * taken from the harmonics themselves.  Long records are treated in parts, because a hum may drift. */
-#include "find/hum.h"
+#include "find/cycles.h"
 
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/fft.h"
-#include "base/sort.h"
+#include "base/list.h"
 
 #define BAND 0.5                /* part of the frequency that the band extends to either side */
 #define ABOVE 10.0              /* a line's power over all others */

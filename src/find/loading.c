@@ -17,8 +17,6 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include "find/drops.h"
-#include "find/line.h"
 #include "find/medians.h"
 #include "find/slip.h"
 #include "signal/gaps.h"
@@ -29,7 +27,7 @@
 typedef struct fall {
     size_t high, low;           /* the maximum, and the minimum behind */
     ss_window rise;             /* before the fall, without the part that is known to be slip */
-    line line;                  /* through its middle half; slope NaN: it is too short */
+    ss_line line;               /* through its middle half; slope NaN: it is too short */
     ss_slip slip;               /* n 0: it is none */
     double shift[SLIP_NUMBERS]; /* of its numbers by damping */
     ss_window stick;            /* the samples of the rise that stay near the line; empty if there is none */
@@ -116,7 +114,7 @@ find_falls(fall *f, const search *s, const double *y, const ss_drop *drop, size_
 
 /* The last sample that is near the line, from sample i on towards end. */
 static size_t
-follow(const double *y, const line *l, size_t i, size_t end)
+follow(const double *y, const ss_line *l, size_t i, size_t end)
 {
     size_t last = i, away = 0;
     int step = end > i ? 1 : -1;
@@ -146,9 +144,9 @@ shape_of(const double *y, const fall *f, size_t n)
         size_t m = ss_window_length(stick), middle = stick.first + m / 2;
         if (m < 2 * FEWEST)
             continue;
-        line all = ss_line_through(y, NULL, stick);
-        line first = ss_line_through(y, NULL, (ss_window){ stick.first, middle });
-        line last = ss_line_through(y, NULL, (ss_window){ middle, stick.end });
+        ss_line all = ss_line_through(y, NULL, stick);
+        ss_line first = ss_line_through(y, NULL, (ss_window){ stick.first, middle });
+        ss_line last = ss_line_through(y, NULL, (ss_window){ middle, stick.end });
         double bent = (last.slope - first.slope) / all.slope;
         whole += pow(all.rms, 2) * (double)(m - 2);
         halves += pow(first.rms, 2) * ((double)(m / 2) - 2) + pow(last.rms, 2) * ((double)(m - m / 2) - 2);
@@ -240,7 +238,7 @@ slope_of(const double *y, const double *x, const fall *f, shape rises)
     size_t first = f->stick.first, m = ss_window_length(f->stick);
     double steep = ss_line_through(y, NULL, f->stick).slope;
     double tilt = hypot(sqrt(12 * rises.octave) / ((double)m * steep), rises.bend);
-    line l = ss_line_through(y, x, f->stick);
+    ss_line l = ss_line_through(y, x, f->stick);
     l.error *= sqrt(ss_colour(y + first, x != NULL ? x + first : NULL, m, l.slope));
     return steep > 0 ? (ss_value){ fabs(l.slope), hypot(l.error, tilt * l.slope) } : unknown;
 }

@@ -3,7 +3,6 @@
 #define MAXIMA_H
 
 #include <stickslip/features.h>
-#include "find/window.h"
 
 typedef struct maxima_kind {
     double prominence, range;   /* [dB] the least, and how far below the highest of them */

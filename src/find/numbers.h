@@ -5,6 +5,7 @@
 #define NUMBERS_H
 
 #include "find/search.h"
+#include "io/record.h"
 
 enum {
     WITH_X = 1, WITH_F = 1 << 1, WITH_X_F = WITH_X | WITH_F,    /* columns in the options */
@@ -33,5 +34,14 @@ ss_status ss_numbers_find(search *s);
  * too, where it is not known within a third. */
 ss_status ss_slope_find(const double *f, const double *x, const double *y, const ss_window *span,
                         size_t n, ss_value *slope);
+
+/* --- write.c: the parts of the text of features, for a stream of them ------------------------------ */
+
+/* Write what a recording with this header says of itself, and what was asked for. */
+void ss_features_notes(struct rows *rows, const ss_header *head, size_t column, const ss_features_opts *opts);
+/* Write the row of a transition, of those columns that `has` allows.  start: of the recording [s]. */
+void ss_features_row(struct rows *rows, const ss_features *f, size_t i, double start, unsigned has);
+/* Write the reasons, and then each number with its error; a median also has the scatter of the events. */
+void ss_features_numbers(struct rows *rows, const ss_features *f, unsigned has);
 
 #endif

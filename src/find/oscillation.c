@@ -2,8 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/list.h"
-#include "find/hum.h"
-#include "find/ringdown.h"
 #include "find/search.h"
 #include "signal/gaps.h"
 

@@ -3,11 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include "base/list.h"
-#include "base/sort.h"
 #include "find/maxima.h"
-#include "find/scale_rows.h"
 #include "find/search.h"
-#include "map/map.h"
 #include "signal/gaps.h"
 
 #define BAND 0.25               /* [octaves] the largest distance of maxima of one kind */

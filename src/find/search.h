@@ -9,10 +9,10 @@
 #include "find/drops.h"
 #include "find/events.h"
 #include "find/judgement.h"
-#include "find/quantity.h"
 #include "find/ringdown.h"
 #include "find/scale_rows.h"
 #include "find/window.h"
+#include "signal/header.h"
 
 #define SPAN 80.0               /* [dB] of the paper's contours */
 #define STRONG 20.0             /* [dB] range of the swells, spikes and single events that make transitions */

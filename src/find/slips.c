@@ -3,7 +3,7 @@
 #include "find/fitter.h"
 
 #include <stdlib.h>
-#include "base/sort.h"
+#include "base/list.h"
 #include "find/judgement.h"
 
 #define BREAK 0.05              /* probability of cutting all windows although there is no micro-slip; it is

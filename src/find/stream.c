@@ -14,10 +14,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
+#include "base/list.h"
 #include "base/options.h"
-#include "find/search.h"
-#include "find/write.h"
+#include "find/numbers.h"
 
 enum { PERIODS = 64, FIRST = 16, LEAST = 8 };   /* in a whole window, before rows; and in a part, as transitions are */
 #define DELAY 0.18              /* [s] after two periods a row is written at the latest, but for the work */

@@ -1,7 +1,6 @@
 /* transitions.c -- where the transitions of a signal begin and end. */
 #include <math.h>
 #include <stdlib.h>
-#include "find/events.h"
 #include "find/search.h"
 #include "signal/gaps.h"
 
@@ -94,7 +93,7 @@ count_spikes(const search *s)
         ss_transition *tr = &out->transition[i];
         double next = i + 1 < out->n ? tr[1].onset : (double)s->n / s->rate;
         double from = tr->onset - period / 2, to = s->spiked ? next : tr->end + period;
-        tr->spikes = ss_spikes_within(out->spikes, tr->onset, tr->end, SPIKES).n;
+        tr->spikes = ss_spikes_within(out->spikes, tr->onset, tr->end, SPIKES);
         tr->gap = ss_gaps_near(s->gap, s->n_gaps, 0.5 * (from + to), 0.5 * (to - from) + reach);
     }
 }

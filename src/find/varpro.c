@@ -12,7 +12,7 @@
  * x' the products with the samples, the other columns explain their |y|^2, and J and J'r lie along the
  * last two.  The sum of squares that is left is known to some 1e-15 of the whole, so that its root is
  * known to 3e-8 of the signal: misfits that pass for noise are far larger. */
-#include "find/varpro.h"
+#include "find/fitter.h"
 
 #include <math.h>
 #include <stdlib.h>

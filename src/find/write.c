@@ -6,9 +6,7 @@
 #include <string.h>
 #include "base/options.h"
 #include "find/numbers.h"
-#include "find/search.h"
 #include "io/table.h"
-#include "find/write.h"
 
 /* --- one recording --------------------------------------------------------------------------- */
 

@@ -15,9 +15,8 @@
 #include "base/fft.h"
 #include "base/list.h"
 #include "base/options.h"
-#include "base/sort.h"
 #include "find/judgement.h"
-#include "find/line.h"
+#include "find/window.h"
 #include "signal/gaps.h"
 
 enum {
@@ -475,7 +474,7 @@ look_behind(decay *d)
 static block
 fit_level(const double *x, size_t first, size_t end, double w)
 {
-    const line l = ss_line_through(x, NULL, (ss_window){ first, end });
+    const ss_line l = ss_line_through(x, NULL, (ss_window){ first, end });
     const double n = (double)(end - first);
     block b = { .first = first, .end = end, .t = l.x, .free = n - 2, .at = { .w = w } };
     b.left = pow(l.rms * NEPER, 2) * b.free;

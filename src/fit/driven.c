@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/sort.h"
+#include "base/list.h"
 
 enum { TERMS = 4, WIDEST = 64, SERIES = 5 };    /* of the cubic; half the widest window, in rows; t, x, v, a, f */
 #define NOISY 1e-3                  /* of the force's range, from row to row: it is clipped, not saturated */

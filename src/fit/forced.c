@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/sort.h"
+#include "base/list.h"
 #include "scene/model.h"
 
 enum { STEPS = 40 };            /* of a simplex, at most */

@@ -20,7 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/least.h"
-#include "base/sort.h"
+#include "base/list.h"
 #include "fit/column.h"
 
 enum { LN_A, TURN, W, S, C, SHAPE, BEND, RATIO, UNKNOWNS };     /* at the start; w; viscous s; of the mechanism */

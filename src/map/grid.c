@@ -16,7 +16,6 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "base/options.h"
-#include "base/range.h"
 #include "map/plan.h"
 #include "map/wavelet.h"
 

@@ -16,11 +16,10 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
 #include "base/error.h"
 #include "base/fft.h"
+#include "base/list.h"
 #include "base/progress.h"
-#include "base/range.h"
 #include "base/versions.h"
 #include "map/fft/blocks.h"
 #include "map/plan.h"

@@ -12,7 +12,6 @@
 #include "base/number.h"
 #include "base/options.h"
 #include "base/progress.h"
-#include "base/range.h"
 #include "motion/kind.h"
 #include "motion/method.h"
 #include "motion/walk.h"

@@ -9,7 +9,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/options.h"
-#include "base/range.h"
 #include "io/record.h"
 #include "map/wavelet.h"
 

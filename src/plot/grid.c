@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/sort.h"
+#include "base/list.h"
 
 /* A cell is a number, "-" for an unknown value, or "aperiodic". */
 ss_status

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/sort.h"
+#include "base/list.h"
 #include "io/table.h"
 
 enum { REGIONS_MAX = 10, COLUMNS_MAX = 4 };     /* COLUMNS_MAX: x, y and two over them */

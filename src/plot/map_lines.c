@@ -9,7 +9,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/list.h"
-#include "base/sort.h"
 #include "plot/isoline.h"
 
 enum { LEVELS_MAX = 40 };

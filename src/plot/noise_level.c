@@ -20,7 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "base/fft.h"
-#include "base/sort.h"
+#include "base/list.h"
 
 enum { ORDERS = 1024, PART_BITS = 3, BINS = ORDERS << PART_BITS };
 #define LEAST_ORDER (-512)      /* of |W|^2 */

@@ -17,13 +17,13 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
 #include "base/error.h"
 #include "base/fft.h"
+#include "base/list.h"
 #include "base/number.h"
 #include "base/options.h"
-#include "signal/header.h"
 #include "signal/gaps.h"
+#include "signal/header.h"
 
 #define WIDTH 0.2               /* a transition goes from 1 - WIDTH to 1 + WIDTH times its edge */
 #define UP_TO 0.475             /* the edge of derivatives and integrals without a low-pass, in rates */

@@ -2,10 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
 #include "base/error.h"
 #include "base/list.h"
-#include "base/sort.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
 

@@ -49,6 +49,13 @@ char *ss_clean_unit(const char *unit);
 const char *ss_unit_of_name(const char *name, size_t *before);
 /* A unit of force, of dimension 'N', or of length, 'm', in N or m; 0: it is none. */
 double ss_unit_in_si(const char *unit, char dimension);
+/* The physical quantity of a column, by its unit or its name. */
+typedef enum column_quantity {
+    QUANTITY_UNKNOWN, QUANTITY_FORCE, QUANTITY_DISPLACEMENT,
+    QUANTITY_MOTION             /* velocity or acceleration, or it is not known which of the three */
+} column_quantity;
+
+column_quantity ss_column_quantity(const ss_column *column);
 /* "unit^2/Hz", the density of a column of this unit, in brackets if it has an operator, or in decibels re that. */
 enum { DENSITY_UNIT = 256 };
 void ss_density_unit(char text[DENSITY_UNIT], const char *unit, int decibels);

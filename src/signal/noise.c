@@ -11,9 +11,9 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
 #include "base/error.h"
 #include "base/fft.h"
+#include "base/list.h"
 #include "base/number.h"
 #include "base/options.h"
 #include "signal/source.h"

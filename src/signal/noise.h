@@ -33,4 +33,7 @@ double ss_noise_rms(const double *x, size_t n, double snr_db);
  * to *clipped. */
 ss_status ss_quantise(double *x, size_t n, int bits, double range, size_t *clipped, ss_error *err);
 
+/* The options of benchmark signals by default. */
+extern const ss_wave_opts ss_wave_defaults;
+
 #endif

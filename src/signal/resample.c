@@ -9,8 +9,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
 #include "base/error.h"
+#include "base/list.h"
 #include "signal/header.h"
 #include "signal/source.h"
 

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "signal/header.h"
-#include "signal/wave.h"
 #include "signal/noise.h"
 
 const ss_wave_opts ss_wave_defaults = {

@@ -5,10 +5,9 @@
  * CPU seconds, the least of ROUNDS in which both take turns. */
 #include <gsl/gsl_errno.h>
 #include "map/map.h"
-#include "signal/wave.h"
 #include "bench.h"
-#include "signal/noise.h"
 #include "signal/header.h"
+#include "signal/noise.h"
 
 enum { ROUNDS = 2, SAMPLES = 1000000, SECONDS = 60 };
 #define PITCH 98.0

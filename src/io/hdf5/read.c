@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
 #include "base/error.h"
 #include "base/list.h"
 #include "io/format.h"

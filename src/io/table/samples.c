@@ -6,7 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include "base/columns.h"
+#include "base/list.h"
 #include "base/progress.h"
 #include "io/reader.h"
 #include "io/table/clock.h"

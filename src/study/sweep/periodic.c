@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "base/columns.h"
+#include "base/list.h"
 
 /* --- measuring cycles that begin at the present state ----------------------------------------- */
 

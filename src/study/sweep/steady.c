@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include "base/options.h"
-#include "base/range.h"
 #include "motion/method.h"
 #include "study/curve.h"
 #include "study/sweep/grid.h"

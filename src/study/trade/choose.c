@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 #include "base/error.h"
-#include "base/range.h"
 #include "motion/method.h"
 #include "study/trade/trade.h"
 

@@ -1,9 +1,9 @@
 /* scene.c -- measure error and time of a scene's simulation, in a row for each method and tolerance. */
 #include <math.h>
 #include <stdlib.h>
+#include "base/list.h"
 #include "base/options.h"
 #include "base/progress.h"
-#include "base/sort.h"
 #include "motion/method.h"
 #include "study/trade/trade.h"
 
