@@ -6,6 +6,7 @@
 #include <string.h>
 #include <stickslip.h>
 #include "oracle.h"
+#include "scene/scene.h"
 #include "sim_runs.h"
 #include "unit.h"
 
@@ -326,6 +327,44 @@ refuses_what_it_cannot_do(void **state)
     assert_int_equal(ss_sim_run(&s, &opts, NULL, &err), SS_ERANGE);
 }
 
+/* Of every model, on a belt too: the first sample is where the motion starts, at rest on the belt or not. */
+static void
+records_begin_where_the_motion_starts(void **state)
+{
+    size_t models = 0;
+    (void)state;
+    for (const ss_model *model; (model = ss_model_at(models)) != NULL; models++)
+        for (int k = 0; k < 6; k++) {
+            const double belt = k % 2 ? .03 : 0, v0[] = { 0, .03, .07 };
+            ss_scene s = read_shipped_named(strcmp(ss_model_name(model), "rate-and-state") == 0
+                                            ? "rate-and-state-mild" : "coulomb");
+            if (s.model != model) {
+                s.model = model;
+                ss_scene_set(&s, "alpha", 1000, NULL);          /* keys that a model does not have are refused */
+                ss_scene_set(&s, "gamma", 100, NULL);
+                ss_scene_set(&s, "contact_stiffness", 2e4, NULL);
+                ss_scene_set(&s, "bristle_stiffness", 2e4, NULL);
+                ss_scene_set(&s, "stribeck_velocity", .1, NULL);
+                ss_scene_set(&s, "exponent", 1, NULL);
+                ss_scene_set(&s, "beta_fraction", .7, NULL);
+                s.static_friction = strcmp(ss_model_name(model), "lugre") == 0 ? 1.5 * s.friction : s.static_friction;
+            }
+            if (s.base_velocity == 0)
+                s.surface_velocity = belt;
+            s.settle = 0;
+            s.x0 = -5.5e-3;
+            s.v0 = v0[k / 2];
+            s.duration = .01;
+            run r = run_of(&s);
+            const double v = s.v0 == 0 && s.base_velocity > 0 ? s.base_velocity : s.v0;
+            if (!(fabs(r.sample[0].x - s.x0) <= 1e-15 && fabs(r.sample[0].v - v) <= 1e-12))
+                fail_msg("%s, belt %g m/s: %g m, %g m/s, not %g, %g", ss_model_name(model), s.surface_velocity,
+                         r.sample[0].x, r.sample[0].v, s.x0, v);
+            run_free(&r);
+        }
+    assert_true(models > 6);
+}
+
 static void
 a_record_of_no_length_has_no_samples(void **state)
 {
@@ -392,6 +431,7 @@ main(void)
         cmocka_unit_test(methods_agree_on_the_state_variable),
         cmocka_unit_test(stops_when_a_sink_asks),
         cmocka_unit_test(refuses_what_it_cannot_do),
+        cmocka_unit_test(records_begin_where_the_motion_starts),
         cmocka_unit_test(a_record_of_no_length_has_no_samples),
         cmocka_unit_test(simulates_into_a_signal),
         cmocka_unit_test(gives_the_columns_asked_for),
