@@ -14,7 +14,7 @@
 #include "find/events.h"
 #include "find/numbers.h"
 #include "study/sweep/grid.h"
-#include "io/table.h"
+#include "io/record.h"
 #include "map/wavelet.h"
 #include "motion/kind.h"
 #include "scene/key.h"

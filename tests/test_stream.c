@@ -7,7 +7,7 @@
 #include "map/map.h"
 #include "morlet_oracle.h"
 #include "unit.h"
-#include "io/table.h"
+#include "io/record.h"
 
 #define LENGTH(a) (sizeof (a) / sizeof *(a))
 

@@ -11,7 +11,7 @@
 #include "study/sweep/grid.h"
 #include "shipped.h"
 #include "unit.h"
-#include "io/table.h"
+#include "io/record.h"
 
 #define BIT(m) (1u << (m))
 

@@ -6,7 +6,7 @@
 #include <string.h>
 #include "base/options.h"
 #include "find/numbers.h"
-#include "io/table.h"
+#include "io/record.h"
 
 /* --- one recording --------------------------------------------------------------------------- */
 

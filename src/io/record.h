@@ -53,4 +53,9 @@ const char *ss_number_rounded(char text[SS_NUMBER_MAX], double x, int digits);
 /* The same with this number of decimals, which may be zeros; nine digits if that is too long. */
 const char *ss_number_fixed(char text[SS_NUMBER_MAX], double x, int decimals);
 
+/* Of a table that was read (table.c), the index of the column of this name; -1 if there is none. */
+int ss_table_column(const ss_table *table, const char *name);
+/* The number in a cell; NaN if the cell holds a word or "-", or if there is no such cell. */
+double ss_table_number(const ss_table *table, size_t row, size_t column);
+
 #endif

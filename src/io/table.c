@@ -8,7 +8,7 @@
 #include "base/list.h"
 #include "signal/header.h"
 #include "io/input.h"
-#include "io/table.h"
+#include "io/record.h"
 
 typedef struct table_reader {
     struct input in;

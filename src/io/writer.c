@@ -16,6 +16,8 @@
 const char *const ss_coefficient_columns[COEFFICIENT_COLUMNS][2] = {
     { "m", "" }, { "a", "s" }, { "b", "s" }, { "f", "Hz" }, { "re", "" }, { "im", "" }, { "edge", "" } };
 
+enum { ROOM = 1 << 16 };
+
 struct stream {
     ss_writer base;
     enum { SAMPLES, COEFFICIENTS, EVENTS } holds;
@@ -27,21 +29,15 @@ struct stream {
     size_t n_gaps;
     int open_end;               /* of coefficients: the length of the record comes last */
     struct rows rows;           /* of events */
-};
-
-/* Cells on their way to the file. */
-enum { ROOM = 1 << 16 };
-struct piece {
-    const struct stream *to;
-    size_t used;
+    size_t used;                /* bytes of cells on their way to the file: */
     char text[ROOM];
 };
 
 static void
-drain(struct piece *p)
+drain(struct stream *s)
 {
-    fwrite(p->text, 1, p->used, p->to->file);
-    p->used = 0;
+    fwrite(s->text, 1, s->used, s->file);
+    s->used = 0;
 }
 
 /* Write a cell of numbers.  Returns its length. */
@@ -57,19 +53,19 @@ format_cell(const struct format *format, char *to, double x, int last)
 
 /* Let there be room for a cell, and write the name before it if it has its own. */
 static void
-begin_cell(struct piece *p, const char *name, int first)
+begin_cell(struct stream *s, const char *name, int first)
 {
-    if (p->to->format->key != NULL || p->used > ROOM - SS_NUMBER_MAX)
-        drain(p);
-    if (p->to->format->key != NULL)
-        p->to->format->key(p->to->file, name, first);
+    if (s->format->key != NULL || s->used > ROOM - SS_NUMBER_MAX)
+        drain(s);
+    if (s->format->key != NULL)
+        s->format->key(s->file, name, first);
 }
 
 static ss_status
-end_piece(struct piece *p, ss_error *err)
+end_rows(struct stream *s, ss_error *err)
 {
-    drain(p);
-    return ferror(p->to->file) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
+    drain(s);
+    return ferror(s->file) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
 }
 
 static ss_status
@@ -77,31 +73,25 @@ write_samples(ss_writer *w, double *const column[], size_t n, ss_error *err)
 {
     struct stream *s = (struct stream *)w;
     const ss_header *head = s->head;
-    struct piece p;
-    p.to = s;
-    p.used = 0;
     for (size_t i = 0; s->holds == SAMPLES && i < n; i++, s->row++)
         for (size_t k = 0, cells = head->n_columns + s->time; k < cells; k++) {
             double x = k < s->time ? head->start + (double)s->row / head->rate : column[k - s->time][i];
-            begin_cell(&p, k < s->time ? "t" : head->column[k - s->time].name, k == 0);
-            p.used += format_cell(s->format, p.text + p.used, x, k + 1 == cells);
+            begin_cell(s, k < s->time ? "t" : head->column[k - s->time].name, k == 0);
+            s->used += format_cell(s->format, s->text + s->used, x, k + 1 == cells);
         }
-    return end_piece(&p, err);
+    return end_rows(s, err);
 }
 
 static ss_status
 write_coefficients(ss_writer *w, const ss_scale *scale, size_t first, size_t n, const double *c, size_t samples,
                    ss_error *err)
 {
-    const struct stream *s = (struct stream *)w;
+    struct stream *s = (struct stream *)w;
     double row[COEFFICIENT_COLUMNS] = { scale->m, scale->a, 0, scale->f };
     struct {
         char text[SS_NUMBER_MAX];
         size_t length;
     } shared[COEFFICIENT_COLUMNS] = { { .length = 0 } };
-    struct piece p;
-    p.to = s;
-    p.used = 0;
     for (int k = 0; k < COEFFICIENT_COLUMNS; k++)
         if (k != 2 && k < 4)
             shared[k].length = format_cell(s->format, shared[k].text, row[k], 0);
@@ -111,14 +101,14 @@ write_coefficients(ss_writer *w, const ss_scale *scale, size_t first, size_t n, 
         row[5] = c[2 * i + 1];
         row[6] = wavelet_edge(scale, first + i, samples, s->head->rate, s->head->start, s->gap, s->n_gaps);
         for (int k = 0; k < COEFFICIENT_COLUMNS; k++) {
-            begin_cell(&p, ss_coefficient_columns[k][0], k == 0);
+            begin_cell(s, ss_coefficient_columns[k][0], k == 0);
             if (shared[k].length > 0)           /* its constant size lets compilers avoid a call */
-                memcpy(p.text + p.used, shared[k].text, sizeof shared[k].text);
-            p.used += shared[k].length > 0 ? shared[k].length
-                : format_cell(s->format, p.text + p.used, row[k], k + 1 == COEFFICIENT_COLUMNS);
+                memcpy(s->text + s->used, shared[k].text, sizeof shared[k].text);
+            s->used += shared[k].length > 0 ? shared[k].length
+                : format_cell(s->format, s->text + s->used, row[k], k + 1 == COEFFICIENT_COLUMNS);
         }
     }
-    return end_piece(&p, err);
+    return end_rows(s, err);
 }
 
 static void
@@ -138,7 +128,7 @@ write_events(ss_writer *w, const ss_event *event, size_t n, ss_error *err)
     struct stream *s = (struct stream *)w;
     for (size_t i = 0; s->holds == EVENTS && i < n; i++)
         write_event(&s->rows, &event[i]);
-    return ferror(s->file) ? ss_fail(err, SS_EIO, "%s", ss_strerror(SS_EIO)) : SS_OK;
+    return end_rows(s, err);
 }
 
 static ss_status
@@ -160,11 +150,9 @@ end_stream(ss_writer *w, size_t samples, ss_error *err)
     ss_status st = SS_OK;
     if (s->open_end && s->format->has_notes)
         fprintf(s->file, "# samples: %zu\n", samples);
-    for (int i = 0; s->open_end && s->format->separator == '\0' && i < COEFFICIENT_COLUMNS; i++) {
-        char cell[SS_NUMBER_MAX];
-        double x = i == 2 ? (double)(samples - 1) / s->head->rate : 0;
-        fwrite(cell, 1, format_cell(s->format, cell, x, i + 1 == COEFFICIENT_COLUMNS), s->file);
-    }
+    for (int i = 0; s->open_end && s->format->separator == '\0' && i < COEFFICIENT_COLUMNS; i++)
+        s->used += format_cell(s->format, s->text + s->used, i == 2 ? (double)(samples - 1) / s->head->rate : 0, 0);
+    drain(s);
     if (s->format->end != NULL)
         st = s->format->end(s->file, s->head->rate, s->head->n_columns, s->row, err);
     if (st == SS_OK && (fflush(s->file) != 0 || ferror(s->file)))
@@ -257,8 +245,8 @@ ss_writer_rows(ss_writer *w, double *const column[], size_t n, ss_error *err)
 }
 
 ss_status
-ss_writer_coefficients(ss_writer *w, const ss_scale *scale, size_t first, size_t n, const double *c, size_t samples,
-                       ss_error *err)
+ss_writer_coefficients(ss_writer *w, const ss_scale *scale, size_t first, size_t n, const double *c,
+                       size_t samples, ss_error *err)
 {
     if (w == NULL || scale == NULL || (c == NULL && n > 0))
         return SS_FAIL_NULL(err);

@@ -28,9 +28,8 @@ static const int odd_part[] = { 1, 35, 9, 5, 21, 45, 3, 25, 7, 15 };
 enum { ODD_PARTS = sizeof odd_part / sizeof *odd_part };
 
 const ss_morlet_opts ss_morlet_defaults = {
-    .size = sizeof(ss_morlet_opts), .center = WAVELET_CENTER, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO, .accuracy = 1e-6,
-    .norm = SS_NORM_L2, .detrend = SS_DETREND_NONE,
-    .threads = 1
+    .size = sizeof(ss_morlet_opts), .center = WAVELET_CENTER, .voices = 16, .step = 0.25, .engine = SS_ENGINE_AUTO,
+    .accuracy = 1e-6, .norm = SS_NORM_L2, .detrend = SS_DETREND_NONE, .threads = 1
 };
 
 SS_OPTIONS(ss_morlet_opts, ss_morlet_defaults)
@@ -143,17 +142,14 @@ ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err
     if (n == 0)
         return ss_fail(err, SS_EINVAL, "the record is empty");
     const struct ss_morlet_ranges *in = &ss_morlet_ranges;
-    ss_status st = ss_range_check(rate, in->rate, "rate [Hz]", err);
-    if (st == SS_OK)
-        st = ss_range_check(opts->center, in->center, "center", err);
-    if (st == SS_OK)
-        st = ss_range_check(opts->voices, in->voices, "voices", err);
-    if (st == SS_OK && !opts->dense)
-        st = ss_range_check(opts->step, in->step, "step", err);
-    if (st == SS_OK)
-        st = ss_range_check(opts->accuracy, in->accuracy, "accuracy", err);
-    if (st != SS_OK)
-        return st;
+    const struct { double x; ss_range range; const char *name; } number[] = {
+        { rate, in->rate, "rate [Hz]" }, { opts->center, in->center, "center" },
+        { opts->voices, in->voices, "voices" }, { opts->dense ? in->step.to : opts->step, in->step, "step" },
+        { opts->accuracy, in->accuracy, "accuracy" }
+    };
+    for (size_t i = 0; i < sizeof number / sizeof *number; i++)
+        if (ss_range_check(number[i].x, number[i].range, number[i].name, err) != SS_OK)
+            return SS_EINVAL;
     if (!(opts->fmin >= 0 && opts->fmin <= in->frequency.to && opts->fmax >= 0
           && opts->fmax <= in->frequency.to)
         || (opts->fmin > 0 && opts->fmax > 0 && opts->fmin > opts->fmax))

@@ -34,15 +34,14 @@ static const double FRESH = 1e-5;
 
 typedef struct solver {
     const ss_coefficients *coef;
-    ss_stretch progress;
+    ss_progress progress;
     ss_morlet *plan;
     block_sums *sums;               /* NULL: no scale is computed in blocks */
     double **room, *x, *gradient, *levelled, *step, *image;      /* room: of all but x */
     real_fft forth, back;           /* of twice the samples */
     double *gain;                   /* of the terms of the gradient, which level what the scales see of them */
     double *part, *given, *scratch; /* given: the coefficients of a part */
-    double unit[2];                 /* the coefficients are times both */
-    int exponent;                   /* all of these are divided by 2^exponent */
+    int exponent;                   /* the coefficients, and so all of these, are divided by 2^exponent */
     double bounds;                  /* the upper frame bound over the lower one */
 } solver;
 
@@ -91,7 +90,6 @@ add_adjoint(solver *s, size_t i, span part, const double *w, double *to)
 static ss_status
 transform(solver *s, const double *x, int rest, double *to, double *norm, ss_error *err)
 {
-    const double unit[2] = { s->unit[0], s->unit[1] };
     transformed of;
     ss_status st = ss_morlet_begin(s->plan, x, &of, err);
     memset(to, 0, s->plan->n * sizeof *to);
@@ -106,7 +104,7 @@ transform(solver *s, const double *x, int rest, double *to, double *norm, ss_err
             if (st == SS_OK && rest)
                 st = ss_map_read(s->coef, &(ss_map_part){ i, k, n, s->given, NULL }, 1, err);
             for (size_t c = 0; st == SS_OK && rest && c < 2 * n; c++)
-                s->part[c] = s->given[c] * unit[0] * unit[1] - s->part[c];
+                s->part[c] = ldexp(s->given[c], -s->exponent) - s->part[c];
             if (st == SS_OK) {
                 sum += norm2(s->part, 2 * n);
                 add_adjoint(s, i, (span){ k, n }, s->part, to);
@@ -154,21 +152,6 @@ refuse(double tol, double residual, int passes, double power, int stays, ss_erro
                    takes, tol, passes * pow(residual / tol, 1 / power), takes);
 }
 
-/* Go along the step to the least rest, whose squares were *left. */
-static ss_status
-advance(solver *s, double slope, double *left, ss_error *err)
-{
-    double norm;
-    ss_status st = transform(s, s->step, 0, s->image, &norm, err);
-    double length = slope / norm;
-    for (size_t i = 0; st == SS_OK && i < s->plan->n; i++) {
-        s->x[i] += length * s->step[i];
-        s->gradient[i] -= length * s->image[i];
-    }
-    *left -= length * slope;
-    return st;
-}
-
 /* Solve by conjugate gradients.  *residual becomes the size of the part that x does not explain, relative
  * to all.  The rest and its adjoint follow from those of the step, and are computed anew before their
  * rounding errors show. */
@@ -176,7 +159,7 @@ static ss_status
 solve(solver *s, double tol, double *residual, ss_error *err)
 {
     size_t n = s->plan->n;
-    double all, slope, left, fresh, then;
+    double all, slope, left, fresh, then, norm;
     int pass = 0, mark = STALL_FROM, stays = 0;
     ss_status st = transform(s, s->x, 1, s->gradient, &all, err);
     if (st != SS_OK)
@@ -187,8 +170,14 @@ solve(solver *s, double tol, double *residual, ss_error *err)
     for (; st == SS_OK && left > tol * tol * all && slope > 0 && pass < PASSES && !stays; pass++) {
         /* every pass lowers the rest by about the same factor */
         double done = fmax(log(left / all) / (2 * log(tol)), (double)pass / PASSES);
-        if ((st = ss_stretch_at(&s->progress, fmin(1, fmax(0, done)))) == SS_OK)
-            st = advance(s, slope, &left, err);
+        if ((st = ss_progress_at(&s->progress, fmin(1, fmax(0, done)))) == SS_OK)
+            st = transform(s, s->step, 0, s->image, &norm, err);
+        double length = st == SS_OK ? slope / norm : 0;         /* along the step to the least rest */
+        for (size_t i = 0; i < n; i++) {
+            s->x[i] += length * s->step[i];
+            s->gradient[i] -= length * s->image[i];
+        }
+        left -= length * slope;
         if (st == SS_OK && (left <= FRESH * FRESH * fresh || left <= tol * tol * all)) {
             st = transform(s, s->x, 1, s->gradient, &left, err);
             fresh = left;
@@ -293,7 +282,7 @@ make_plan(solver *s, ss_error *err)
                                   "shortest");
 }
 
-/* Choose the power of two with which the coefficients' squares neither overflow nor vanish. */
+/* Choose the power of two by which the coefficients' squares neither overflow nor vanish. */
 static ss_status
 choose_unit(solver *s, size_t most, ss_error *err)
 {
@@ -308,8 +297,6 @@ choose_unit(solver *s, size_t most, ss_error *err)
                 largest = fmax(largest, fabs(s->given[v]));
         }
     frexp(largest, &s->exponent);
-    s->unit[0] = ldexp(1, -s->exponent / 2);
-    s->unit[1] = ldexp(1, -s->exponent - -s->exponent / 2);
     return st;
 }
 
@@ -355,7 +342,7 @@ ss_morlet_inverse(ss_signal **out, const ss_coefficients *coefficients, double t
     if (out == NULL || coefficients == NULL)
         return SS_FAIL_NULL(err);
     enum { BOUNDS_MAX = 100 };
-    solver s = { .coef = coefficients, .progress = { progress, 0, 1 } };
+    solver s = { .coef = coefficients, .progress = progress };
     double residual = 0;
     *out = NULL;
     ss_status st = ss_range_check(tol, ss_morlet_ranges.inverse_accuracy, "accuracy", err);

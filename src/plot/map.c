@@ -11,7 +11,7 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/list.h"
-#include "io/table.h"
+#include "io/record.h"
 
 enum { REGIONS_MAX = 10, COLUMNS_MAX = 4 };     /* COLUMNS_MAX: x, y and two over them */
 

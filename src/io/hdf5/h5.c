@@ -34,13 +34,18 @@ ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const
 }
 
 void
-ss_h5_open(h5_file *file)
+ss_h5_open(h5_file *file, const char *path, ss_error *err)
 {
-    file->disk = (h5_disk){ .fd = open(file->path, O_RDONLY), .reading = 1 };
+    *file = (h5_file){ .id = -1, .path = strdup(path), .err = err, .disk.fd = -1 };
+    if (file->path == NULL) {
+        file->status = SS_ENOMEM;
+        return;
+    }
+    file->disk = (h5_disk){ .fd = open(path, O_RDONLY), .reading = 1 };
     file->disk.eof = file->disk.fd >= 0 ? (haddr_t)lseek(file->disk.fd, 0, SEEK_END) : 0;
     hid_t access = ss_h5_disk_access(&file->disk, &file->driver);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    file->id = H5Fopen(file->path, H5F_ACC_RDONLY, access);
+    file->id = H5Fopen(path, H5F_ACC_RDONLY, access);
     H5Pclose(access);
     if (file->id < 0)
         ss_h5_fail(file, SS_EDATA, 0, "", "not an HDF5 file, or a damaged one");
@@ -55,6 +60,7 @@ ss_h5_close(h5_file *file)
         H5FDunregister(file->driver);
     if (file->disk.reading && file->disk.fd >= 0)
         close(file->disk.fd);
+    free(file->path);
 }
 
 /* --- objects ------------------------------------------------------------------------------- */

@@ -28,7 +28,7 @@ hid_t ss_h5_disk_access(h5_disk *disk, hid_t *driver);
 
 typedef struct h5_file {
     hid_t id;
-    const char *path;           /* for messages */
+    char *path;                 /* for messages; owned */
     ss_status status;           /* the first failure, behind which nothing is read or written */
     ss_error *err;              /* its text, but of SS_ENOMEM */
     h5_disk disk;
@@ -42,9 +42,8 @@ typedef struct h5_file {
 void ss_h5_fail(h5_file *file, ss_status status, hid_t group, const char *name, const char *text);
 
 /* Open for reading.  Closing it closes every dataset, group and attribute still open in it. */
-void ss_h5_open(h5_file *file);
-/* Close it, if it is open. */
-void ss_h5_close(h5_file *file);
+void ss_h5_open(h5_file *file, const char *path, ss_error *err);
+void ss_h5_close(h5_file *file);                        /* opened or not */
 
 /* Objects by their path, links out of the file not followed; < 0 if there is none.  A dataset in pieces is one of
  * which whole chunks are read, so that none is kept in memory. */

@@ -24,7 +24,6 @@ enum { PIECE = 1 << 18 };       /* values that are read at a time, unless chunks
 typedef struct rows {
     ss_source base;
     h5_file file;
-    char *path;                 /* of the file */
     hid_t *dataset;             /* one for all columns, or one for each */
     size_t n_datasets, room;
     int by_columns;             /* what is read at a time from a dataset is column after column */
@@ -140,7 +139,7 @@ make_header(rows *s, hid_t group, const char *dataset, size_t columns, double ra
     }
     if (!(rate > 0) || !isfinite(rate) || !isfinite(start))
         ss_h5_fail(&s->file, SS_ECLOCK, 0, dataset, "has no clock");
-    if (*status != SS_OK || (*status = ss_refuse_range(s->path, rate, start, s->file.err)) != SS_OK)
+    if (*status != SS_OK || (*status = ss_refuse_range(s->file.path, rate, start, s->file.err)) != SS_OK)
         return;
     s->base.head->rate = rate;
     s->base.head->start = start;
@@ -371,7 +370,6 @@ free_rows(ss_source *base)
     QUIETLY(
         ss_h5_close(&s->file);
     );
-    free(s->path);
     free(s->dataset);
     free(s->value);
     free(s->raw);
@@ -382,10 +380,10 @@ free_rows(ss_source *base)
 /* At a time are read: whole chunks of the dataset with the longest chunks, about PIECE values in all, or all
  * rows. */
 static ss_status
-find(rows *s, const char *dataset, const ss_read_opts *opts)
+find(rows *s, const char *path, const char *dataset, const ss_read_opts *opts, ss_error *err)
 {
     hsize_t chunk = 1;
-    ss_h5_open(&s->file);
+    ss_h5_open(&s->file, path, err);
     if (s->file.status == SS_OK && *dataset != '\0')
         find_array(s, dataset, opts);
     else if (s->file.status == SS_OK)
@@ -423,13 +421,10 @@ ss_h5_open_signal(ss_source **out, const char *path, const char *dataset, const 
         return SS_ENOMEM;
     *out = &s->base;
     s->base.rewinds = 1;
-    s->path = strdup(path);
-    s->file = (h5_file){ .id = -1, .path = s->path, .err = err };
-    ss_status status = SS_ENOMEM;
-    if (s->path != NULL)
-        QUIETLY(
-            status = find(s, dataset, opts);
-        );
+    ss_status status;
+    QUIETLY(
+        status = find(s, path, dataset, opts, err);
+    );
     if (status == SS_ENOMEM)
         ss_fail(err, status, "%s: %s", path, ss_strerror(status));
     if (status == SS_OK && opts->time != NULL && *dataset != '\0') {

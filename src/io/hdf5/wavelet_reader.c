@@ -15,8 +15,6 @@
 typedef struct file_source {
     ss_map_source source;               /* must be the first member */
     h5_file file;
-    char *path;
-    ss_error error;
     hid_t group, part[2];               /* part: re and im, if dense, else -1 */
     int dense;
     double *row;                        /* room for re or im of the longest scale */
@@ -151,11 +149,12 @@ read_parts(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_er
     file_source *s = (file_source *)map->source;
     ss_status *st = &s->file.status;
     *st = SS_OK;
+    s->file.err = err;
     for (size_t i = 0; *st == SS_OK && i < n; i++) {
         size_t scale = part[i].scale;
         int all = part[i].w != NULL && part[i].n == map->scale[scale].n;
         if (!all && s->w == NULL && (s->w = malloc(2 * s->longest * sizeof *s->w)) == NULL)
-            return ss_fail_memory(err, s->path);
+            return ss_fail_memory(err, s->file.path);
         double *whole = all ? part[i].w : s->w;
         if (all || s->held != scale)
             QUIETLY(
@@ -166,8 +165,6 @@ read_parts(const ss_coefficients *map, const ss_map_part part[], size_t n, ss_er
         if (*st == SS_OK && !all)
             ss_map_give(&part[i], 0, part[i].n, s->w + 2 * part[i].first);
     }
-    if (*st != SS_OK && err != NULL)
-        *err = s->error;
     return *st;
 }
 
@@ -181,7 +178,6 @@ close_file(ss_map_source *source)
         H5Gclose(s->group);
         ss_h5_close(&s->file);
     );
-    free(s->path);
     free(s->row);
     free(s->w);
     free(s);
@@ -197,21 +193,16 @@ ss_h5_open_coefficients(ss_coefficients **out, const char *path, ss_error *err)
         free(s);
         return ss_fail_memory(err, path);
     }
-    *s = (file_source){ .source = { read_parts, close_file }, .held = SIZE_MAX, .path = strdup(path), .group = -1,
-                        .part = { -1, -1 } };
-    s->file = (h5_file){ .id = -1, .path = s->path, .err = &s->error };
+    *s = (file_source){ .source = { read_parts, close_file }, .held = SIZE_MAX, .group = -1, .part = { -1, -1 } };
     map->source = &s->source;
-    if (s->path != NULL)
-        QUIETLY(
-            ss_h5_open(&s->file);
-            if (s->file.status == SS_OK)
-                read_grid(s, map);
-        );
-    ss_status st = s->path != NULL ? s->file.status : SS_ENOMEM;
+    QUIETLY(
+        ss_h5_open(&s->file, path, err);
+        if (s->file.status == SS_OK)
+            read_grid(s, map);
+    );
+    const ss_status st = s->file.status;
     if (st == SS_ENOMEM)
         ss_fail_memory(err, path);
-    else if (st != SS_OK && err != NULL)
-        *err = s->error;
     if (st == SS_OK)
         *out = map;
     else

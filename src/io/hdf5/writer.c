@@ -738,7 +738,7 @@ free_writer(ss_writer *base)
     free(w->scale);
     free(w->datasets);
     free(w->gap);
-    free((char *)w->file.path);
+    free(w->file.path);
     free(w);
 }
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include "base/error.h"
 #include "base/list.h"
-#include "io/table/clock.h"
+#include "io/table/sheet.h"
 #include "signal/header.h"
 
 #define BY_DIGITS 0.25          /* or by so many if it has no more digits: a missing row is farther off */

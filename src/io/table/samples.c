@@ -9,7 +9,6 @@
 #include "base/list.h"
 #include "base/progress.h"
 #include "io/reader.h"
-#include "io/table/clock.h"
 #include "signal/gaps.h"
 #include "signal/source.h"
 

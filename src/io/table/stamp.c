@@ -3,7 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 #include <strings.h>
-#include "io/table/stamp.h"
+#include "io/table/sheet.h"
 
 /* Read n digits as a number.  Returns their end; NULL if there are not so many, or p is NULL. */
 static const char *

@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "signal/source.h"
-#include "io/table/clock.h"
 #include "io/table/sheet.h"
 
 /* --- units of numbers that are times -------------------------------------------------------- */
