@@ -84,7 +84,7 @@ compute_parts(void *user)
 {
     queue *q = user;
     double *scratch;
-    ss_status have = ss_morlet_scratch(q->plan, &scratch);
+    ss_status have = ss_blocks_scratch(q->plan->blocks, &scratch);
     pthread_mutex_lock(&q->lock);
     if (have != SS_OK) {
         q->next = q->failed = 0;
@@ -109,7 +109,7 @@ compute_parts(void *user)
             q->next = 0;
     }
     pthread_mutex_unlock(&q->lock);
-    ss_fft_scratch_free(scratch);
+    ss_blocks_scratch_free(scratch);
 }
 
 ss_status

@@ -313,7 +313,7 @@ make_room(solver *s, ss_error *err)
     s->room = ss_columns_new(5, n + 1);
     if (s->part == NULL || s->given == NULL || s->room == NULL
         || ss_real_fft_new(&s->forth, 2 * n, 0) != SS_OK || ss_real_fft_new(&s->back, 2 * n, 1) != SS_OK
-        || ss_morlet_scratch(plan, &s->scratch) != SS_OK || ss_morlet_keep_wavelets(s->plan) != SS_OK)
+        || ss_blocks_scratch(plan->blocks, &s->scratch) != SS_OK || ss_morlet_keep_wavelets(s->plan) != SS_OK)
         return SS_ENOMEM;
     s->gradient = s->room[0], s->levelled = s->room[1], s->step = s->room[2];
     s->image = s->room[3], s->gain = s->room[4];
@@ -330,7 +330,7 @@ release(solver *s)
     ss_real_fft_free(&s->forth);
     ss_real_fft_free(&s->back);
     free(s->room);
-    ss_fft_scratch_free(s->scratch);
+    ss_blocks_scratch_free(s->scratch);
     ss_block_sums_free(s->sums);
     ss_morlet_free(s->plan);
 }

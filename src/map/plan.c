@@ -65,13 +65,6 @@ ss_morlet_free(ss_morlet *plan)
 /* --- what execution needs ----------------------------------------------------------------------- */
 
 ss_status
-ss_morlet_scratch(const ss_morlet *plan, double **scratch)
-{
-    *scratch = plan->blocks != NULL ? ss_fft_doubles(ss_blocks_room(plan->blocks)) : NULL;
-    return plan->blocks != NULL && *scratch == NULL ? SS_ENOMEM : SS_OK;
-}
-
-ss_status
 ss_morlet_keep_wavelets(ss_morlet *plan)
 {
     plan->wave = calloc(plan->n_scales, sizeof(wavelet *));

@@ -127,12 +127,7 @@ void ss_morlet_end(transformed *of);
 ss_status ss_morlet_parts(const ss_morlet *plan, const transformed *of, const ss_map_part part[], size_t n,
                           size_t *done, ss_error *err);
 
-double *ss_fft_doubles(size_t n);                      /* aligned; NULL: no memory */
-void ss_fft_scratch_free(double *scratch);              /* NULL is allowed */
-
 void ss_morlet_spectra_free(spectra *s);
-/* What one thread needs for parts; NULL: nothing, else ss_fft_scratch_free's. */
-ss_status ss_morlet_scratch(const ss_morlet *plan, double **scratch);
 /* The coefficients of a part, in the norm and the samples' own size. */
 ss_status ss_morlet_part(const ss_morlet *plan, const transformed *of, double *scratch, const ss_map_part *part,
                          ss_error *err);

@@ -17,10 +17,9 @@
 
 enum { GIVEN = 1 << 17 };       /* coefficients computed and passed to the sink at a time, at most */
 
-/* What is computed of one window: the scales first ... end - 1. */
+/* What is computed of one window. */
 typedef struct window {
     ss_stream *stream;
-    size_t first, end;
     ptrdiff_t limit;            /* a coefficient is complete if it needs no sample from here on */
     transformed of;
 } window;
@@ -29,7 +28,6 @@ struct ss_stream {
     ss_morlet *plan;            /* as of the longest record that a plan allows */
     ss_coefficient_sink *sink;
     void *user;
-    ss_grid grid;               /* for callers */
     size_t samples;
     size_t *next;               /* of each scale, the next translation */
     cascade *cascade;
@@ -49,7 +47,7 @@ static size_t
 count_given(const window *win, size_t i)
 {
     const ss_stream *s = win->stream;
-    const ss_scale *scale = &s->grid.scale[i];
+    const ss_scale *scale = &s->plan->grid.scale[i];
     size_t end = ss_blocks_end(s->plan->blocks, i, win->of.spectra.first);
     double last = s->ended ? (double)s->samples - 1 : INFINITY;
     if (win->limit < PTRDIFF_MAX)
@@ -71,7 +69,7 @@ run_level(size_t level, size_t number, double *spectrum, void *user)
 {
     window win = *(const window *)user;
     ss_stream *s = win.stream;
-    const size_t scales = s->grid.n_scales, most = s->plan->opts.threads > 1 ? scales : 1;
+    const size_t scales = s->plan->grid.n_scales, most = s->plan->opts.threads > 1 ? scales : 1;
     ss_status st = SS_OK;
     win.of.spectra.first = number;
     win.of.spectra.level[level] = spectrum;
@@ -95,7 +93,7 @@ run_level(size_t level, size_t number, double *spectrum, void *user)
         st = ss_morlet_parts(s->plan, &win.of, s->part, parts, NULL, &s->error);
         for (const ss_map_part *p = s->part; st == SS_OK && p < s->part + parts; p++) {
             s->next[p->scale] = p->first + p->n;
-            if (s->sink(&s->grid.scale[p->scale], p->first, p->n, p->w, s->samples, s->user))
+            if (s->sink(&s->plan->grid.scale[p->scale], p->first, p->n, p->w, s->samples, s->user))
                 st = SS_STOP;
         }
     }
@@ -194,7 +192,7 @@ make(ss_stream *s, double rate, const ss_morlet_opts *opts, ss_error *err)
     ss_status st = ss_grid_make(&plan->scale, &plan->n_scales, 0, rate, opts, err);
     if (st == SS_OK)
         st = ss_blocks_new(plan);
-    s->grid = (ss_grid){ plan->n_scales, plan->scale, 0 };
+    plan->grid = (ss_grid){ plan->n_scales, plan->scale, 0 };
     for (size_t i = plan->n_scales; st == SS_OK && i-- > 0;)
         if (!ss_blocks_covers(plan->blocks, i))
             return ss_fail(err, SS_ESCALE, "a stream has no scale as short as that of %.6g Hz", plan->scale[i].f);
@@ -255,7 +253,7 @@ ss_stream_free(ss_stream *s)
 const ss_grid *
 ss_stream_grid(const ss_stream *s)
 {
-    return s != NULL ? &s->grid : NULL;
+    return s != NULL ? &s->plan->grid : NULL;
 }
 
 size_t
@@ -267,5 +265,5 @@ ss_stream_samples(const ss_stream *s)
 size_t
 ss_stream_window(const ss_stream *s, size_t i)
 {
-    return s != NULL && i < s->grid.n_scales ? (size_t)ss_blocks_delay(s->plan->blocks, i) : 0;
+    return s != NULL && i < s->plan->grid.n_scales ? (size_t)ss_blocks_delay(s->plan->blocks, i) : 0;
 }

@@ -191,18 +191,18 @@ name_columns(struct text *x, const char *names, const char *units)
 
 /* The text of the kept line that is `up` lines above the last one, which is just above the data; NULL if
  * there is none. */
-static char *
+static const char *
 line_above(const struct text *x, size_t up)
 {
     return x->n_head > up ? x->head[x->n_head - 1 - up].text : NULL;
 }
 
-/* Rigol's oscilloscopes number the rows.  Behind the names of their columns they write Start and
- * Increment, and the two times in the line below.  Read the times and cut both lines before them. */
+/* Rigol's oscilloscopes number the rows.  Behind the names of their columns they write Start and Increment, and the
+ * two times in the line below. */
 static void
 find_increment(struct text *x)
 {
-    char *above = line_above(x, 1), *last = line_above(x, 0);
+    const char *above = line_above(x, 1), *last = line_above(x, 0);
     size_t at_start = NONE, at_step = NONE;
     double start, step;
     size_t n = ss_text_split(x, above != NULL ? above : "", x->separator);
@@ -214,19 +214,11 @@ find_increment(struct text *x)
         return;
     n = ss_text_split(x, last, x->separator);
     if (at_start >= n || at_step >= n || ss_cell_read(x->cell[at_start], x->separator, &start) != CELL_NUMBER
-        || ss_cell_read(x->cell[at_step], x->separator, &step) != CELL_NUMBER)
+        || ss_cell_read(x->cell[at_step], x->separator, &step) != CELL_NUMBER || !(step > 0))
         return;
-    for (int i = 0; i < 2; i++) {
-        size_t left = x->t.n_columns;
-        for (char *p = i == 0 ? above : last; *p != '\0' && left > 0; p++)
-            if (*p == x->separator && --left == 0)
-                *p = '\0';
-    }
-    if (step > 0) {
-        x->t.counted.origin = start;
-        x->t.counted.increment = step;
-        x->t.counted.numbered = 1;
-    }
+    x->t.counted.origin = start;
+    x->t.counted.increment = step;
+    x->t.counted.numbered = 1;
 }
 
 /* Refuse the last line, which has numbers, if it is a row with a bad cell. */
@@ -336,7 +328,7 @@ name_by_keys(struct text *x)
 void
 ss_text_read_names(struct text *x)
 {
-    char *last_line = line_above(x, 0), *above = line_above(x, 1);
+    const char *last_line = line_above(x, 0), *above = line_above(x, 1);
     find_increment(x);
     if (x->t.counted.increment > 0) {
         x->t.named = 1;

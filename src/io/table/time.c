@@ -417,11 +417,9 @@ ss_sheet_find_clock(struct sheet *t, struct timing *timing, ss_error *err)
     }
     if (column != NONE && !guessed)
         return read_column(t, column, timing, err);
-    ss_status st = guessed ? read_clock(t, column, timing, NULL) : SS_ECLOCK;
-    if (st == SS_EUNIT)
-        return read_clock(t, column, timing, err);      /* again, with its message */
-    if (st == SS_OK || st == SS_ENOMEM)
-        return st == SS_OK ? SS_OK : ss_fail_memory(err, t->name);
+    ss_status st = guessed ? read_clock(t, column, timing, err) : SS_ECLOCK;
+    if (st == SS_OK || st == SS_EUNIT || st == SS_ENOMEM)
+        return st == SS_ENOMEM ? ss_fail_memory(err, t->name) : st;
     if (t->clue != NULL)
         return ss_fail(err, SS_ECLOCK, "%s: no column of time, but line %lu may give the rate: '%.80s'", t->name,
                        t->clue_line, t->clue);

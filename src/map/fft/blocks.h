@@ -14,8 +14,9 @@ int ss_blocks_covers(const struct blocks *blocks, size_t i);     /* blocks may b
 /* The record's spectra, window by window; free it, forward failed or not. */
 ss_status ss_blocks_forward(const struct blocks *blocks, const record *rec, spectra *out);
 
-/* Doubles that a thread needs, from fftw_malloc. */
-size_t ss_blocks_room(const struct blocks *blocks);
+/* What one thread needs for parts, NULL without blocks; SS_ENOMEM. */
+ss_status ss_blocks_scratch(const struct blocks *blocks, double **scratch);
+void ss_blocks_scratch_free(double *scratch);         /* NULL is allowed */
 /* Part of scale i, factor times what it is in units of a^1/2 and of the record. */
 void ss_blocks_scale(const struct blocks *blocks, size_t i, const spectra *s, double *scratch,
                      span part, double factor, double *w);

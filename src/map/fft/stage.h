@@ -47,6 +47,8 @@ struct blocks {
     struct shared_plan *plans;              /* all that are used here, one of each kind and length */
 };
 
+/* Doubles that a thread needs. */
+size_t ss_blocks_room(const struct blocks *b);
 /* Make the plans of all levels and scales that are used here; those of the adjoint only if that is wanted. */
 ss_status ss_blocks_plan(struct blocks *b, int adjoint);
 

@@ -197,14 +197,15 @@ ss_cascade_end(const cascade *now, size_t n, window_sink *sink, void *user)
 
 /* --- a whole record --------------------------------------------------------------------------- */
 
-double *
-ss_fft_doubles(size_t n)
+ss_status
+ss_blocks_scratch(const struct blocks *b, double **scratch)
 {
-    return fftw_malloc(n * sizeof(double));
+    *scratch = b != NULL ? fftw_malloc(ss_blocks_room(b) * sizeof **scratch) : NULL;
+    return b != NULL && *scratch == NULL ? SS_ENOMEM : SS_OK;
 }
 
 void
-ss_fft_scratch_free(double *scratch)
+ss_blocks_scratch_free(double *scratch)
 {
     fftw_free(scratch);
 }
