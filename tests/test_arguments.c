@@ -15,7 +15,6 @@
 #include "find/numbers.h"
 #include "study/sweep/grid.h"
 #include "io/record.h"
-#include "map/wavelet.h"
 #include "motion/kind.h"
 #include "scene/key.h"
 #include "scene/scene.h"

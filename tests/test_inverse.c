@@ -225,7 +225,7 @@ adjoint_is_the_sum(void **state)
         ss_morlet *plan = plan_of(n, 1500, &opts);
         block_sums *sums = plan->blocks != NULL ? ss_block_sums_new(plan->blocks) : NULL;
         double *w = malloc(2 * ss_morlet_grid(plan)->total * sizeof *w), *x = malloc(n * sizeof *x), *scratch;
-        assert_int_equal(ss_morlet_scratch(plan, &scratch), SS_OK);
+        assert_int_equal(ss_blocks_scratch(plan->blocks, &scratch), SS_OK);
         for (size_t i = 0; i < ss_morlet_grid(plan)->n_scales; i++) {
             const ss_scale *sc = &ss_morlet_grid(plan)->scale[i];
             double error = 0, sum_of_h = 1.88 / (1500 * sc->b_num / sc->b_den);
@@ -239,7 +239,7 @@ adjoint_is_the_sum(void **state)
         }
         assert_true(opts.engine == SS_ENGINE_FFT ? blocks > 3 : blocks == 0);
         ss_block_sums_free(sums);
-        ss_fft_scratch_free(scratch);
+        ss_blocks_scratch_free(scratch);
         ss_morlet_free(plan);
         free(w);
         free(x);

@@ -5,7 +5,6 @@
 #include "map/map.h"
 #include "morlet_plan.h"
 #include "unit.h"
-#include "map/wavelet.h"
 #include "morlet_point.h"
 
 /* --- benchmarks of the paper --------------------------------------------------------------- */

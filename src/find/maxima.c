@@ -28,7 +28,6 @@
 #include "base/versions.h"
 #include "map/map.h"
 #include "map/plan.h"
-#include "map/wavelet.h"
 
 #define NONE UINT32_MAX         /* no peak: of a dry hill, or not known yet */
 

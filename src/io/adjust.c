@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include "base/error.h"
 #include "signal/header.h"
-#include "io/reader.h"
+#include "io/format.h"
 
 struct adjusted {
     ss_source base;

@@ -14,7 +14,7 @@
 #include "base/number.h"
 #include "base/list.h"
 #include "map/plan.h"
-#include "io/reader.h"
+#include "io/format.h"
 
 enum { LARGEST_M = 500 };       /* the largest |log2 a| */
 

@@ -6,7 +6,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include "base/error.h"
-#include "io/writer.h"
 
 #define ROW(name) &ss_format_##name,
 static const struct format *const list[FORMATS] = { FORMAT_LIST(ROW) };

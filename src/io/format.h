@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stickslip/morlet.h>
 #include <stickslip/signal.h>
+#include <stickslip/store.h>
 #include "io/input.h"
 #include "signal/source.h"
 
@@ -94,5 +95,52 @@ extern const char *const ss_coefficient_columns[COEFFICIENT_COLUMNS][2];        
 ss_status ss_refuse_table(const char *name, const ss_read_opts *opts, ss_error *err);
 /* Refuse it, and options for input without a clock; this input has the rate own. */
 ss_status ss_refuse_clock(const char *name, double own, const ss_read_opts *opts, ss_error *err);
+
+/* --- a reader: a handle on the outermost of the sources that make the rows of a file --------- */
+
+struct ss_reader {
+    ss_source *source;
+    struct input in;            /* of a stream */
+    FILE *file;                 /* that the reader closes, or NULL */
+};
+
+/* Begin to read a stream of this kind, in the format that its first bytes show, or, if in is NULL, the file whose
+ * path is its name; o->in becomes the reader's. */
+ss_status ss_reader_open(ss_reader **out, FILE *in, const char *name, struct opening *o, ss_error *err);
+
+/* The file of a path, to be freed, and the place in it: the path may go on behind the file's name with ":/" and a
+ * place; else that is NULL. */
+char *ss_file_of(const char *path, const char **place);
+
+/* Wrap a source for the options that hold for every format: a span of time, factors and units (adjust.c). */
+ss_status ss_source_adjust(ss_source **s, const ss_read_opts *opts, ss_error *err);
+/* Wrap a source that cannot go back in one that can (table/samples.c). */
+ss_status ss_source_keep(ss_source **s, const char *folder, ss_error *err);
+
+/* --- a writer of one file: as a stream (writer.c), or in HDF5 (hdf5/writer.c) ---------------- */
+
+struct writer_calls {           /* as the public functions, whose arguments have been checked */
+    ss_status (*rows)(ss_writer *w, double *const column[], size_t n, ss_error *err);
+    ss_status (*coefficients)(ss_writer *w, const ss_scale *scale, size_t first, size_t n, const double *c,
+                              size_t samples, ss_error *err);
+    ss_status (*events)(ss_writer *w, const ss_event *event, size_t n, ss_error *err);
+    ss_status (*note)(ss_writer *w, const char *key, const char *value, ss_error *err);
+    ss_status (*end)(ss_writer *w, size_t samples, ss_error *err);
+    void (*free)(ss_writer *w);
+};
+
+/* The first member of each writer. */
+struct ss_writer {
+    const struct writer_calls *calls;
+};
+
+/* What HDF5 is needed for, behind the checks of arguments. */
+struct ss_store_calls {
+    /* As open_file of a format. */
+    ss_status (*open_signal)(ss_source **out, const char *path, const char *dataset, const ss_read_opts *opts,
+                             ss_error *err);
+    ss_status (*open_coefficients)(ss_coefficients **out, const char *path, ss_error *err);
+    ss_status (*writer_new)(ss_writer **out, const char *path, const ss_contents *contents, ss_error *err);
+};
 
 #endif

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <stickslip/scene.h>
 #include "base/error.h"
-#include "io/reader.h"
+#include "io/format.h"
 #include "scene/model.h"
 #include "scene/scene.h"
 

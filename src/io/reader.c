@@ -1,5 +1,5 @@
 /* reader.c -- read a signal of any format, as rows or as a whole. */
-#include "io/reader.h"
+#include "io/format.h"
 
 #include <errno.h>
 #include <math.h>

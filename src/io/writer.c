@@ -2,7 +2,6 @@
  *
  * For each row of coefficients only b, re, im and edge are formatted: the cells that all rows of a scale share
  * are made once. */
-#include "io/writer.h"
 
 #include <stdlib.h>
 #include <string.h>

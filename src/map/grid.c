@@ -17,7 +17,6 @@
 #include "base/number.h"
 #include "base/options.h"
 #include "map/plan.h"
-#include "map/wavelet.h"
 
 #define SLACK 1e-9          /* added to j, because V log2 a is rounded, by less than 1e-10 */
 #define STEPS_REPEAT 17     /* the wavelet reaches 8.5 a to either side */

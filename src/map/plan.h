@@ -6,7 +6,6 @@
 #include <stddef.h>
 #include <stickslip/morlet.h>
 #include "map/map.h"
-#include "map/wavelet.h"
 
 /* The note of a stepped grid whose translations are fractions of samples: without it they are n B_0 a. */
 #define SS_LATTICE "b = n B, B the largest 2^p/m samples <= step a, m of 1 3 5 7 9 15 21 25 35 45"

@@ -10,12 +10,77 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "io/record.h"
-#include "map/wavelet.h"
+#include "map/map.h"
 
 const struct ss_contour_ranges ss_contour_ranges = { { 1, CONTOUR_LEVELS }, { 1e-3, 1000 }, { -2000, 2000 } };
 static const ss_contour_opts defaults = { .levels = 18, .span = 80, .noise = NAN, .level = NAN };
 
 SS_OPTIONS(ss_contour_opts, defaults)
+
+/* --- colours whose lightness falls in even steps, for levels on white paper, or rises ------------
+ *
+ * viridis, plasma, inferno and magma are those of S. van der Walt and N.  Smith for matplotlib
+ * (2015), which they dedicated to the public domain (CC0), cividis that of J.  Nunez, C.  Anderton
+ * and R.  Renslow (2018), which all kinds of colour vision see alike; at tenths of their range,
+ * between which colours are mixed. */
+
+enum { TENTHS = 11, PALETTES = 6 };
+
+/* Dark to light. */
+static const char *const shade[PALETTES][TENTHS] = {
+    { "#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c", "#22a884", "#44bf70", "#7ad151",
+      "#bddf26", "#fde725" },
+    { "#00224e", "#083370", "#35456c", "#4f576c", "#666970", "#7d7c78", "#948e77", "#aea371", "#c8b866",
+      "#e5cf52", "#fee838" },
+    { "#0d0887", "#41049d", "#6a00a8", "#8f0da4", "#b12a90", "#cc4778", "#e16462", "#f2844b", "#fca636",
+      "#fcce25", "#f0f921" },
+    { "#000004", "#160b39", "#420a68", "#6a176e", "#932667", "#bc3754", "#dd513a", "#f37819", "#fca50a",
+      "#f6d746", "#fcffa4" },
+    { "#000004", "#140e36", "#3b0f70", "#641a80", "#8c2981", "#b73779", "#de4968", "#f7705c", "#fe9f6d",
+      "#fecf92", "#fcfdbf" },
+    { "#000000", "#1b1b1b", "#303030", "#474747", "#5e5e5e", "#777777", "#919191", "#ababab", "#c6c6c6",
+      "#e2e2e2", "#ffffff" },
+};
+const char *const ss_palettes[] = {
+    "viridis", "cividis", "plasma", "inferno", "magma", "grey",
+    "viridis_r", "cividis_r", "plasma_r", "inferno_r", "magma_r", "grey_r", NULL
+};
+
+/* Its place among ss_palettes; those from PALETTES on have a light loudest level. */
+static int
+find_palette(const char *name)
+{
+    int i = 0;
+    while (ss_palettes[i] != NULL && strcmp(ss_palettes[i], name) != 0)
+        i++;
+    return i;
+}
+
+static int
+is_palette(const char *name)
+{
+    return ss_palettes[find_palette(name)] != NULL;
+}
+
+/* The colour below all areas of a palette whose loudest level is light; NULL if it is dark: white paper. */
+static const char *
+palette_ground(const char *name)
+{
+    int i = find_palette(name);
+    return i >= PALETTES ? shade[i - PALETTES][0] : NULL;
+}
+
+/* Write the variable colours: those of a palette from quiet to loud, for lines on white or for areas. */
+static void
+write_palette(FILE *out, const char *name, int areas)
+{
+    int i = find_palette(name);
+    int lightest = areas ? TENTHS - 1 : TENTHS - 3;     /* a line of the last two is lost on white */
+    fputs("colours = \"", out);
+    for (int k = 0; k <= lightest; k++)
+        ss_print(out, "%g '%s'%s", (double)k / lightest, shade[i % PALETTES][i < PALETTES ? lightest - k : k],
+                k < lightest ? ", " : "\"\n");
+}
 
 /* --- axes and cone --------------------------------------------------------------------------- */
 
@@ -175,7 +240,7 @@ static const char panel_b[] =
 static const char *
 ground_of(const ss_contour_opts *contour)
 {
-    return contour->fill && contour->palette != NULL ? ss_palette_ground(contour->palette) : NULL;
+    return contour->fill && contour->palette != NULL ? palette_ground(contour->palette) : NULL;
 }
 
 /* The variables at the top. */
@@ -199,7 +264,7 @@ write_variables(FILE *out, const contour_map *map, const ss_contour_opts *contou
     if (contour->palette == NULL && !contour->fill)
         fputs("colours = \"" LEVEL_COLOURS "\"\n", out);
     else
-        ss_palette_write(out, contour->palette != NULL ? contour->palette : "viridis", contour->fill);
+        write_palette(out, contour->palette != NULL ? contour->palette : "viridis", contour->fill);
     if (contour->fill)
         ss_print(out, "ground_colour = '%s'\n", ground_of(contour) != NULL ? ground_of(contour) : "white");
     fputs("cone_colour = '" CONE_COLOUR "'; event_colour = '" VERMILION "'\n", out);
@@ -315,7 +380,7 @@ check(const ss_coefficients *c, const ss_contour_opts *contour, ss_error *err)
     if (contour->noise < 0 || isinf(contour->noise) || !(contour->top >= 0 && contour->top <= DBL_MAX)
         || !(contour->fmin >= 0) || !(contour->fmax >= 0))
         return ss_fail(err, SS_EINVAL, "noise, top, fmin or fmax is negative or not finite");
-    if (contour->palette != NULL && !ss_palette_is_known(contour->palette))
+    if (contour->palette != NULL && !is_palette(contour->palette))
         return ss_fail(err, SS_EINVAL, "no palette '%.40s'", contour->palette);
     if (signal != NULL && contour->column >= signal->head->n_columns)
         return ss_fail_column(err, contour->column, signal->head->n_columns);

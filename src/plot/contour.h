@@ -52,10 +52,4 @@ void ss_noise_level_free(noise_level *noise);           /* NULL is allowed */
 /* Write the datablock $spans, of two times a row, cut at the ends of span; returns the number of rows. */
 size_t ss_contour_write_spans(FILE *out, const script_span *span, const ss_overlay *overlay);
 
-int ss_palette_is_known(const char *name);
-/* The colour below all areas of a palette whose loudest level is light; NULL if it is dark: white paper. */
-const char *ss_palette_ground(const char *name);
-/* Write the variable colours: those of a palette from quiet to loud, for lines on white or for areas. */
-void ss_palette_write(FILE *out, const char *name, int areas);
-
 #endif

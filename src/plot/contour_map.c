@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "map/map.h"
-#include "map/wavelet.h"
 #include "signal/gaps.h"
 
 #define LEAST_SPAN 10.0         /* [dB] that lines span, however high the noise is */

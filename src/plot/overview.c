@@ -6,9 +6,8 @@
 #include <string.h>
 #include "base/error.h"
 #include "base/versions.h"
-#include "io/reader.h"
+#include "io/format.h"
 #include "map/map.h"
-#include "map/wavelet.h"
 #include "plot/contour.h"
 #include "plot/series.h"
 #include "signal/gaps.h"

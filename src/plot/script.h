@@ -11,7 +11,7 @@
 #define SCRIPT_COLUMNS 1000     /* pixel columns of a line over time, after thinning */
 
 /* Lines have the colours of Okabe and Ito (2008), which readers with any kind of colour vision tell apart.
- * palette.c has the colours between levels, map.c those of a map's regions and lines. */
+ * contour.c has the colours between levels, map.c those of a map's regions and lines. */
 #define BLACK "#000000"
 #define BLUE "#0072b2"
 #define VERMILION "#d55e00"

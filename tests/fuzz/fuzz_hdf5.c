@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 #include "io/hdf5/h5.h"
-#include "io/reader.h"
+#include "io/format.h"
 #include "fuzz.h"
 #include "../read_opts.h"
 

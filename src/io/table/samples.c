@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include "base/list.h"
 #include "base/progress.h"
-#include "io/reader.h"
+#include "io/format.h"
 #include "signal/gaps.h"
 #include "signal/source.h"
 
