@@ -26,7 +26,8 @@ refuse_span(const struct adjusted *a, ss_error *err)
     return ss_fail(err, SS_EDATA, "%s: no samples from %.9g to %.9g s", name, a->span.from, a->span.to);
 }
 
-/* Give rows of the span; if they are stamped, each with its time, which the inner source has or its clock shows. */
+/* Give rows of the span; if they are stamped, each with its time, which the inner source has or its clock
+ * shows. */
 static ss_status
 give_adjusted(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err)
 {
@@ -66,8 +67,8 @@ free_adjusted(ss_source *s)
     free(((struct adjusted *)s)->factor);
 }
 
-/* Apply the factors before the units: a column with a factor loses its unit, unless it is given another.  Note what
- * was done: "force x 4.45 N, accel g". */
+/* Apply the factors before the units: a column with a factor loses its unit, unless it is given another.  Note
+ * what was done: "force x 4.45 N, accel g". */
 static ss_status
 calibrate(struct adjusted *a, const ss_read_opts *opts, char *is_new, ss_error *err)
 {

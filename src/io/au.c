@@ -1,9 +1,8 @@
-/* au.c -- Sun AU: PCM of 8 to 32 bits and floating point, big-endian; 64-bit floating point is
- * written.
+/* au.c -- Sun AU: PCM of 8 to 32 bits and floating point, big-endian; 64-bit floating point is written.
  *
- * In the files that we write, the annotation is the header of our text, which has facts that AU
- * cannot store.  Another program (SoX) may have changed the samples and kept the annotation, so
- * its rate and columns are used only if they agree with those of the file. */
+ * In the files that we write, the annotation is the header of our text, which has facts that AU cannot store.
+ * Another program (SoX) may have changed the samples and kept the annotation, so its rate and columns are used
+ * only if they agree with those of the file. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,10 +1,9 @@
 /* coefficients.c -- coefficients that are read.
  *
- * The stream's notes hold every option that the grid follows from, so that a reader rebuilds the
- * grid and holds each row against it: a row that is missing, doubled or out of place is found.  The edges follow
- * from the grid, too, and are not read.
- * Rows of different scales may come in any order, those of one scale with b ascending.  A stream
- * written before its length was known says that at its end. */
+ * The stream's notes hold every option that the grid follows from, so that a reader rebuilds the grid and holds
+ * each row against it: a row that is missing, doubled or out of place is found.  The edges follow from the grid,
+ * too, and are not read.  Rows of different scales may come in any order, those of one scale with b ascending.  A
+ * stream written before its length was known says that at its end. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>

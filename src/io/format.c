@@ -1,5 +1,5 @@
-/* format.c -- the list of formats, and the choice among them; HDF5 as a format, without the HDF5 library, which only
- * the functions of ss_store_calls need. */
+/* format.c -- the list of formats, and the choice among them; HDF5 as a format, without the HDF5 library, which
+ * only the functions of ss_store_calls need. */
 #include "io/format.h"
 
 #include <stdio.h>

@@ -32,8 +32,7 @@ struct format {
                                    may hold coefficients too */
     ss_status (*open)(ss_source **out, const struct opening *o, ss_error *err);        /* or NULL */
 
-    /* To read what only its path opens: is the file at path of this format?  place: of a signal in it, or
-     * NULL. */
+    /* To read what only its path opens: is the file at path of this format?  place: of a signal in it, or NULL. */
     int (*is_file)(const char *path);
     ss_status (*open_file)(ss_source **out, const char *path, const char *place, const ss_read_opts *opts,
                            ss_error *err);
@@ -55,8 +54,7 @@ struct format {
     void (*key)(FILE *out, const char *name, int first);
 };
 
-/* The list, in the order of ss_format: ss_format_tsv and so on.  The format without magic is tried
- * last. */
+/* The list, in the order of ss_format: ss_format_tsv and so on.  The format without magic is tried last. */
 #define FORMAT_LIST(row) \
     row(tsv) \
     row(au) \

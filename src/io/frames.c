@@ -1,5 +1,4 @@
-/* frames.c -- samples as integers, as fractions of full scale, and as floating point, of either byte
- * order. */
+/* frames.c -- samples as integers, as fractions of full scale, and as floating point, of either byte order. */
 #include <math.h>
 #include <string.h>
 #include "base/error.h"

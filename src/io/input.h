@@ -8,8 +8,7 @@
 #include <sys/types.h>
 #include <stickslip/status.h>
 
-/* The longest line [bytes], far longer than any in a real file.  It bounds the memory of hostile
- * input. */
+/* The longest line [bytes], far longer than any in a real file.  It bounds the memory of hostile input. */
 enum { MAX_LINE = 1 << 24 };
 
 /* Bytes of a stream as they arrive.  No call waits for more bytes than it needs. */

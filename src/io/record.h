@@ -30,8 +30,8 @@ SS_PRINTF(2, 3)
 void ss_rows_note(struct rows *rows, const char *text, ...);
 /* "# key: value error unit", the value in so many digits and the error in half of them; 0: in all. */
 void ss_rows_note_value(struct rows *rows, const char *key, ss_value v, const char *unit, int digits);
-/* A word or a number of the whole result, which is written above the rows as a note; in a format without notes it is
- * called at the end of each row instead, and writes cells there: KEY; all_KEY and all_KEY_error. */
+/* A word or a number of the whole result, which is written above the rows as a note; in a format without notes it
+ * is called at the end of each row instead, and writes cells there: KEY; all_KEY and all_KEY_error. */
 void ss_rows_whole_word(struct rows *rows, const char *key, const char *text);
 void ss_rows_whole_value(struct rows *rows, const char *key, ss_value v, const char *unit, int digits);
 /* Write the notes of a header, except those with the names of a result's own, as ss_note_is takes them. */

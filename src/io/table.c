@@ -52,8 +52,7 @@ read_row(table_reader *r, const char *line, ss_error *err)
     for (const char *p = line; *p != '\0'; p++)
         found += *p == '\t';
     if (t->n_columns == 0)
-        return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->in.name,
-                       r->in.line);
+        return ss_fail(err, SS_EDATA, "%s:%lu: no '# columns:' line in the header", r->in.name, r->in.line);
     if (found != t->n_columns)
         return ss_fail(err, SS_EDATA, "%s:%lu: expected %zu column%s, found %zu", r->in.name,
                        r->in.line, t->n_columns, PLURAL(t->n_columns), found);

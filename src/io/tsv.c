@@ -21,7 +21,8 @@ refuse_row(const struct text *s, const char *line, ss_error *err)
 {
     const ss_header *head = s->base.head;
     const char *name = s->in->name, *bad = NULL;
-    size_t found = 0, length, bad_length = 0, bad_cell = 0, cells = head->n_columns + (head->has_time != 0);
+    const size_t time = head->has_time != 0, cells = head->n_columns + time;
+    size_t found = 0, length, bad_length = 0, bad_cell = 0;
     for (const char *p = line; *(p += strspn(p, " \t")) != '\0'; p += length, found++) {
         length = strcspn(p, " \t");
         char *end;
@@ -37,7 +38,7 @@ refuse_row(const struct text *s, const char *line, ss_error *err)
                        PLURAL(cells), found);
     if (bad == NULL)
         return ss_fail(err, SS_EDATA, "%s:%lu: a NUL byte in text", name, s->in->line);
-    const char *column = head->has_time && bad_cell == 0 ? "t" : head->column[bad_cell - (head->has_time != 0)].name;
+    const char *column = bad_cell < time ? "t" : head->column[bad_cell - time].name;
     return ss_fail(err, SS_EDATA, "%s:%lu: column %s: '%.*s' is not a finite number", name, s->in->line, column,
                    bad_length < 40 ? (int)bad_length : 40, bad);
 }
@@ -112,7 +113,8 @@ open_text(ss_source **out, const struct opening *o, ss_error *err)
     s->user = o->user;
     ss_header *head = s->base.head;
     ss_status st = ss_input_begin(in, o->kind, err);
-    while (st == SS_OK && (st = ss_input_need(in, 1, err)) == SS_OK && in->lo < in->hi && in->buffer[in->lo] == '#') {
+    while (st == SS_OK && (st = ss_input_need(in, 1, err)) == SS_OK && in->lo < in->hi
+           && in->buffer[in->lo] == '#') {
         if ((st = ss_input_line(in, &line, &length, err)) != SS_OK)
             break;
         st = ss_header_read_line(head, line, &reason);

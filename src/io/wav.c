@@ -31,8 +31,7 @@ read_format(struct frames *f, uint32_t length, unsigned *channels, ss_error *err
 {
     struct input *in = f->in;
     if (length < FMT_LEAST || length > FMT_MOST)
-        return ss_fail(err, SS_EDATA, "%s: WAV header: a format of %lu bytes", in->name,
-                       (unsigned long)length);
+        return ss_fail(err, SS_EDATA, "%s: WAV header: a format of %lu bytes", in->name, (unsigned long)length);
     ss_status st = ss_input_whole(in, length, "WAV header", err);
     if (st != SS_OK)
         return st;
@@ -86,8 +85,7 @@ read_chunks(struct frames *f, unsigned *channels, uint64_t *place, uint32_t *len
         if (st != SS_OK)
             return st;
     }
-    return ss_fail(err, SS_EDATA, "%s: WAV header: no data in the first %d chunks", in->name,
-                   MAX_CHUNKS);
+    return ss_fail(err, SS_EDATA, "%s: WAV header: no data in the first %d chunks", in->name, MAX_CHUNKS);
 }
 
 static ss_status

@@ -149,8 +149,9 @@ end_stream(ss_writer *w, size_t samples, ss_error *err)
     ss_status st = SS_OK;
     if (s->open_end && s->format->has_notes)
         fprintf(s->file, "# samples: %zu\n", samples);
+    double row[COEFFICIENT_COLUMNS] = { 0, 0, (double)(samples - 1) / s->head->rate };
     for (int i = 0; s->open_end && s->format->separator == '\0' && i < COEFFICIENT_COLUMNS; i++)
-        s->used += format_cell(s->format, s->text + s->used, i == 2 ? (double)(samples - 1) / s->head->rate : 0, 0);
+        s->used += format_cell(s->format, s->text + s->used, row[i], 0);
     drain(s);
     if (s->format->end != NULL)
         st = s->format->end(s->file, s->head->rate, s->head->n_columns, s->row, err);

@@ -1,5 +1,5 @@
-/* coefficients.c -- coefficients with their grid and the notes that say it; see map.h: maps in memory, and maps that
- * are computed where they are read. */
+/* coefficients.c -- coefficients with their grid and the notes that say it; see map.h: maps in memory, and maps
+ * that are computed where they are read. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,11 +1,10 @@
 /* dense.c -- compute a coefficient at each sample from the points of an oversampled series.
  *
- * The positions of samples between points repeat, and so do their weights.  A table has the
- * weights of LANES positions side by side, for all points that any of these positions needs, with
- * zeros for the points that a position does not need.  The inner loop multiplies this table by
- * points, for several repetitions of the pattern at once.  The carrier of a sample is the product of
- * the carrier at its place in the pattern and that of its row, a repetition of the pattern; the
- * latter is a product of two tables. */
+ * The positions of samples between points repeat, and so do their weights.  A table has the weights of LANES
+ * positions side by side, for all points that any of these positions needs, with zeros for the points that a
+ * position does not need.  The inner loop multiplies this table by points, for several repetitions of the pattern
+ * at once.  The carrier of a sample is the product of the carrier at its place in the pattern and that of its row,
+ * a repetition of the pattern; the latter is a product of two tables. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -91,8 +90,7 @@ typedef struct carrier {
     double *places;                     /* [blocks][2][LANES]: re, im */
 } carrier;
 
-/* The powers 0 to ROOT - 1 of exp(2 pi i k c/m), each the product of two half as high: errors are some
- * eps. */
+/* The powers 0 to ROOT - 1 of exp(2 pi i k c/m), each the product of two half as high: errors are some eps. */
 static void
 powers(size_t k, size_t c, size_t m, double e[ROOT][2])
 {

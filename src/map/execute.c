@@ -1,5 +1,5 @@
-/* execute.c -- a plan: the grid of a record, and the engine of each scale; and its execution: parts of its scales, on
- * the number of threads in the options, into memory, to a sink, or to whoever reads a map.
+/* execute.c -- a plan: the grid of a record, and the engine of each scale; and its execution: parts of its scales,
+ * on the number of threads in the options, into memory, to a sink, or to whoever reads a map.
  *
  * One thread computes a part, from input that all threads share and none changes, so the result does
  * not depend on the number of threads. */

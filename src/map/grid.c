@@ -1,15 +1,14 @@
 /* grid.c -- the scales and translations of a transform, and the ones that it refuses.
  *
- * Scales are numbered: a = 2^(j/V).  Every limit (a frequency, octaves, the sampling, the record's
- * length) becomes a range of V log2 a, widened by SLACK so that a limit which is a scale includes it,
- * and then a range of integers j.  So a request is refused for a scale that it contains, not for the
- * frequency that it names.
+ * Scales are numbered: a = 2^(j/V).  Every limit (a frequency, octaves, the sampling, the record's length) becomes
+ * a range of V log2 a, widened by SLACK so that a limit which is a scale includes it, and then a range of integers
+ * j.  So a request is refused for a scale that it contains, not for the frequency that it names.
  *
- * Translations of a stepped grid are 2^p/m samples apart, m from a short list of odd numbers: the
- * largest such step that does not exceed B_0 a.  Then any 2^p samples that begin at a translation
- * hold a whole number of steps, and inverse FFTs of short lengths give all coefficients
- * (fft/blocks.c).  m B_0 <= STEPS_REPEAT keeps 2^p below twice the reach of the wavelet; steps above
- * B_0 = 1 are few and stay exact.  The grid follows from options, rate and j alone. */
+ * Translations of a stepped grid are 2^p/m samples apart, m from a short list of odd numbers: the largest such
+ * step that does not exceed B_0 a.  Then any 2^p samples that begin at a translation hold a whole number of steps,
+ * and inverse FFTs of short lengths give all coefficients (fft/blocks.c).  m B_0 <= STEPS_REPEAT keeps 2^p below
+ * twice the reach of the wavelet; steps above B_0 = 1 are few and stay exact.  The grid follows from options, rate
+ * and j alone. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -113,8 +112,7 @@ refuse(range use, size_t n, double rate, const ss_morlet_opts *opts, ss_error *e
 }
 
 static ss_status
-check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts *opts,
-              ss_error *err)
+check_request(range ask, range use, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
 {
     int complete = opts->octaves || (opts->fmin > 0 && opts->fmax > 0);
     if (use.lo > use.hi && !(opts->force && complete)) {
@@ -152,8 +150,7 @@ ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err
     if (!(opts->fmin >= 0 && opts->fmin <= in->frequency.to && opts->fmax >= 0
           && opts->fmax <= in->frequency.to)
         || (opts->fmin > 0 && opts->fmax > 0 && opts->fmin > opts->fmax))
-        return ss_fail(err, SS_EINVAL, "no frequencies between fmin %g and fmax %g Hz",
-                       opts->fmin, opts->fmax);
+        return ss_fail(err, SS_EINVAL, "no frequencies between fmin %g and fmax %g Hz", opts->fmin, opts->fmax);
     if (opts->octaves && !(opts->m0 >= in->octave.from && opts->m0 <= opts->m1
                            && opts->m1 <= in->octave.to))
         return ss_fail(err, SS_EINVAL, "octaves %g:%g are not ascending in %g ... %g", opts->m0,
@@ -162,8 +159,7 @@ ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_error *err
         || (unsigned)opts->engine > SS_ENGINE_FFT)
         return ss_fail(err, SS_EINVAL, "unknown norm, detrend or engine");
     if (opts->threads < 1 || opts->threads > SS_THREADS_MAX)
-        return ss_fail(err, SS_EINVAL, "threads %d is out of range 1 ... %d", opts->threads,
-                       SS_THREADS_MAX);
+        return ss_fail(err, SS_EINVAL, "threads %d is out of range 1 ... %d", opts->threads, SS_THREADS_MAX);
     return SS_OK;
 }
 
@@ -265,8 +261,7 @@ ss_morlet_scale_at(ss_scale *scale, int j, double a, size_t n, double rate,
 }
 
 ss_status
-ss_grid_make(ss_scale **scale, size_t *n_scales, size_t n, double rate,
-               const ss_morlet_opts *opts, ss_error *err)
+ss_grid_make(ss_scale **scale, size_t *n_scales, size_t n, double rate, const ss_morlet_opts *opts, ss_error *err)
 {
     range use = usable(n, rate, opts), ask = requested_range(n, rate, opts, use);
     ss_status st = check_request(ask, use, n, rate, opts, err);

@@ -84,9 +84,8 @@ add_adjoint(solver *s, size_t i, span part, const double *w, double *to)
         }
 }
 
-/* The coefficients of x, or with rest the given ones less those: *norm becomes the weighted sum of their
- * squares, and `to` the adjoint of the transform applied to them.  No more than a part of them is in memory
- * at a time. */
+/* The coefficients of x, or with rest the given ones less those: *norm becomes the weighted sum of their squares,
+ * and `to` the adjoint of the transform applied to them.  No more than a part of them is in memory at a time. */
 static ss_status
 transform(solver *s, const double *x, int rest, double *to, double *norm, ss_error *err)
 {
@@ -214,9 +213,9 @@ overlap(const solver *s, double w, double shift)
     return sum;
 }
 
-/* The gains of the 2 n samples' terms, for frequencies that the scales see with a tenth of tol of the best power or
- * more: fainter ones would hold up the rest.  For a tol below 3e-6 there are none, as the error beyond the scales
- * would be more than is said. */
+/* The gains of the 2 n samples' terms, for frequencies that the scales see with a tenth of tol of the best power
+ * or more: fainter ones would hold up the rest.  For a tol below 3e-6 there are none, as the error beyond the
+ * scales would be more than is said. */
 static void
 set_gains(solver *s, double tol)
 {
@@ -278,8 +277,7 @@ make_plan(solver *s, ss_error *err)
     int same = s->plan->n_scales == c->n_scales;
     for (size_t i = 0; same && i < c->n_scales; i++)
         same = s->plan->scale[i].j == c->scale[i].j && s->plan->scale[i].n == c->scale[i].n;
-    return same ? SS_OK : ss_fail(err, SS_EDATA, "scales are missing between the longest and the "
-                                  "shortest");
+    return same ? SS_OK : ss_fail(err, SS_EDATA, "scales are missing between the longest and the shortest");
 }
 
 /* Choose the power of two by which the coefficients' squares neither overflow nor vanish. */

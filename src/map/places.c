@@ -1,9 +1,8 @@
 /* places.c -- compute coefficients at any translations from the points of an oversampled series.
  *
- * Between points the series is a sum of KAISER_TAPS_MAX points with the weights of a kernel
- * (kaiser.c), which are polynomials of the place.  This sum is then multiplied by the carrier.  A
- * place is kept as a whole number of points and a rest, so that the phase of the carrier is right
- * to the last bit. */
+ * Between points the series is a sum of KAISER_TAPS_MAX points with the weights of a kernel (kaiser.c), which are
+ * polynomials of the place.  This sum is then multiplied by the carrier.  A place is kept as a whole number of
+ * points and a rest, so that the phase of the carrier is right to the last bit. */
 #include <math.h>
 #include <string.h>
 #include "base/versions.h"

@@ -62,12 +62,10 @@ ss_status ss_morlet_not_finite(ss_error *err, size_t number, double x);
 void ss_morlet_divide(double *x, size_t n, int exponent, double most);
 
 /* SS_EINVAL if a sample is not finite. */
-ss_status ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend,
-                           ss_error *err);
+ss_status ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_error *err);
 
 /* w, in units of a^1/2 and of the record, in the norm and the samples' own size. */
-ss_status ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent,
-                           ss_error *err);
+ss_status ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_error *err);
 /* The coefficients of a scale at n translations k by the definition, so finished. */
 ss_status ss_morlet_points(const ss_morlet *plan, const ss_scale *scale, const record *rec, const size_t k[],
                            size_t n, double *w, ss_error *err);

@@ -51,8 +51,7 @@ size_t ss_dense_room(size_t n);
 void ss_dense_write(const weights *d, const double *v, size_t turns, size_t circle, size_t first,
                     size_t n, double factor, double *spare, double *w);
 
-enum { PLACES_MARGIN = KAISER_TAPS_MAX };       /* points before point 0, and after the last that is asked for, which
-                                                   are read, too */
+enum { PLACES_MARGIN = KAISER_TAPS_MAX };       /* points before and after those asked for that are read, too */
 
 /* Point p of a series, which its carrier turns by so many turns a point, is sample start + samples p;
  * samples is a power of two. */

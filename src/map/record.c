@@ -92,8 +92,7 @@ ss_morlet_finite(const double *x, size_t n, double *most)
 ss_status
 ss_morlet_not_finite(ss_error *err, size_t number, double x)
 {
-    return ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", number,
-                   isnan(x) ? "NaN" : "infinite");
+    return ss_fail(err, SS_EINVAL, "sample %zu is %s, not a finite number", number, isnan(x) ? "NaN" : "infinite");
 }
 
 ss_status
@@ -115,9 +114,8 @@ ss_morlet_record(record *rec, const double *x, size_t n, ss_detrend detrend, ss_
     return SS_OK;
 }
 
-/* x 2^exponent, rounded as ldexp does.  A subnormal number is made from its bits, which count units of
- * 2^-1074, since some processors take 100 times as long to compute one.  all is 2^exponent in these units,
- * or infinity. */
+/* x 2^exponent, rounded as ldexp does.  A subnormal number is made from its bits, which count units of 2^-1074,
+ * since some processors take 100 times as long to compute one.  all is 2^exponent in these units, or infinity. */
 static double
 move_exponent(double x, int exponent, double all)
 {
@@ -137,8 +135,7 @@ ss_morlet_finish(double *w, size_t n, double a, ss_norm norm, int exponent, ss_e
     for (size_t i = 0; i < 2 * n; i++) {
         w[i] = move_exponent(w[i] * factor, exponent, all);
         if (!isfinite(w[i]))
-            return ss_fail(err, SS_EINVAL, "coefficients at scale %g s exceed what a double holds",
-                           a);
+            return ss_fail(err, SS_EINVAL, "coefficients at scale %g s exceed what a double holds", a);
     }
     return SS_OK;
 }

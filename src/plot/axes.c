@@ -265,7 +265,7 @@ ss_script_find_span(script_span *span, double start, double rate, size_t n, cons
 }
 
 #define TIME_INTERVALS 6.0           /* at most, */
-#define TIME_LETTERS 34.0            /* and so many that their labels have this many letters, blanks between them */
+#define TIME_LETTERS 34.0            /* and so many that their labels have this many letters, with blanks */
 
 #define LONGEST_TIME 8               /* letters of a label; if it had more, it has the time from a round one on */
 

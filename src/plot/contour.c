@@ -19,10 +19,9 @@ SS_OPTIONS(ss_contour_opts, defaults)
 
 /* --- colours whose lightness falls in even steps, for levels on white paper, or rises ------------
  *
- * viridis, plasma, inferno and magma are those of S. van der Walt and N.  Smith for matplotlib
- * (2015), which they dedicated to the public domain (CC0), cividis that of J.  Nunez, C.  Anderton
- * and R.  Renslow (2018), which all kinds of colour vision see alike; at tenths of their range,
- * between which colours are mixed. */
+ * viridis, plasma, inferno and magma are those of S. van der Walt and N.  Smith for matplotlib (2015), which they
+ * dedicated to the public domain (CC0), cividis that of J.  Nunez, C.  Anderton and R.  Renslow (2018), which all
+ * kinds of colour vision see alike; at tenths of their range, between which colours are mixed. */
 
 enum { TENTHS = 11, PALETTES = 6 };
 
@@ -62,17 +61,15 @@ is_palette(const char *name)
     return ss_palettes[find_palette(name)] != NULL;
 }
 
-/* The colour below all areas of a palette whose loudest level is light; NULL if it is dark: white paper. */
-static const char *
-palette_ground(const char *name)
+const char *
+ss_palette_ground(const char *name)
 {
     int i = find_palette(name);
     return i >= PALETTES ? shade[i - PALETTES][0] : NULL;
 }
 
-/* Write the variable colours: those of a palette from quiet to loud, for lines on white or for areas. */
-static void
-write_palette(FILE *out, const char *name, int areas)
+void
+ss_palette_write(FILE *out, const char *name, int areas)
 {
     int i = find_palette(name);
     int lightest = areas ? TENTHS - 1 : TENTHS - 3;     /* a line of the last two is lost on white */
@@ -112,9 +109,8 @@ write_cone(FILE *out, const ss_coefficients *c, const script_span *span, const d
     fputs("EOD\n", out);
 }
 
-/* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, at the powers only
- * where those would not fit, and at every digit where there are few.  High ones are in 10^3 Hz,
- * 10^6 Hz. */
+/* Tics at every digit of every power of ten; labels at 1 2 5 10 20 50 ... Hz, at the powers only where those would
+ * not fit, and at every digit where there are few.  High ones are in 10^3 Hz, 10^6 Hz. */
 static void
 write_frequency_tics(FILE *out, double lo, double hi)
 {
@@ -240,7 +236,7 @@ static const char panel_b[] =
 static const char *
 ground_of(const ss_contour_opts *contour)
 {
-    return contour->fill && contour->palette != NULL ? palette_ground(contour->palette) : NULL;
+    return contour->fill && contour->palette != NULL ? ss_palette_ground(contour->palette) : NULL;
 }
 
 /* The variables at the top. */
@@ -264,7 +260,7 @@ write_variables(FILE *out, const contour_map *map, const ss_contour_opts *contou
     if (contour->palette == NULL && !contour->fill)
         fputs("colours = \"" LEVEL_COLOURS "\"\n", out);
     else
-        write_palette(out, contour->palette != NULL ? contour->palette : "viridis", contour->fill);
+        ss_palette_write(out, contour->palette != NULL ? contour->palette : "viridis", contour->fill);
     if (contour->fill)
         ss_print(out, "ground_colour = '%s'\n", ground_of(contour) != NULL ? ground_of(contour) : "white");
     fputs("cone_colour = '" CONE_COLOUR "'; event_colour = '" VERMILION "'\n", out);
@@ -356,8 +352,7 @@ write_map(FILE *out, const contour_map *map, const ss_coefficients *c, const ss_
         fputs(", \\\n    $spans using 1:(rim(0.02)):($2-$1):(0) with vectors nohead lw 3 "
               "lc rgb feature_colour", out);
     if (n.spikes > 0)
-        fputs(", \\\n    $spikes using 1:(rim(0.98)) with points pt 11 ps 0.6*mark "
-              "lc rgb feature_colour", out);
+        fputs(", \\\n    $spikes using 1:(rim(0.98)) with points pt 11 ps 0.6*mark lc rgb feature_colour", out);
     if (n.maxima > 0)
         fputs(", \\\n    $maxima using 1:2 with points pt 7 ps 0.9*mark lc rgb 'white', \\\n"
               "    $maxima using 1:2 with points pt 7 ps 0.7*mark lc rgb feature_colour, \\\n"

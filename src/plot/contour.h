@@ -26,9 +26,8 @@ ss_status ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_co
                          const script_span *span, ss_error *err);
 void ss_contour_map_free(contour_map *map);
 
-/* Write a datablock of time, frequency and number of the level, with a blank line after each line
- * and two after each level, and the list of levels that have lines.  *any becomes 1 if a level has
- * one. */
+/* Write a datablock of time, frequency and number of the level, with a blank line after each line and two after
+ * each level, and the list of levels that have lines.  *any becomes 1 if a level has one. */
 ss_status ss_contour_write_lines(FILE *out, const contour_map *map, int levels, int *any);
 /* Write polygons that fill the areas between the lines. */
 ss_status ss_contour_write_fill(FILE *out, const contour_map *map, int levels);
@@ -51,5 +50,10 @@ void ss_noise_level_free(noise_level *noise);           /* NULL is allowed */
 
 /* Write the datablock $spans, of two times a row, cut at the ends of span; returns the number of rows. */
 size_t ss_contour_write_spans(FILE *out, const script_span *span, const ss_overlay *overlay);
+
+/* The colour below all areas of a palette whose loudest level is light; NULL if it is dark: white paper. */
+const char *ss_palette_ground(const char *name);
+/* Write the variable colours: those of a palette from quiet to loud, for lines on white or for areas. */
+void ss_palette_write(FILE *out, const char *name, int areas);
 
 #endif

@@ -23,8 +23,7 @@ write_point(FILE *out, const contour_map *map, const double point[2], const char
     double range = map->to - map->from;
     size_t row = (size_t)fmin(point[1], (double)(map->rows - 2));
     double part = point[1] - (double)row, f = map->f[row] * pow(map->f[row + 1] / map->f[row], part);
-    ss_script_write(out, map->from + point[0] / CONTOUR_COLUMNS * range,
-                    ss_script_decimals(range), between);
+    ss_script_write(out, map->from + point[0] / CONTOUR_COLUMNS * range, ss_script_decimals(range), between);
     ss_script_write(out, f, 3 - (int)floor(log10(f)), behind);
 }
 

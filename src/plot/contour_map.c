@@ -53,7 +53,8 @@ fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
             return st;
         for (size_t k = 0; k < c->scale[s].n; k++) {
             if (!isfinite(level[k]))
-                return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite", c->scale[s].f);
+                return ss_fail(err, SS_EINVAL, "|W| at %g Hz cannot be drawn: a value is not finite",
+                               c->scale[s].f);
             f->anywhere = fmax(f->anywhere, level[k]);
             int is_known = f->noise == NULL && (f->contour->top > 0 || level[k] <= f->outside);
             if (is_known || ss_coefficients_edge(c, s, k))
@@ -73,8 +74,7 @@ fill_rows(contour_map *map, filling *f, double *level, ss_error *err)
     return SS_OK;
 }
 
-/* If fmin and fmax are given, replace the first row by the map at the label fmin, the last by that
- * at fmax. */
+/* If fmin and fmax are given, replace the first row by the map at the label fmin, the last by that at fmax. */
 static void
 cut_rows(contour_map *map, double fmin, double fmax)
 {
@@ -107,7 +107,8 @@ ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_contour_opts
     filling f = { .c = c, .contour = contour, .outside = -1 };
     const ss_scale *scale = c->scale;
     size_t longest = 0, last = c->n_scales - 1;
-    double start = c->head->start, end = start + (double)c->n / c->head->rate, lo = fmax(contour->fmin, scale[0].f);
+    double start = c->head->start, end = start + (double)c->n / c->head->rate;
+    double lo = fmax(contour->fmin, scale[0].f);
     double hi = contour->fmax > 0 ? fmin(contour->fmax, scale[last].f) : scale[last].f;
     *map = (contour_map){ .span_of_time = span, .from = fmax(span->from, start), .to = fmin(span->to, end) };
     if (!(lo < hi))
@@ -124,7 +125,8 @@ ss_contour_map(contour_map *map, const ss_coefficients *c, const ss_contour_opts
     map->level = malloc(map->rows * (CONTOUR_COLUMNS + 1) * sizeof *map->level);
     double *level = malloc(longest * sizeof *level);
     f.noise = isnan(contour->noise) ? ss_noise_level_new(c->n_scales) : NULL;
-    int made = map->f != NULL && map->level != NULL && level != NULL && (!isnan(contour->noise) || f.noise != NULL);
+    int made = map->f != NULL && map->level != NULL && level != NULL
+        && (!isnan(contour->noise) || f.noise != NULL);
     for (size_t i = 0; made && i < map->rows; i++)
         map->f[i] = scale[f.first + i].f;
     ss_status st = made ? fill_rows(map, &f, level, err) : ss_fail_memory(err, NULL);

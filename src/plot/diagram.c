@@ -1,8 +1,7 @@
 /* diagram.c -- draw a sweep over one parameter: columns of its rows over the key that was varied.
  *
- * If the rows of one value differ, as the points of a stroboscopic map do, they are drawn as
- * points (a bifurcation diagram), else as a line.  Counts have no values between two: they are drawn as steps
- * and points. */
+ * If the rows of one value differ, as the points of a stroboscopic map do, they are drawn as points (a bifurcation
+ * diagram), else as a line.  Counts have no values between two: they are drawn as steps and points. */
 #include "plot/map.h"
 
 #include <math.h>

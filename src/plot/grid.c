@@ -11,8 +11,7 @@
 
 /* A cell is a number, "-" for an unknown value, or "aperiodic". */
 ss_status
-ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size_t index[],
-                    ss_error *err)
+ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size_t index[], ss_error *err)
 {
     ss_status st = SS_OK;
     memset(column, 0, n * sizeof *column);
@@ -29,7 +28,8 @@ ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size
             char *end;
             double x = column[k].value[i] = unknown ? NAN : aperiodic ? 0 : ss_number_parse(cell, &end);
             if (!unknown && !aperiodic && (end == cell || *end != '\0' || !isfinite(x)))
-                st = ss_fail(err, SS_EDATA, "row %zu, column %s: '%.40s' is not a finite number", i + 1, name, cell);
+                st = ss_fail(err, SS_EDATA, "row %zu, column %s: '%.40s' is not a finite number", i + 1, name,
+                             cell);
             else if (fabs(x) >= 1)
                 st = ss_script_check(name, (script_extent){ x, x }, err);
         }
@@ -48,7 +48,8 @@ ss_status
 ss_map_make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
 {
     size_t found = 0;
-    script_extent d = SCRIPT_NO_EXTENT, r = SCRIPT_NO_EXTENT;   /* of neighbours: differences, logarithms of ratios */
+    /* of neighbours: differences, logarithms of ratios */
+    script_extent d = SCRIPT_NO_EXTENT, r = SCRIPT_NO_EXTENT;
     *a = (map_axis){ .n = 0 };
     a->value = malloc((n + 1) * sizeof *a->value);
     if (a->value == NULL)

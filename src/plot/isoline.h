@@ -10,9 +10,8 @@ typedef struct isoline_map {
     const double *height;       /* finite, row after row: height[j * nx + i] */
 } isoline_map;
 
-/* One line of n >= 2 points in units of the grid; a closed one ends where it began.  high_left: 1
- * if heights on its left are at the level or above it, those on its right below; 0 if it is the
- * other way round. */
+/* One line of n >= 2 points in units of the grid; a closed one ends where it began.  high_left: 1 if heights on
+ * its left are at the level or above it, those on its right below; 0 if it is the other way round. */
 typedef void isoline_sink(const double (*point)[2], size_t n, int high_left, void *user);
 
 /* Pass every line at this level to the sink, those that end at the border first. */

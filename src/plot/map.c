@@ -1,8 +1,7 @@
 /* map.c -- draw a sweep over two parameters: regions of equal count, lines of equal value.
  *
- * A region is drawn as boxes.  The neighbouring grid points of a region in one row make one box,
- * which overlaps the next row by a quarter, so that no seams are visible.  map_lines.c makes the
- * lines. */
+ * A region is drawn as boxes.  The neighbouring grid points of a region in one row make one box, which overlaps
+ * the next row by a quarter, so that no seams are visible.  map_lines.c makes the lines. */
 #include <stickslip/sweep.h>
 #include "plot/map.h"
 

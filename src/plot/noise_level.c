@@ -1,15 +1,13 @@
 /* noise_level.c -- find the level at which noise begins in a map of |W|.
  *
- * In Gaussian noise, re and im of W are independent and normal, so |W|^2 has an exponential
- * distribution: its quantile u is -s^2 ln(1 - u).  A scale can show noise only if the quantiles of its
- * |W|^2 have these ratios in the lower half, which few events reach; they also give s.  The |W|^2
- * of steady oscillations varies far less; that of transients, with rounding between them, far
- * more.
+ * In Gaussian noise, re and im of W are independent and normal, so |W|^2 has an exponential distribution: its
+ * quantile u is -s^2 ln(1 - u).  A scale can show noise only if the quantiles of its |W|^2 have these ratios in
+ * the lower half, which few events reach; they also give s.  The |W|^2 of steady oscillations varies far less;
+ * that of transients, with rounding between them, far more.
  *
- * The many harmonics of a tone have this distribution, too, but they have structure: |W|^2 rises and
- * falls slowly, or repeats.  The |W|^2 of noise forgets itself within a length of the wavelet.  So
- * its autocorrelation tells the two apart; levels above the median do not count, so that events that
- * repeat do not hide the noise between them.
+ * The many harmonics of a tone have this distribution, too, but they have structure: |W|^2 rises and falls slowly,
+ * or repeats.  The |W|^2 of noise forgets itself within a length of the wavelet.  So its autocorrelation tells the
+ * two apart; levels above the median do not count, so that events that repeat do not hide the noise between them.
  *
  * Quantiles are interpolated in histograms with bins of 1/8 of a binary order, 0.26 to 0.51 dB, and
  * autocorrelations are means over parts of the record, so memory does not grow. */

@@ -89,8 +89,8 @@ ss_script_begin(FILE *out, const ss_plot_opts *opts, const ss_header *head, doub
     }
     if (f != NULL)
         ss_print(out, "letters = %d\nfont = sprintf('Sans,%%g', letters)\n"
-                 "set terminal %s noenhanced size width%s,height%s font font linewidth %s\n", f->letters, f->terminal,
-                 f->unit, f->unit, f->lines);
+                 "set terminal %s noenhanced size width%s,height%s font font linewidth %s\n", f->letters,
+                 f->terminal, f->unit, f->unit, f->lines);
     if (f != NULL && opts->output != NULL) {
         /* At the start of a name gnuplot runs a program for '|' and replaces '~'. */
         ss_print(out, "set output \"%s", strchr("|~<>", opts->output[0]) != NULL ? "./" : "");
@@ -120,7 +120,8 @@ ss_script_write_frame(FILE *out, double from, double to)
 void
 ss_script_write_key(FILE *out)
 {
-    fputs("set title offset 0,0.7; set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\n", out);
+    fputs("set title offset 0,0.7; "
+          "set key at graph 1, graph 1 bottom right horizontal samplen 1.5 noenhanced\n", out);
 }
 
 const char *const ss_script_number[] = { "", "2", "3", "4", "5", "6" };

@@ -32,11 +32,10 @@ ss_script_decimals(double range)
     return (int)fmax(0, fmin(305, ceil(-log10(range / SCRIPT_COLUMNS)) + 1));
 }
 
-/* gnuplot replaces @name and `command` in a line before it looks for strings, so no character with a
- * meaning may appear in the line at all: letters,
- * digits and signs without a meaning are written as they are, all others as \ooo, which gnuplot
- * decodes after it has found the end of the string.  It reads all octal digits that follow, not only
- * three, so a digit after such a byte is written as \ooo, too. */
+/* gnuplot replaces @name and `command` in a line before it looks for strings, so no character with a meaning may
+ * appear in the line at all: letters, digits and signs without a meaning are written as they are, all others as
+ * \ooo, which gnuplot decodes after it has found the end of the string.  It reads all octal digits that follow,
+ * not only three, so a digit after such a byte is written as \ooo, too. */
 int
 ss_script_write_bytes(FILE *out, const char *bytes, size_t n, int escaped)
 {

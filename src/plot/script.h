@@ -67,8 +67,8 @@ extern const char *const ss_script_number[SS_PLOT_OVER];
 void ss_script_write_colours(FILE *out, const ss_plot_opts *opts);
 /* The height of the legend of opts->over [cm]; 0: none are drawn. */
 double ss_script_legend(const ss_plot_opts *opts);
-/* This legend above the panel; the names become the variables name, over_name, over_name2, ...  The columns are those
- * of the signal and of the others. */
+/* This legend above the panel; the names become the variables name, over_name, over_name2, ...  The columns are
+ * those of the signal and of the others. */
 void ss_script_write_legend(FILE *out, const ss_plot_opts *opts, const ss_column *const column[]);
 /* The same curve again for signal k over it: "$over2 using ..." behind the plot of the first. */
 void ss_script_write_over(FILE *out, size_t k, const char *block, int titled);
@@ -141,7 +141,8 @@ script_extent ss_script_scaled_extent(script_extent of_values, script_scale scal
 void ss_script_write_title(FILE *out, const char *title, const ss_column *lines);
 /* Label the horizontal axis with a name and a unit, and what its values are scaled by. */
 void ss_script_write_x_label(FILE *out, const ss_column *column, script_scale scale);
-/* Label number n beside the vertical axis has so much room [ems]; a longer one has two lines or smaller letters. */
+/* Label number n beside the vertical axis has so much room [ems]; a longer one has two lines or smaller
+ * letters. */
 void ss_script_write_side_label(FILE *out, int n, const ss_column *column, script_scale scale, double room);
 
 /* set AXIS STEP: at most so many intervals over the values, of 1, 2 or 5 times a power of ten; where all

@@ -40,7 +40,8 @@ draw_step(script_stack *stack, const ss_step *s, size_t number)
     }
     fputs("EOD\n", out);
     ss_script_write_panel(stack, FRICTION, 0.25, &frictions, ROOM, 5);
-    ss_print(out, "set format x ''; unset xlabel\nset key at graph 1, graph 0.99 top right horizontal samplen 1.5 noenhanced\n"
+    ss_print(out, "set format x ''; unset xlabel\n"
+             "set key at graph 1, graph 0.99 top right horizontal samplen 1.5 noenhanced\n"
              "plot $step%zu using 1:2 with lines lw 0.6 lc rgb '" SKY_BLUE "' title 'measured'", number);
     for (int k = 0; k < SS_STEP_LAWS; k++)
         ss_print(out, ", '' using 1:%d with lines lw 1.2 lc rgb '%s' title '%s'", 3 + 2 * k, colour[k],

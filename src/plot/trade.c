@@ -136,7 +136,8 @@ ss_plot_models(FILE *out, const ss_models *models, const ss_plot_opts *opts, ss_
     for (size_t i = 1; i < models->n; i++)
         for (size_t k = 0; k < KINDS && models->row[i].status == SS_OK; k++)
             if (error_of(&models->row[i], k) > 0)
-                ss_print(out, "%.4g %.3g %zu %zu\n", models->row[i].seconds / s.unit, error_of(&models->row[i], k), i, k);
+                ss_print(out, "%.4g %.3g %zu %zu\n", models->row[i].seconds / s.unit,
+                         error_of(&models->row[i], k), i, k);
     write_axes(&s, "largest or rms error / max", models->row[0].name, KINDS);
     ss_print(out, "set xrange [%.3g:%.3g]\n%s", s.time.lo / 1.6, s.time.hi * 1.6,
              s.time.hi / s.time.lo > 30 ? "" : "set xtics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20)\n");

@@ -164,8 +164,8 @@ write_paths(FILE *out, const ss_header *head, const path p[], const ss_plot_opts
         ss_script_write_legend(out, opts, second);
     ss_print(out, "unset grid; set tmargin at screen %.4g; set bmargin at screen 0.16\n"
              "set autoscale fix; set offsets graph 0.05,graph 0.05,graph 0.05,graph 0.05\n"
-             "plot $path using 1:2 with lines lw 1 lc rgb colour%s", 0.91 - 0.975 * ss_script_legend(opts) / HEIGHT,
-             opts->n_over > 0 ? " title name" : "");
+             "plot $path using 1:2 with lines lw 1 lc rgb colour%s",
+             0.91 - 0.975 * ss_script_legend(opts) / HEIGHT, opts->n_over > 0 ? " title name" : "");
     for (size_t i = 0; i < opts->n_over; i++) {
         char block[24];
         snprintf(block, sizeof block, "$over%s using 1:2", ss_script_number[i]);

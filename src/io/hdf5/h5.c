@@ -147,7 +147,8 @@ ss_h5_refuse_values(hid_t dataset, double *bytes)
         deflated += filter == H5Z_FILTER_DEFLATE;
         others += filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_FLETCHER32;
     }
-    double in_chunk = H5Pget_layout(how) != H5D_CHUNKED ? 0 : product(H5Pget_chunk(how, H5S_MAX_RANK, chunk), chunk);
+    double in_chunk = H5Pget_layout(how) == H5D_CHUNKED
+        ? product(H5Pget_chunk(how, H5S_MAX_RANK, chunk), chunk) : 0;
     H5Pclose(how);
     if (outside)
         return "its values lie outside this file";

@@ -1,5 +1,4 @@
-/* h5.h -- the base of the store: one open HDF5 file, its attributes and values, and the failures of its
- * calls. */
+/* h5.h -- the base of the store: one open HDF5 file, its attributes and values, and the failures of its calls. */
 #ifndef H5_H
 #define H5_H
 

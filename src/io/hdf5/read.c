@@ -209,7 +209,8 @@ find_array(rows *s, const char *dataset, const ss_read_opts *opts)
     if (opts->table > 0)
         ss_h5_fail(file, SS_EDATA, 0, dataset, "not delimited text: no table can be chosen");
     if (opts->time_unit != NULL && opts->time == NULL)
-        ss_h5_fail(file, SS_EDATA, 0, dataset, "a unit of time is that of a dataset of times, which must be chosen");
+        ss_h5_fail(file, SS_EDATA, 0, dataset,
+                   "a unit of time is that of a dataset of times, which must be chosen");
     s->n = shape.rows;
     s->by_columns = shape.transposed;
     s->gaps = opts->gaps != SS_GAPS_REFUSE || opts->time != NULL;   /* a table refuses them itself */
@@ -394,7 +395,8 @@ find(rows *s, const char *path, const char *dataset, const ss_read_opts *opts, s
         chunk = longer_chunk(chunk, s->dataset[d], s->by_columns);
     if (s->times > 0 && !s->is_own)
         chunk = longer_chunk(chunk, s->times, s->times_by_columns);
-    hsize_t target = PIECE / (s->base.head->n_columns + 1) + 1, n = chunk < target ? target / chunk * chunk : chunk;
+    hsize_t target = PIECE / (s->base.head->n_columns + 1) + 1;
+    hsize_t n = chunk < target ? target / chunk * chunk : chunk;
     s->base.length = s->n;
     s->piece = n < s->n ? (size_t)n : s->n;
     s->value = ss_columns_new(s->base.head->n_columns, s->piece);

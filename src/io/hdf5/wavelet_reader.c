@@ -41,7 +41,8 @@ check_parts(file_source *s, hid_t group, size_t rows, size_t n)
         hid_t id = ss_h5_open_values(&s->file, group, part_name[k], &rank, dims);
         H5Dclose(id);
         if (rank != 1 + s->dense || dims[rank - 1] != n || (s->dense && dims[0] != rows))
-            ss_h5_fail(&s->file, SS_EDATA, group, part_name[k], "not the coefficients of the grid that the notes give");
+            ss_h5_fail(&s->file, SS_EDATA, group, part_name[k],
+                       "not the coefficients of the grid that the notes give");
     }
 }
 

@@ -356,8 +356,8 @@ write_all_events(h5_writer *w)
         { "kind", "", "what begins: stick, slip, or slip the other way", text, kind, 0, 0 },
         { "x", "m", "displacement", H5T_IEEE_F64LE, &event->x, 0, 0 },
         { "v", "m/s", "velocity", H5T_IEEE_F64LE, &event->v, 0, 0 },
-        { "direction", "1", "sign of the slip that begins, or ended at a stick", H5T_STD_I8LE, &event->direction, 0,
-          0 },
+        { "direction", "1", "sign of the slip that begins, or ended at a stick", H5T_STD_I8LE,
+          &event->direction, 0, 0 },
     };
     if (kind == NULL && w->file.status == SS_OK)
         w->file.status = SS_ENOMEM;
@@ -442,9 +442,8 @@ begin_wavelet(h5_writer *w, const ss_coefficients *grid)
     }
 }
 
-/* A number that, added and then subtracted, rounds to a multiple of the largest power of two that is at
- * most sqrt(2) times the error allowed for W: re and im are off by at most half of that.  0: all bits are
- * kept. */
+/* A number that, added and then subtracted, rounds to a multiple of the largest power of two that is at most
+ * sqrt(2) times the error allowed for W: re and im are off by at most half of that.  0: all bits are kept. */
 static double
 rounding_of(double tolerance, double most)
 {
@@ -464,10 +463,9 @@ largest_of(const double *x, size_t n, double most)
 }
 
 /* Make the datasets of scale i, or, if dense, those of all scales, which are rectangles.  The largest |W| is
- * `most` so far.  For tolerances from 1e-7 on there are at most 2^24 multiples of rounding_of's unit, which
- * 32-bit floats hold exactly unless the unit is below 2^-149.  The error there is far below the
- * 16 eps a^1/2 max|x| that W has anyway: |W| is at most 1.9 a^1/2 max|x|, and here at least 1e-20 at one
- * scale. */
+ * `most` so far.  For tolerances from 1e-7 on there are at most 2^24 multiples of rounding_of's unit, which 32-bit
+ * floats hold exactly unless the unit is below 2^-149.  The error there is far below the 16 eps a^1/2 max|x| that
+ * W has anyway: |W| is at most 1.9 a^1/2 max|x|, and here at least 1e-20 at one scale. */
 static void
 open_datasets(h5_writer *w, size_t i, double most)
 {

@@ -92,8 +92,8 @@ enum cell_kind
 ss_cell_read(char *cell, char separator, double *x)
 {
     static const char *const missing[] = {      /* words that recorders write in place of a missing number */
-        "nan", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "1.#inf", "inf", "infinity", "na", "n/a", "#n/a", "#nv",
-        "null", "none", "ovr", "ovl", "ol", "ovld", "overload", "overrange", "overflow", "\u221e" };
+        "nan", "nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "1.#inf", "inf", "infinity", "\u221e", "na", "n/a",
+        "#n/a", "#nv", "null", "none", "ovr", "ovl", "ol", "ovld", "overload", "overrange", "overflow" };
     char *end, *comma = separator != ',' ? strchr(cell, ',') : NULL;
     if (comma != NULL)
         *comma = '.';

@@ -197,8 +197,8 @@ line_above(const struct text *x, size_t up)
     return x->n_head > up ? x->head[x->n_head - 1 - up].text : NULL;
 }
 
-/* Rigol's oscilloscopes number the rows.  Behind the names of their columns they write Start and Increment, and the
- * two times in the line below. */
+/* Rigol's oscilloscopes number the rows.  Behind the names of their columns they write Start and Increment, and
+ * the two times in the line below. */
 static void
 find_increment(struct text *x)
 {
@@ -234,8 +234,9 @@ check_mixed(struct text *x, enum row_kind before)
             has_words |= x->cell[i][0] != '\0';
             bad = i;
         }
-    int is_row = begins || !has_words || (before == ROW_NAMES && !is_one_of(x->cell[0], step_keys)
-                                          && !is_one_of(x->cell[0], unit_keys) && !is_one_of(x->cell[0], name_keys));
+    int has_key = is_one_of(x->cell[0], step_keys) || is_one_of(x->cell[0], unit_keys)
+        || is_one_of(x->cell[0], name_keys);
+    int is_row = begins || !has_words || (before == ROW_NAMES && !has_key);
     if (bad < n && is_row)
         ss_text_fail(x, x->cell[bad][0] != '\0' ? SS_EDATA : SS_EGAPS, line->number,
                      "column %zu: '%.40s' is not a number%s", bad + 1, x->cell[bad],
@@ -272,7 +273,8 @@ read_same(struct text *x, const char *const *word, size_t *n)
         if (ss_cell_read(x->cell[i], x->separator, &value) != CELL_NUMBER)
             continue;
         if (*n > 0 && fabs(value - same) > 1e-9 * fabs(value))
-            ss_text_fail(x, SS_EDATA, 0, "channels of different clocks: %s is %s and %.9g", word[0], x->cell[i], same);
+            ss_text_fail(x, SS_EDATA, 0, "channels of different clocks: %s is %s and %.9g", word[0], x->cell[i],
+                         same);
         same = value;
         ++*n;
     }
@@ -377,8 +379,8 @@ ss_text_check_times(struct text *x)
     }
     x->status = ss_kept_check(&t->rows, x->err);
     if (each && other < t->n_columns)
-        ss_text_fail(x, SS_EDATA, 0, "column %zu: the times of its channel are not those of the first; make a file of "
-                     "each", other + 1);
+        ss_text_fail(x, SS_EDATA, 0, "column %zu: the times of its channel are not those of the first; make a "
+                     "file of each", other + 1);
     for (size_t c = 2; each && c < t->n_columns; c += 2)
         t->column[c].kind = COLUMN_TEXT;
     if (x->status != SS_OK || x->first_x == 0 || (x->labview && x->layout == LAYOUT_NO))

@@ -128,13 +128,13 @@ ss_sheet_stamp(const struct time_column *c, const double *row)
 }
 
 /* Make a source of the rows, whose names are complete, as samples: with a clock, without the columns of time and
- * text, with gaps filled.  It takes the rows from the table, or, if
- * more come later, the table.  progress is told of the rows that were given, as the
- * second half of the work. */
+ * text, with gaps filled.  It takes the rows from the table, or, if more come later, the table.  progress is told
+ * of the rows that were given, as the second half of the work. */
 ss_status ss_sheet_give(ss_source **out, struct sheet *t, ss_progress progress, ss_error *err);
-/* Let *s, whose rows are those of a table that is no text, be the source of its samples; on failure it is freed, and *s
- * NULL.  named: are its columns? */
-ss_status ss_sheet_of_source(ss_source **s, const ss_read_opts *opts, int named, ss_progress progress, ss_error *err);
+/* Let *s, whose rows are those of a table that is no text, be the source of its samples; on failure it is freed,
+ * and *s NULL.  named: are its columns? */
+ss_status ss_sheet_of_source(ss_source **s, const ss_read_opts *opts, int named, ss_progress progress,
+                             ss_error *err);
 
 /* --- the uniform clock of stamps (clock.c) -------------------------------------------------- */
 

@@ -47,10 +47,11 @@ next_line(struct text *x, int *comment)
         if (x->status != SS_OK || line == NULL)
             return NULL;
         if (strlen(line) != length)
-            ss_text_fail(x, SS_EDATA, x->in->line, "a NUL byte: this is not text of 8-bit characters (iconv -f UTF-16 "
-                         "-t UTF-8 makes it of UTF-16)");
+            ss_text_fail(x, SS_EDATA, x->in->line, "a NUL byte: this is not text of 8-bit characters "
+                         "(iconv -f UTF-16 -t UTF-8 makes it of UTF-16)");
         if (strchr(line, '\r') != NULL)
-            ss_text_fail(x, SS_EDATA, x->in->line, "a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' makes them)");
+            ss_text_fail(x, SS_EDATA, x->in->line,
+                         "a lone CR; lines end in LF or CRLF (tr '\\r' '\\n' makes them)");
     } while (first_of(line) == '\0');
     *comment = *line == '#';
     make_room(x, length);
@@ -231,8 +232,8 @@ read_cell(struct text *x, size_t i)
         return value;
     const char *what = c->kind == COLUMN_STAMPS ? "time as those above it" : kind == CELL_NOT_FINITE
         ? "finite number" : "number";
-    ss_text_fail(x, missing ? SS_EGAPS : SS_EDATA, x->in->line, "column %s: '%.40s' is not a %s%s", name, cell, what,
-                 ss_cell_is_grouped(cell) ? ": it has separators of thousands; remove them" : "");
+    ss_text_fail(x, missing ? SS_EGAPS : SS_EDATA, x->in->line, "column %s: '%.40s' is not a %s%s", name, cell,
+                 what, ss_cell_is_grouped(cell) ? ": it has separators of thousands; remove them" : "");
     return NAN;
 }
 
@@ -288,8 +289,9 @@ begin_columns(struct text *x)
     ss_text_split(x, row, x->separator);        /* the cells were those of the names */
     for (size_t i = 0; i < t->n_columns; i++)
         if (column[i].kind == COLUMN_TEXT && t->opts->n_needed == 0 && ss_cell_is_grouped(x->cell[i]))
-            ss_text_fail(x, SS_EDATA, x->in->line, "column %zu (\"%s\"): '%.40s' is not a number: it has separators of "
-                         "thousands; remove them, or choose other columns", i + 1, t->names->column[i].name, x->cell[i]);
+            ss_text_fail(x, SS_EDATA, x->in->line, "column %zu (\"%s\"): '%.40s' is not a number: it has "
+                         "separators of thousands; remove them, or choose other columns", i + 1,
+                         t->names->column[i].name, x->cell[i]);
     for (size_t i = 0; x->status == SS_OK && i < t->n_columns; i++)
         if (column[i].kind == COLUMN_TEXT && !(x->labview && row[0] == '\t' && i == 0))
             ss_sheet_warn(t, SS_OK, "%s:%lu: column %zu (\"%s\") %s; it was skipped", t->name, x->in->line, i + 1,
@@ -402,7 +404,8 @@ read_line(struct text *x)
         is_footer = filled != x->t.n_columns && strchr(shape, 'n') == NULL;
     }
     if (is_footer)
-        ss_sheet_warn(&x->t, SS_OK, "%s:%lu: the rows end here; the words below them were skipped", x->t.name, number);
+        ss_sheet_warn(&x->t, SS_OK, "%s:%lu: the rows end here; the words below them were skipped", x->t.name,
+                      number);
     else
         append_row(x, x->head[0].text);
 }
@@ -494,8 +497,9 @@ is_letter(char c)
 static const struct text_line *
 find_rate_line(const struct text *x)
 {
-    static const char *const word[] = { "sampling", "samplerate", "samples per", "samples/s", "abtast", "chantillonnage",
-                                        "muestreo", "campionamento", "rate", "interval", "fs", "dt" };
+    static const char *const word[] = { "sampling", "samplerate", "samples per", "samples/s", "abtast",
+                                        "chantillonnage", "muestreo", "campionamento", "rate", "interval", "fs",
+                                        "dt" };
     for (size_t w = 0; w < sizeof word / sizeof *word; w++)
         for (size_t i = 0; i < x->n_head; i++) {
             const char *line = x->head[i].text;

@@ -304,7 +304,8 @@ no_such_column(const struct sheet *t, const char *name, ss_error *err)
     size_t length = 0, room = sizeof list - sizeof " ...";
     for (size_t i = 0, before; i < t->n_columns && length < room; i++) {
         before = length;
-        length += (size_t)snprintf(list + length, room - length, "%s%s", i > 0 ? ", " : "", t->names->column[i].name);
+        length += (size_t)snprintf(list + length, room - length, "%s%s", i > 0 ? ", " : "",
+                                   t->names->column[i].name);
         if (length >= room)
             strcpy(list + before, " ...");
     }
@@ -314,8 +315,8 @@ no_such_column(const struct sheet *t, const char *name, ss_error *err)
 static ss_status
 refuse_text(const struct sheet *t, size_t column, ss_status st, ss_error *err)
 {
-    return ss_fail(err, st, "%s: column %s holds text, not times such as 10:12:13.5, 12:13.5, 2024-03-05 10:12:13.5",
-                   t->name, t->names->column[column].name);
+    return ss_fail(err, st, "%s: column %s holds text, not times such as 10:12:13.5, 12:13.5, "
+                   "2024-03-05 10:12:13.5", t->name, t->names->column[column].name);
 }
 
 /* The column of time, or NONE: one with the name of a time, or else the first of dates with times, or else of

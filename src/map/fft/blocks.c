@@ -158,8 +158,7 @@ points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, c
                int l, size_t least)
 {
     const ss_morlet_opts *opts = &plan->opts;
-    band of = band_around(opts->center, half_width(opts), ldexp(scale->a, -l), plan->rate,
-                          (double)st->length);
+    band of = band_around(opts->center, half_width(opts), ldexp(scale->a, -l), plan->rate, (double)st->length);
     double most = (double)(of.hi - of.mid > of.mid - of.lo ? of.hi - of.mid : of.mid - of.lo);
     size_t points = 4 * PLACES_MARGIN;
     while (points < least || most / (double)points > b->kernel->edge)
@@ -323,8 +322,7 @@ ss_blocks_new(ss_morlet *plan)
     b->grid = plan->scale;
     if ((b->kernel = aligned_alloc(_Alignof(kaiser), sizeof *b->kernel)) == NULL)
         return SS_ENOMEM;
-    ss_places_kernel(b->kernel, half_width(&plan->opts), plan->opts.center,
-                     wavelet_second(&plan->opts), IMAGES);
+    ss_places_kernel(b->kernel, half_width(&plan->opts), plan->opts.center, wavelet_second(&plan->opts), IMAGES);
     choose_stages(b, plan);
     choose_rows(b, plan);
     if (b->levels == 0) {

@@ -26,13 +26,11 @@ typedef struct block_sums block_sums;
 block_sums *ss_block_sums_new(struct blocks *blocks);
 void ss_block_sums_free(block_sums *sums);            /* NULL is allowed */
 /* Add the coefficients w of a part of scale i, all of one window, times factor. */
-void ss_block_sums_add(block_sums *sums, size_t i, double *scratch, span part, double factor,
-                       const double *w);
+void ss_block_sums_add(block_sums *sums, size_t i, double *scratch, span part, double factor, const double *w);
 /* Add to the record's samples x what the sums make of them, and set the sums to 0.  SS_ENOMEM. */
 ss_status ss_block_sums_end(block_sums *sums, double *x);
 
-/* The level of scale i, its translations up to the end of a window, and how many a window holds, at
- * most. */
+/* The level of scale i, its translations up to the end of a window, and how many a window holds, at most. */
 size_t ss_blocks_level(const struct blocks *blocks, size_t i);
 size_t ss_blocks_end(const struct blocks *blocks, size_t i, size_t window);
 size_t ss_blocks_most(const struct blocks *blocks, size_t i);

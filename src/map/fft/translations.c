@@ -12,8 +12,7 @@
 /* to += g x over n terms, of which term k of the spectrum x of m points, a real signal's, is the first:
  * to term at of length, and on around it. */
 VERSIONS static void
-add_terms(const double *x, size_t m, ptrdiff_t k, const double *g, size_t n, double *to,
-          size_t length, size_t at)
+add_terms(const double *x, size_t m, ptrdiff_t k, const double *g, size_t n, double *to, size_t length, size_t at)
 {
     while (n > 0) {
         ptrdiff_t r = k % (ptrdiff_t)m;
