@@ -18,7 +18,7 @@ enum { LANES = 8, ROWS = 4, ROOT = LANES, GROUP_MAX = ROWS * LANES * DENSE_PHASE
 struct weights {
     size_t phases;
     size_t blocks, points;      /* the pattern repeats after so many blocks of LANES places, or points */
-    int taps, lead;             /* taps of a block; tap 0 lies lead points before the place's own */
+    size_t taps;                /* of a block */
     size_t *late;               /* [blocks], points before the first of a block */
     double *weight;             /* [blocks][taps][LANES] */
 };
@@ -37,23 +37,22 @@ ss_dense_new(const kaiser *ker, size_t phases)
         size_t more = (m * LANES + LANES - 1) / phases - m * LANES / phases;
         extra = more > extra ? more : extra;
     }
-    size_t taps = (size_t)ker->taps + extra, late = blocks * sizeof(size_t);
+    size_t taps = KAISER_TAPS + extra, late = blocks * sizeof(size_t);
     weights *d = calloc(1, sizeof *d + late + LINE + blocks * taps * LANES * sizeof(double));
     if (d == NULL)
         return NULL;
     d->phases = phases;
     d->blocks = blocks;
     d->points = LANES / common;
-    d->taps = (int)taps;
-    d->lead = ker->taps / 2 - 1;
+    d->taps = taps;
     d->late = (size_t *)(d + 1);
     d->weight = aligned(d->late + blocks);
     for (size_t c = 0; c < blocks * LANES; c++) {
-        double weight[KAISER_TAPS_MAX];
+        double weight[KAISER_TAPS];
         size_t block = c / LANES, own = c / phases;
         d->late[block] = block * LANES / phases;
         ss_kaiser_weights(ker, (double)(c % phases) / (double)phases, weight);
-        for (size_t i = 0; i < (size_t)ker->taps; i++)
+        for (size_t i = 0; i < KAISER_TAPS; i++)
             d->weight[(block * taps + own - d->late[block] + i) * LANES + c % LANES] = weight[i];
     }
     return d;
@@ -161,7 +160,7 @@ ss_dense_write(const weights *d, const double *series, size_t turns, size_t circ
     carrier turning;
     size_t group = ROWS * d->blocks * LANES, whole = n / group, rest = n - whole * group;
     double *last = spare + ss_dense_room(n) - 2 * GROUP_MAX;
-    ptrdiff_t point = (ptrdiff_t)(first / d->phases) - d->lead;
+    ptrdiff_t point = (ptrdiff_t)(first / d->phases) - (KAISER_TAPS / 2 - 1);
     make_carrier(&turning, d, turns, circle, first, (whole + 1) * ROWS, factor, aligned(spare));
     BEST_VERSION(write_128, write_256, write_512)(d, series + 2 * point, 0, whole, &turning, w);
     if (rest > 0) {

@@ -7,7 +7,7 @@ LOOP(const weights *d, const double *v, size_t g, size_t end, const carrier *tur
 {
     typedef double lanes __attribute__((vector_size(WIDTH * sizeof(double)), may_alias));
     enum { PARTS = LANES / WIDTH };
-    const size_t blocks = d->blocks, points = d->points, taps = (size_t)d->taps;
+    const size_t blocks = d->blocks, points = d->points, taps = d->taps;
     for (; g < end; g++) {
         const lanes *weight = (const lanes *)d->weight, *place = (const lanes *)turning->places;
         double e[ROWS][2];

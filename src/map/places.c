@@ -1,6 +1,6 @@
 /* places.c -- compute coefficients at any translations from the points of an oversampled series.
  *
- * Between points the series is a sum of KAISER_TAPS_MAX points with the weights of a kernel (kaiser.c), which are
+ * Between points the series is a sum of KAISER_TAPS points with the weights of a kernel (kaiser.c), which are
  * polynomials of the place.  This sum is then multiplied by the carrier.  A place is kept as a whole number of
  * points and a rest, so that the phase of the carrier is right to the last bit. */
 #include <math.h>
@@ -8,7 +8,8 @@
 #include "base/versions.h"
 #include "map/points.h"
 
-enum { LANES = 8, AT_ONCE = 64 };
+enum { LANES = 8, AT_ONCE = 64,
+    LEAD = KAISER_TAPS / 2 - 1 };       /* points before that before a place */
 
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
 typedef double pair __attribute__((vector_size(2 * sizeof(double))));
@@ -20,14 +21,6 @@ typedef double pair __attribute__((vector_size(2 * sizeof(double))));
 typedef struct places {
     double point[AT_ONCE], behind[AT_ONCE];
 } places;
-
-void
-ss_places_kernel(kaiser *out, double reach, double center, double second, double bound)
-{
-    kaiser_band band = { .edge = 0.4, .reach = reach, .center = center, .second = second };
-    while (!ss_kaiser_choose(out, &band, bound))
-        band.edge *= 0.95;
-}
 
 /* Computes as ss_scale_spot does, in two loops, for which compilers use vectors. */
 INLINE void
@@ -64,7 +57,7 @@ weights_behind(const kaiser *ker, double behind, lanes weight[4])
     lanes low = c[0], high = c[1];
     UNROLL
     for (int m = KAISER_NODES - 1; m > 0; m--) {
-        c -= KAISER_TAPS_MAX / LANES;
+        c -= KAISER_TAPS / LANES;
         low = low * y + c[0];
         high = high * y + c[1];
     }
@@ -77,9 +70,8 @@ weights_behind(const kaiser *ker, double behind, lanes weight[4])
 INLINE void
 add_taps(const kaiser *ker, const double *v, const places *at, size_t n, double (*sum)[2])
 {
-    ptrdiff_t lead = ker->taps / 2 - 1;
     for (size_t i = 0; i < n; i++) {
-        const lanes *point = (const lanes *)(v + 2 * ((ptrdiff_t)at->point[i] - lead));
+        const lanes *point = (const lanes *)(v + 2 * ((ptrdiff_t)at->point[i] - LEAD));
         lanes weight[4];
         weights_behind(ker, at->behind[i], weight);
         lanes all = point[0] * weight[0];
@@ -145,7 +137,6 @@ INLINE void
 add_any(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate, span part,
         double factor, const double *w, double *v)
 {
-    ptrdiff_t lead = ker->taps / 2 - 1;
     places at;
     double e[AT_ONCE][2];
     for (size_t i = 0; i < part.n; i++) {
@@ -156,7 +147,7 @@ add_any(const kaiser *ker, const point_series *s, const ss_scale *scale, double 
         }
         double re = (w[2 * i] * e[k][0] + w[2 * i + 1] * e[k][1]) * factor;
         double im = (w[2 * i] * e[k][1] - w[2 * i + 1] * e[k][0]) * factor;
-        lanes *point = (lanes *)(v + 2 * ((ptrdiff_t)at.point[k] - lead)), weight[4];
+        lanes *point = (lanes *)(v + 2 * ((ptrdiff_t)at.point[k] - LEAD)), weight[4];
         weights_behind(ker, at.behind[k], weight);
         for (int m = 0; m < 4; m++)
             point[m] += weight[m] * (lanes){ re, im, re, im, re, im, re, im };

@@ -6,32 +6,25 @@
 #include <stddef.h>
 #include "map/plan.h"
 
-/* A bound of the series at nu cycles a point: exp(-v^2/2) with v = reach nu / edge, but beyond center
- * not below second (the admissible wavelet's hump about v = -center). */
-typedef struct kaiser_band {
-    double edge;                /* |nu| <= edge < 1/2 */
-    double reach, center, second;
-} kaiser_band;
-
-enum { KAISER_TAPS_MAX = 16, KAISER_PARTS = 32, KAISER_NODES = 7 };
+enum { KAISER_TAPS = 16, KAISER_PARTS = 32, KAISER_NODES = 7 };
 
 typedef struct kaiser {
-    int taps;                   /* even */
-    double beta, edge;
+    double beta, edge;          /* edge: the series has |nu| <= edge < 1/2 cycles a point */
     int prepared;               /* the table is filled in */
-    /* of a weight, see ss_kaiser_weights */
-    _Alignas(64) double table[KAISER_PARTS][KAISER_NODES][KAISER_TAPS_MAX];
+    _Alignas(64) double table[KAISER_PARTS][KAISER_NODES][KAISER_TAPS];  /* of a weight, see ss_kaiser_weights */
 } kaiser;
 
-/* The shortest kernel that keeps |error| <= bound where the series has size 1; 0 if none does. */
-int ss_kaiser_choose(kaiser *out, const kaiser_band *band, double bound);
+/* *out is the kernel for the widest band that keeps |error| <= bound where the series has size 1.  At nu cycles a
+ * point it is at most exp(-v^2/2) with v = reach nu / edge, but beyond center not below second (the admissible
+ * wavelet's hump about v = -center). */
+void ss_kaiser_choose(kaiser *out, double reach, double center, double second, double bound);
 /* Fill in the table that weights use. */
 void ss_kaiser_prepare(kaiser *ker);
-/* Weights of the taps for a place f points, 0 <= f < 1, after a point; tap i is taps/2 - 1 - i points
+/* Weights of the taps for a place f points, 0 <= f < 1, after a point; tap i is KAISER_TAPS/2 - 1 - i points
  * before it: the polynomial in y with coefficients table[p][.][i], f KAISER_PARTS = p + (y + 1)/2. */
-void ss_kaiser_weights(const kaiser *ker, double f, double weight[]);
-/* The response of the kernel, 1/response(0) times I0(beta sqrt(1 - (2 t/taps)^2)). */
-double ss_kaiser_response(int taps, double beta, double nu);
+void ss_kaiser_weights(const kaiser *ker, double f, double weight[KAISER_TAPS]);
+/* The response of the kernel, 1/response(0) times I0(beta sqrt(1 - (2 t/KAISER_TAPS)^2)). */
+double ss_kaiser_response(double beta, double nu);
 
 /* Weights of a kernel at positions that repeat periodically, to be freed; phases: a power of two.  NULL: no
  * memory. */
@@ -51,7 +44,7 @@ size_t ss_dense_room(size_t n);
 void ss_dense_write(const weights *d, const double *v, size_t turns, size_t circle, size_t first,
                     size_t n, double factor, double *spare, double *w);
 
-enum { PLACES_MARGIN = KAISER_TAPS_MAX };       /* points before and after those asked for that are read, too */
+enum { PLACES_MARGIN = KAISER_TAPS };       /* points before and after those asked for that are read, too */
 
 /* Point p of a series, which its carrier turns by so many turns a point, is sample start + samples p;
  * samples is a power of two. */
@@ -60,8 +53,6 @@ typedef struct point_series {
     double start, samples, turns;
 } point_series;
 
-/* *out is the kernel of KAISER_TAPS_MAX taps for the widest band, in cycles a point; to be prepared. */
-void ss_places_kernel(kaiser *out, double reach, double center, double second, double bound);
 /* A part of a scale, times factor; its translations are those of a dense grid, or no fractions of samples
  * (ss_scale_parts). */
 void ss_places_write(const kaiser *ker, const point_series *s, const ss_scale *scale, double rate,

@@ -58,8 +58,8 @@ typedef struct h5_writer {
     h5_file file;               /* its path is to be freed */
     ss_error error;
     double rate, start;
-    size_t length;              /* of the record; 0: not known */
-    int growing, ended;         /* growing: it is known only at the end */
+    size_t length;              /* of the record; 0: it is known only at the end */
+    int ended;
 
     hid_t *column, times;       /* of /signal, which has a dataset for each column; NULL: there is none */
     size_t n_columns, samples;  /* samples: written so far */
@@ -258,7 +258,7 @@ chunk_of(const h5_writer *w, size_t bytes)
     hsize_t chunk = PIECE;
     while (chunk > LEAST_CHUNK && (double)chunk * (double)bytes > OPEN_BYTES)
         chunk /= 2;
-    return w->growing ? chunk : 0;
+    return w->length == 0 ? chunk : 0;
 }
 
 /* Write the times first ..., first + n - 1 of a scale, or of the samples for NULL. */
@@ -392,7 +392,8 @@ copy_grid(h5_writer *w, const ss_coefficients *grid)
     for (size_t i = 0; i <= grid->n_scales; i++)
         w->datasets[i] = (struct scale_datasets){ .part = { -1, -1, -1, -1 } };
     for (size_t i = 0; i < w->n_scales; i++)
-        w->dense &= w->scale[i].b_num * w->rate == w->scale[i].b_den && (w->growing || w->scale[i].n == w->length);
+        w->dense &= w->scale[i].b_num * w->rate == w->scale[i].b_den
+            && (w->length == 0 || w->scale[i].n == w->length);
     return ss_header_gaps(&w->gap, &w->n_gaps, grid->head, NULL);
 }
 
@@ -472,7 +473,7 @@ open_datasets(h5_writer *w, size_t i, double most)
     static const char *const scales[] = { "scale", "time" };
     int rank = w->dense ? 2 : 1;
     hsize_t chunk = chunk_of(w, (w->dense ? 17 : 25) * w->n_scales);
-    hsize_t length = w->growing ? 0 : w->dense ? w->length : w->scale[i].n;
+    hsize_t length = w->length == 0 ? 0 : w->dense ? w->length : w->scale[i].n;
     const hsize_t dims[2] = { w->n_scales, length };
     struct scale_datasets *d = &w->datasets[w->dense ? 0 : i];
     d->single = w->tolerance >= 1e-7 && most >= 1e-20 && most <= 1e20;
@@ -522,7 +523,7 @@ append_coefficients(h5_writer *w, const ss_scale *scale, size_t first, size_t n,
     while (i < w->n_scales && w->scale[i].j != scale->j)
         i++;
     struct scale_datasets *d = &w->datasets[i], *shared = &w->datasets[w->dense ? 0 : i];
-    if (i == w->n_scales || d->done != first || (!w->growing && n > w->scale[i].n - first)) {
+    if (i == w->n_scales || d->done != first || (w->length > 0 && n > w->scale[i].n - first)) {
         w->file.status = ss_fail(&w->error, SS_EINVAL, "coefficients that are not the next of a scale");
         return;
     }
@@ -547,7 +548,7 @@ append_coefficients(h5_writer *w, const ss_scale *scale, size_t first, size_t n,
         if (!w->dense)
             write_times(w, d->part[TIME], scale, d->done, m);
     }
-    for (size_t k = 0; !w->growing && !w->dense && d->done == w->scale[i].n && k < PARTS; k++) {
+    for (size_t k = 0; w->length > 0 && !w->dense && d->done == w->scale[i].n && k < PARTS; k++) {
         if (d->part[k] >= 0 && H5Dclose(d->part[k]) < 0)
             fail(w, w->group, "re");
         d->part[k] = -1;
@@ -563,7 +564,7 @@ end_wavelet(h5_writer *w, size_t samples)
     for (size_t i = 0; w->file.status == SS_OK && i < w->n_scales; i++) {
         const ss_scale *scale = &w->scale[i];
         size_t done = w->datasets[i].done;
-        if (!w->growing ? done != scale->n
+        if (w->length > 0 ? done != scale->n
             : !(done > 0 && ss_scale_b(scale, done - 1) <= last && ss_scale_b(scale, done) > last))
             w->file.status = ss_fail(&w->error, SS_EINVAL, "coefficients of scale %g are missing", scale->m);
     }
@@ -658,7 +659,7 @@ static ss_status
 write_rows(ss_writer *base, double *const column[], size_t n, ss_error *err)
 {
     STEP(base, err, {
-        if (w->column == NULL || (!w->growing && n > w->length - w->samples))
+        if (w->column == NULL || (w->length > 0 && n > w->length - w->samples))
             w->file.status = ss_fail(&w->error, SS_EINVAL, "more samples than the file was begun with");
         for (size_t i = 0, m; w->file.status == SS_OK && i < n; i += m, w->samples += m) {
             size_t left = w->piece - w->samples % w->piece;
@@ -706,7 +707,7 @@ static ss_status
 end_file(ss_writer *base, size_t samples, ss_error *err)
 {
     STEP(base, err, {
-        int fits = w->growing || samples == w->length;
+        int fits = w->length == 0 || samples == w->length;
         if (w->ended)
             w->file.status = ss_fail(&w->error, SS_EINVAL, "the file is complete");
         else if ((w->n_scales > 0 && (samples < 1 || !fits))
@@ -761,7 +762,6 @@ writer_new(ss_writer **out, const char *path, const ss_contents *what, ss_error 
     w->rate = head != NULL ? head->rate : 1;
     w->start = head != NULL ? head->start : 0;
     w->length = what->n;
-    w->growing = what->n == 0;
     w->has_events = what->events;
     H5E_BEGIN_TRY {
         begin_file(w, head);

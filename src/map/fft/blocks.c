@@ -146,7 +146,7 @@ make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, double
         double nu = (k - (double)r->mid) / (double)r->points;
         r->weight[i] = g * (PI_M14 * sqrt(2 * M_PI) / (double)length);
         if (r->kind != AT_POINTS)
-            r->weight[i] /= ss_kaiser_response(kernel->taps, kernel->beta, nu);
+            r->weight[i] /= ss_kaiser_response(kernel->beta, nu);
     }
     return SS_OK;
 }
@@ -322,7 +322,7 @@ ss_blocks_new(ss_morlet *plan)
     b->grid = plan->scale;
     if ((b->kernel = aligned_alloc(_Alignof(kaiser), sizeof *b->kernel)) == NULL)
         return SS_ENOMEM;
-    ss_places_kernel(b->kernel, half_width(&plan->opts), plan->opts.center, wavelet_second(&plan->opts), IMAGES);
+    ss_kaiser_choose(b->kernel, half_width(&plan->opts), plan->opts.center, wavelet_second(&plan->opts), IMAGES);
     choose_stages(b, plan);
     choose_rows(b, plan);
     if (b->levels == 0) {
