@@ -154,59 +154,6 @@ ss_coefficients_header(ss_header **out, const ss_header *signal, size_t column, 
     return ss_fail_memory(err, NULL);
 }
 
-ss_status
-ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
-                  const ss_morlet *plan, const ss_morlet_opts *opts)
-{
-    ss_coefficients *coef = *out = calloc(1, sizeof *coef);
-    if (coef == NULL)
-        return SS_ENOMEM;
-    ss_status st = SS_OK;
-    if (signal != NULL)
-        st = ss_coefficients_header(&coef->head, signal->head, column, signal->n, opts, NULL);
-    if (st == SS_OK && signal != NULL)
-        st = ss_header_gaps(&coef->gap, &coef->n_gaps, coef->head, NULL);
-    if (st != SS_OK)
-        return st;
-    coef->n = plan->n;
-    coef->center = opts->center;
-    coef->n_scales = plan->n_scales;
-    coef->scale = malloc(plan->n_scales * sizeof *coef->scale);
-    if (coef->scale == NULL)
-        return SS_ENOMEM;
-    memcpy(coef->scale, plan->scale, plan->n_scales * sizeof *coef->scale);
-    return SS_OK;
-}
-
-ss_status
-ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column,
-             const ss_morlet_opts *given, ss_error *err)
-{
-    ss_morlet *plan = NULL;
-    ss_morlet_opts opts;
-    if (out == NULL || signal == NULL)
-        return SS_FAIL_NULL(err);
-    if (column >= signal->head->n_columns)
-        return ss_fail_column(err, column, signal->head->n_columns);
-    ss_status st = ss_morlet_take(&opts, given, err);
-    if (st == SS_OK)
-        st = ss_morlet_new(&plan, signal->n, signal->head->rate, &opts, err);
-    if (st != SS_OK)
-        return st;
-    ss_coefficients *coef = NULL;
-    st = ss_morlet_grid_of(&coef, signal, column, plan, &opts);
-    if (st == SS_OK && (coef->w = malloc(2 * plan->total * sizeof *coef->w)) == NULL)
-        st = SS_ENOMEM;
-    if (st == SS_OK)
-        st = ss_morlet_execute(plan, signal->values + column * signal->n, coef->w, err);
-    ss_morlet_free(plan);
-    if (st == SS_OK)
-        *out = coef;
-    else
-        ss_coefficients_free(coef);
-    return st;
-}
-
 /* --- reading a map ------------------------------------------------------------------------------ */
 
 ss_status
@@ -278,20 +225,55 @@ ss_map_plan(ss_coefficients **out, const ss_signal *signal, size_t column, size_
             const ss_morlet_opts *opts, ss_error *err)
 {
     computed *c = calloc(1, sizeof *c);
-    ss_coefficients *map = NULL;
-    if (c == NULL)
+    ss_coefficients *map = calloc(1, sizeof *map);
+    if (c == NULL || map == NULL) {
+        free(c);
+        free(map);
         return SS_ENOMEM;
-    c->source = (ss_map_source){ compute, computed_free };
-    ss_status st = ss_morlet_new(&c->plan, n, rate, opts, err);
-    if (st == SS_OK)
-        st = ss_morlet_grid_of(&map, signal, column, c->plan, opts);
-    if (st == SS_OK) {
-        map->source = &c->source;
-        *out = map;
-        return SS_OK;
     }
-    ss_coefficients_free(map);
-    computed_free(&c->source);
+    c->source = (ss_map_source){ compute, computed_free };
+    *map = (ss_coefficients){ .source = &c->source, .n = n, .center = opts->center };
+    ss_status st = ss_morlet_new(&c->plan, n, rate, opts, err);
+    if (st == SS_OK && signal != NULL)
+        st = ss_coefficients_header(&map->head, signal->head, column, signal->n, opts, NULL);
+    if (st == SS_OK && signal != NULL)
+        st = ss_header_gaps(&map->gap, &map->n_gaps, map->head, NULL);
+    if (st == SS_OK && (map->scale = malloc(c->plan->n_scales * sizeof *map->scale)) == NULL)
+        st = SS_ENOMEM;
+    if (st != SS_OK) {
+        ss_coefficients_free(map);
+        return st;
+    }
+    map->n_scales = c->plan->n_scales;
+    memcpy(map->scale, c->plan->scale, map->n_scales * sizeof *map->scale);
+    *out = map;
+    return SS_OK;
+}
+
+ss_status
+ss_morlet_transform(ss_coefficients **out, const ss_signal *signal, size_t column, const ss_morlet_opts *given,
+                    ss_error *err)
+{
+    ss_morlet_opts opts;
+    ss_coefficients *map = NULL;
+    if (out == NULL || signal == NULL)
+        return SS_FAIL_NULL(err);
+    if (column >= signal->head->n_columns)
+        return ss_fail_column(err, column, signal->head->n_columns);
+    ss_status st = ss_morlet_take(&opts, given, err);
+    if (st == SS_OK)
+        st = ss_map_plan(&map, signal, column, signal->n, signal->head->rate, &opts, err);
+    if (st != SS_OK)
+        return st;
+    const ss_morlet *plan = ((const computed *)map->source)->plan;
+    map->w = malloc(2 * plan->total * sizeof *map->w);
+    st = map->w != NULL ? ss_morlet_execute(plan, signal->values + column * signal->n, map->w, err) : SS_ENOMEM;
+    map->source->free(map->source);
+    map->source = NULL;
+    if (st == SS_OK)
+        *out = map;
+    else
+        ss_coefficients_free(map);
     return st;
 }
 

@@ -13,7 +13,6 @@
  * follow from those of the step.  Rounding errors of the size show when it is some 1e-8 of where it began:
  * so both are computed anew from the given coefficients long before, and before they are found small enough. */
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/error.h"

@@ -77,10 +77,6 @@ ss_status ss_morlet_check(size_t n, double rate, const ss_morlet_opts *opts, ss_
  * translations are not counted. */
 ss_status ss_grid_make(ss_scale **scale, size_t *n_scales, size_t n, double rate,
                          const ss_morlet_opts *opts, ss_error *err);
-/* The grid of a column's transform by plan, w being NULL; to be freed, failed or not.  signal may be NULL:
- * there is no header then. */
-ss_status ss_morlet_grid_of(ss_coefficients **out, const ss_signal *signal, size_t column,
-                            const ss_morlet *plan, const ss_morlet_opts *opts);
 /* m, if translation k of a scale lies at sample k 2^p/m exactly, 2^p being b_num, else 0. */
 double ss_scale_parts(const ss_scale *scale, double rate);
 /* The place of translation k. */

@@ -2,7 +2,6 @@
  * what each law leaves. */
 #include "plot/script.h"
 
-#include <math.h>
 #include <stickslip/steps.h>
 #include "base/error.h"
 

@@ -136,15 +136,15 @@ ss_cell_is_grouped(const char *cell)
 }
 
 const char *
-ss_text_shape(struct text *x, const char *line, char separator, size_t *numbers)
+ss_text_shape(struct text *x, const char *line, char separator)
 {
     double number;
     size_t n = ss_text_split(x, line, separator);
-    *numbers = 0;
+    x->numbers = 0;
     for (size_t i = 0; i < n; i++) {
         enum cell_kind kind = ss_cell_read(x->cell[i], separator, &number);
         x->shape[i] = x->cell[i][0] == '\0' ? 'e' : kind == CELL_TEXT ? 't' : 'n';
-        *numbers += kind == CELL_NUMBER;
+        x->numbers += kind == CELL_NUMBER;
     }
     x->shape[n] = '\0';
     return x->shape;

@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include "base/error.h"
 #include "signal/header.h"
 #include "io/table/text.h"
 

@@ -10,7 +10,6 @@
 #include <strings.h>
 #include "base/error.h"
 #include "base/list.h"
-#include "base/number.h"
 #include "base/utf8.h"
 #include "signal/header.h"
 #include "io/table/text.h"
@@ -88,7 +87,7 @@ enum { CANDIDATES = sizeof candidate / sizeof *candidate };
 /* The number of cells that belong to columns, if all of these but the last hold numbers; else 0.  LabVIEW leaves
  * the cell of x empty, and writes comments behind some rows. */
 static size_t
-count_cells(const struct text *x, const char *line, const char *shape, size_t numbers)
+count_cells(const struct text *x, const char *line, const char *shape)
 {
     size_t n = strlen(shape), first = x->labview && line[0] == '\t';
     const char *wrong = ss_text_may_lack(x) ? "t" : "te";
@@ -97,7 +96,7 @@ count_cells(const struct text *x, const char *line, const char *shape, size_t nu
     size_t full = n;
     while (full > 1 && shape[full - 1] == 'e')
         full--;
-    return numbers > 0 && n > first && strcspn(shape + first, wrong) >= full - first ? n : 0;
+    return x->numbers > 0 && n > first && strcspn(shape + first, wrong) >= full - first ? n : 0;
 }
 
 /* Is this the first line of data?  Then next_separator and next_columns are set.  Empty cells at its end
@@ -112,15 +111,15 @@ is_data(struct text *x, const char *line)
     int grouped = 0;
     for (size_t i = 0; i < CANDIDATES; i++) {
         char separator = candidate[i];
-        size_t numbers, names = 0;
+        size_t names = 0;
         if (separator == ' ' ? x->labview || grouped : strchr(line, separator) == NULL)
             continue;
         if (last > 0 && (ss_text_may_lack(x) || !x->labview))
             names = ss_text_split(x, x->head[last - 1].text, separator);
         x->t.n_columns = ss_text_may_lack(x) || !x->labview ? names : columns;
-        const char *shape = ss_text_shape(x, line, separator, &numbers);
+        const char *shape = ss_text_shape(x, line, separator);
         x->t.n_columns = columns;
-        size_t n = count_cells(x, line, shape, numbers);
+        size_t n = count_cells(x, line, shape);
         for (size_t k = 0; strlen(shape) == names && k < names; k++)
             grouped |= strchr(x->cell[k], ' ') != NULL && ss_cell_is_grouped(x->cell[k]);
         if (n == 0 || (n == 1 && separator != ';' && separator != ' '))
@@ -152,19 +151,18 @@ keep_header(struct text *x)
 static size_t
 find_like(struct text *x, char separator)
 {
-    size_t numbers;
     for (size_t i = 0, below, had = 0, has, alike = 0; i < x->n_head; i++, had = has, alike = 0) {
         has = 0;
         if (x->head[i].comment)
             continue;
-        strcpy(x->like, ss_text_shape(x, x->head[i].text, separator, &numbers));
+        strcpy(x->like, ss_text_shape(x, x->head[i].text, separator));
         has = strchr(x->like, 'n') != NULL;
         if (!has || had || strpbrk(x->like, "te") == NULL)
             continue;
         for (below = i + 1; below < x->n_head && alike < 2; below++) {
             if (x->head[below].comment)
                 continue;
-            const char *shape = x->like, *row = ss_text_shape(x, x->head[below].text, separator, &numbers);
+            const char *shape = x->like, *row = ss_text_shape(x, x->head[below].text, separator);
             for (; *shape != '\0' && (*shape == *row || *row == 'e'); row++)
                 shape++;
             if (*row != '\0' || strchr(shape, 'n') != NULL)
@@ -265,8 +263,7 @@ begin_columns(struct text *x)
         ss_text_fail(x, SS_EDATA, x->in->line, "more than 32768 columns");
         return;
     }
-    size_t numbers;
-    const char *shape = ss_text_shape(x, row, x->separator, &numbers);
+    const char *shape = ss_text_shape(x, row, x->separator);
     struct sheet_column *column = t->column = calloc(t->n_columns, sizeof *column);
     x->row = malloc((t->n_columns + 1) * sizeof *x->row);
     if (column == NULL || x->row == NULL) {
@@ -324,9 +321,8 @@ begin_table(struct text *x, size_t first)
 static int
 has_settings(struct text *x, size_t line)
 {
-    size_t numbers;
-    return strncmp(ss_text_shape(x, x->head[line].text, x->next_separator, &numbers), "tn", 2) == 0
-        && strncmp(ss_text_shape(x, x->head[x->n_head - 1].text, x->next_separator, &numbers), "ee", 2) == 0;
+    return strncmp(ss_text_shape(x, x->head[line].text, x->next_separator), "tn", 2) == 0
+        && strncmp(ss_text_shape(x, x->head[x->n_head - 1].text, x->next_separator), "ee", 2) == 0;
 }
 
 /* Begin with the first row of numbers, which is the last of the kept lines.  If there is none, or a line of words
@@ -334,11 +330,11 @@ has_settings(struct text *x, size_t line)
 static void
 begin_first(struct text *x, int found)
 {
-    size_t row = x->n_head - (found != 0), first = row, numbers;
+    size_t row = x->n_head - (found != 0), first = row;
     int mixed = !found;
     x->t.n_columns = x->next_columns;
     if (found && row > 0 && !x->head[row - 1].comment) {
-        const char *shape = ss_text_shape(x, x->head[row - 1].text, x->next_separator, &numbers);
+        const char *shape = ss_text_shape(x, x->head[row - 1].text, x->next_separator);
         mixed = (shape[0] == 'n' && strpbrk(shape, "te") != NULL) || has_settings(x, row - 1);
     }
     first = mixed ? x->n_head : first;
@@ -361,12 +357,11 @@ begin_first(struct text *x, int found)
 static int
 is_heading(struct text *x, const char *line)
 {
-    size_t numbers;
     if (strchr("0123456789-.+", first_of(line)) != NULL)
         return 0;
     if (x->labview && strncmp(line, "Channels", 8) == 0)
         return 1;
-    const char *shape = ss_text_shape(x, line, x->separator, &numbers);
+    const char *shape = ss_text_shape(x, line, x->separator);
     size_t n = strlen(shape);
     return shape[0] == 't' && x->t.column[0].kind != COLUMN_TEXT
         && (n != x->t.n_columns || (n > 1 && strchr(shape, 'n') == NULL));
@@ -379,7 +374,6 @@ static void
 read_line(struct text *x)
 {
     int comment;
-    size_t numbers;
     const char *line = next_line(x, &comment);
     unsigned long number = x->in->line;
     x->ended = line == NULL || (!comment && is_heading(x, line));
@@ -397,7 +391,7 @@ read_line(struct text *x)
     x->in->line = number;
     int is_footer = x->n_head < HEADER_LINES;
     for (size_t i = 0; is_footer && i < x->n_head; i++) {
-        const char *shape = ss_text_shape(x, x->head[i].text, x->separator, &numbers);
+        const char *shape = ss_text_shape(x, x->head[i].text, x->separator);
         size_t filled = strlen(shape);
         while (filled > 0 && shape[filled - 1] == 'e')
             filled--;

@@ -32,6 +32,7 @@ struct text {
     size_t copy_room;
     char *cell[MAX_CELLS];      /* its cells, and a letter for each */
     char shape[MAX_CELLS + 1];
+    size_t numbers;             /* finite ones in the line with this shape */
     char like[MAX_CELLS + 1];   /* those of the line that others are held against */
     struct text_line *head;     /* lines above the data */
     size_t n_head, head_room;
@@ -61,8 +62,8 @@ int ss_text_may_lack(const struct text *x);
  * cells at the end; at most MAX_CELLS, which is more than any table has. */
 size_t ss_text_split(struct text *x, const char *line, char separator);
 /* A letter for each cell of a line, valid until the next call: n for a number, a stamp, or a word for a missing
- * number, e for an empty cell, t for text.  *numbers counts the finite numbers. */
-const char *ss_text_shape(struct text *x, const char *line, char separator, size_t *numbers);
+ * number, e for an empty cell, t for text. */
+const char *ss_text_shape(struct text *x, const char *line, char separator);
 
 /* Names (names.c): find names, units and a clock in the lines above the data.
  *

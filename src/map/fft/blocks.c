@@ -64,21 +64,23 @@ typedef struct band {
     ptrdiff_t lo, mid, hi;          /* k */
 } band;
 
-/* The distance from omega_c to either end of a band that has |v| <= reach.  The admissible wavelet has
- * a hump about v = -omega_c, which must be inside, too. */
+/* The distance from omega_c to either end of a band that has |v| <= CUT.  The admissible wavelet has a hump about
+ * v = -omega_c, which must be inside, too. */
 static double
-half_band(double center, double second, double reach)
+half_width(const ss_morlet_opts *opts)
 {
-    return second > 0 && reach > center ? center + sqrt(reach * reach - center * center) : reach;
+    const double center = opts->center;
+    return opts->admissible && CUT > center ? center + sqrt(CUT * CUT - center * center) : CUT;
 }
 
-/* The terms |v| <= half of a circle of so many samples.  h in two parts: k h is needed to the last
- * bit where k is large. */
+/* The terms of scale a on a level, in a window of so many samples.  h in two parts: k h is needed to the last bit
+ * where k is large. */
 static band
-band_around(double center, double half, double a, double rate, double points)
+band_of(const ss_morlet *plan, double a, int level, size_t length)
 {
     const double two_pi = 6.2831853071795865, two_pi_low = 2.4492935982947064e-16;
-    double p = a * rate, p_low = fma(a, rate, -p);
+    double center = plan->opts.center, half = half_width(&plan->opts), rate = ldexp(plan->rate, -level);
+    double p = a * rate, p_low = fma(a, rate, -p), points = (double)length;
     double s = two_pi * p, s_low = fma(two_pi, p, -s) + two_pi * p_low + two_pi_low * p;
     band b = { .h = s / points };
     b.h_low = (fma(-b.h, points, s) + s_low) / points;
@@ -89,12 +91,6 @@ band_around(double center, double half, double a, double rate, double points)
 }
 
 /* --- which scales, in what windows ------------------------------------------------------------ */
-
-static double
-half_width(const ss_morlet_opts *opts)
-{
-    return half_band(opts->center, wavelet_second(opts), CUT);
-}
 
 /* A, the length in samples that a scale has at least on its level, unless this is level 0. */
 static double
@@ -131,7 +127,7 @@ static ss_status
 make_weights(const ss_morlet *plan, const kaiser *kernel, block_scale *r, double a, size_t length)
 {
     const ss_morlet_opts *opts = &plan->opts;
-    band b = band_around(opts->center, half_width(opts), ldexp(a, -r->level), plan->rate, (double)length);
+    band b = band_of(plan, a, r->level, length);
     double second = wavelet_second(opts);
     r->lo = b.lo;
     r->mid = r->kind != AT_POINTS ? b.mid : 0;
@@ -157,8 +153,7 @@ static size_t
 points_between(const struct blocks *b, const ss_morlet *plan, const stage *st, const ss_scale *scale,
                int l, size_t least)
 {
-    const ss_morlet_opts *opts = &plan->opts;
-    band of = band_around(opts->center, half_width(opts), ldexp(scale->a, -l), plan->rate, (double)st->length);
+    band of = band_of(plan, scale->a, l, st->length);
     double most = (double)(of.hi - of.mid > of.mid - of.lo ? of.hi - of.mid : of.mid - of.lo);
     size_t points = 4 * PLACES_MARGIN;
     while (points < least || most / (double)points > b->kernel->edge)
