@@ -4,9 +4,9 @@
  * phi(t) = I0(beta sqrt(1 - (2 t/J)^2)) on |t| <= J/2 and c_k divided by its response
  * R(nu) = J sinh(z)/z, z^2 = beta^2 - (pi J nu)^2, the sum over J points weighted with phi gives the series
  * between them but for images: R(m - nu)/R(nu), m = +-1, +-2, ...  (Fourmont 2003.)  Where the band ends in a
- * Gaussian the images near its edge are as weak as the band is there, so kernels with a lower cutoff than the band's
- * edge are tried too.  J is KAISER_TAPS: for images below rounding the widest band takes as many, whatever the
- * wavelet. */
+ * Gaussian the images near its edge are as weak as the band is there, so kernels with a lower cutoff than the
+ * band's edge are tried too.  J is KAISER_TAPS: for images below rounding the widest band takes as many, whatever
+ * the wavelet. */
 #include <math.h>
 #include "map/points.h"
 

@@ -61,7 +61,8 @@ ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, co
     script_stack stack;
     map_label label;
     if (n < 2 || n > COLUMNS_MAX)
-        return ss_fail(err, SS_EINVAL, "one key was varied, so X,Y[,Y...] are drawn, at most %d columns", COLUMNS_MAX);
+        return ss_fail(err, SS_EINVAL, "one key was varied, so X,Y[,Y...] are drawn, at most %d columns",
+                       COLUMNS_MAX);
     if (opts->curve != NULL)
         return ss_fail(err, SS_EINVAL, "a line needs a map over two keys, and one was varied");
     map_column column[COLUMNS_MAX];

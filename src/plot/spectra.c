@@ -40,8 +40,8 @@ write_densities(FILE *out, const char *name, const ss_spectrum *s, int decibels)
     fputs("EOD\n", out);
 }
 
-/* Estimate the spectra of n columns, *spectrum, which the caller frees even after a failure.  The rows are read once to
- * be counted, and once for each column. */
+/* Estimate the spectra of n columns, *spectrum, which the caller frees even after a failure.  The rows are read
+ * once to be counted, and once for each column. */
 static ss_status
 find_spectra(ss_spectrum ***spectrum, ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *opts,
              ss_error *err)
@@ -89,8 +89,8 @@ free_spectra(ss_spectrum **spectrum, size_t n)
 
 /* Write the densities at one frequency. */
 static void
-write_row(struct rows *rows, ss_spectrum *const spectrum[], size_t k, const ss_column column[], const size_t index[],
-          size_t n, int decibels)
+write_row(struct rows *rows, ss_spectrum *const spectrum[], size_t k, const ss_column column[],
+          const size_t index[], size_t n, int decibels)
 {
     char unit[DENSITY_UNIT];
     ss_rows_number(rows, "frequency", "Hz", (double)k * spectrum[0]->step);
