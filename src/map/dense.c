@@ -140,10 +140,12 @@ make_carrier(carrier *to, const weights *d, size_t turns, size_t circle, size_t 
 #define LOOP write_256
 #define WIDTH 4
 #define TARGET FAST_FOR("avx2,fma")
+#include "map/dense_loop.h"
 
 #define LOOP write_512
 #define WIDTH 8
 #define TARGET FAST_FOR("avx512f")
+#include "map/dense_loop.h"
 #endif
 
 size_t
