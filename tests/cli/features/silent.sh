@@ -142,3 +142,5 @@ ss-sim -m exact -s mass=.0786843356 -s stiffness=3.22513284 -s friction=.0003155
     -s base_frequency=.116037665 -s settle=345 -s duration=150 -s rate=80.65 compliant-light |
     ss-features --mass .0786843356 > found
 covers total_stiffness 19.52256084 < found
+# a hum as strong as the motion keeps all lags at multiples of its own period, and what is slow tells
+ss-sim -s duration=8 --columns t,x,a,v coulomb | hum 1 33.33 2000 | ss-features | none repetition_frequency
