@@ -27,7 +27,6 @@ enum {
     PARTS = 8,                  /* in which a line is looked at */
     SOME = 1024,                /* terms of a spectrum that tell what is usual */
     ENOUGH = 1 << 16,           /* samples that show a line */
-    HARMONICS = 9,              /* of the decay, which are no lines */
     LEVELS = 20,                /* blocks of a level, at most, of FEW rows each, at least */
     BEHIND = 6,                 /* blocks behind the end, at most */
     SLOW = 4                    /* periods to twice the amplitude, as no blow takes */
@@ -357,23 +356,19 @@ is_known(const decay *d, double w, size_t n)
         lo = fmin(lo, d->block[i].at.w);
         hi = fmax(hi, d->block[i].at.w);
     }
-    for (int h = 1; h <= HARMONICS; h++)
-        known |= w > h * lo * (1 - (h == 1 ? NEAR : NEAR / 5)) - width
-            && w < h * hi * (1 + (h == 1 ? NEAR : NEAR / 5)) + width;
+    known |= w > lo * (1 - NEAR) - width && w < hi * (1 + NEAR) + width;
     for (size_t i = 0; i < d->beside.n; i++)
         known |= fabs(w - d->beside.w[i]) < fmax(4 * d->beside.s[i] + width, blocks);
     return known;
 }
 
-/* The decay and the frequency of a line near *w, from its amplitudes and phases in parts of n samples: the decay
- * between parts or between halves, whichever is faster, as a slip is over soon. */
+/* The decay and the frequency of a line near *w, from its amplitudes and phases in parts of n samples. */
 static double
 line_decay(double *w, const double *left, size_t n)
 {
     const double complex step = conj(cexp(*w * I));
     double complex back = 1;
     double sum = 0, t = 0, tt = 0, level = 0, t_level = 0, phase = 0, t_phase = 0, last = 0;
-    double half[2] = { 1e-300, 1e-300 };
     for (size_t i = 0; i < PARTS; i++) {
         double complex z = 0;
         for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++, back *= step)
@@ -381,14 +376,13 @@ line_decay(double *w, const double *left, size_t n)
         double weight = creal(z * conj(z)) + 1e-300, at = (double)i, turn = carg(z);
         turn -= 2 * M_PI * round((turn - last) / (2 * M_PI));
         last = turn;
-        half[2 * i / PARTS] += weight;
         sum += weight, t += weight * at, tt += weight * at * at;
         level += weight * log(weight) / 2, t_level += weight * at * log(weight) / 2;
         phase += weight * turn, t_phase += weight * at * turn;
     }
     double spread = (tt - t * t / sum) * (double)n / PARTS;
     *w += (t_phase - t * phase / sum) / spread;
-    return fmax(fmax(-(t_level - t * level / sum) / spread, log(half[0] / half[1]) / (double)n), 0);
+    return fmax(-(t_level - t * level / sum) / spread, 0);
 }
 
 /* Of the first n samples of what is left, by how much the strongest line that is not known stands out of the
@@ -598,7 +592,7 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
     }
     if (st == SS_OK && d->w > 0)
         st = find_extent(d);
-    for (int more = d->w > 0, most = LINES_MAX; st == SS_OK && more;) {
+    for (int more = d->w > 0; st == SS_OK && more;) {
         more = 0;
         st = follow(d);
         while (st == SS_OK && d->cuts_blow && is_hit(d)) {
@@ -618,10 +612,7 @@ find_at(decay *d, const double *x, size_t n, double w, double other)
             d->stop = b->cov[LEVEL][0] * b[-1].left / b[-1].free > LITTLE * LITTLE ? "noise" : "the motion stops";
             st = settle(d);
         }
-        if (st == SS_OK && d->n_blocks < FEW && d->beside.n > 0) {
-            most = (int)--d->beside.n;          /* with that line no block tells them apart */
-            more = 1;
-        } else if (st == SS_OK && d->n_blocks >= FEW && (int)d->beside.n < most)
+        if (st == SS_OK && d->n_blocks >= FEW && d->beside.n < LINES_MAX)
             st = add_line(d, &more);
     }
     return st;

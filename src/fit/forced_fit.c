@@ -38,8 +38,7 @@ typedef struct fitting {
     double *motion, *clear, *weight;    /* of each sample, at the unknowns `at` */
     double at[FORCED_MOVED], used, size, offset;        /* used: the sum of the weights */
     double mean, squares;       /* of the motion, and about its mean, weighed */
-    double *moved, moved_at[FORCED_MOVED], step;        /* slopes of the motion by each unknown, where, and the
-                                                           step of the motion's start for them */
+    double *moved, moved_at[FORCED_MOVED];              /* slopes of the motion by each unknown, and where */
 } fitting;
 
 /* --- the motion of the unknowns ------------------------------------------------------------ */
@@ -112,13 +111,10 @@ left_at(const fitting *w, size_t i)
     return w->r->x[i] - w->size * w->motion[i] - w->offset;
 }
 
-/* The step of an unknown for its slope: as small as a method of simulation resolves, but wider for the start
- * while weights are wide, as the motion can change unevenly with it. */
+/* The step of an unknown for its slope: as small as a method of simulation resolves. */
 static double
-step_of(const fitting *w, size_t unknown)
+step_of(const fitting *w)
 {
-    if (w->wide > 1 && (unknown == FORCED_X0 || unknown == FORCED_V0))
-        return 1e-2;
     return w->c->model->linear ? 1e-6 : 1e-4;
 }
 
@@ -135,12 +131,11 @@ move_unknowns(fitting *w)
     const size_t n = w->r->n;
     double u[FORCED_MOVED];
     ss_status st = SS_OK;
-    int has_start = moves(w, FORCED_X0) && w->step != step_of(w, FORCED_X0);
-    if (memcmp(w->moved_at, w->at, sizeof w->at) == 0 && !has_start)
+    if (memcmp(w->moved_at, w->at, sizeof w->at) == 0)
         return SS_OK;
     w->moved_at[0] = NAN;
     for (size_t k = 0; st == SS_OK && k < FORCED_MOVED; k++) {
-        double h = step_of(w, k), *slope = w->moved + k * n;
+        double h = step_of(w), *slope = w->moved + k * n;
         memcpy(u, w->at, sizeof u);
         u[k] += h;
         if (moves(w, k))
@@ -150,7 +145,6 @@ move_unknowns(fitting *w)
     }
     if (st == SS_OK)
         memcpy(w->moved_at, w->at, sizeof w->at);
-    w->step = step_of(w, FORCED_X0);
     return st;
 }
 
@@ -540,7 +534,7 @@ ss_forced_gains(forced_held of[HELD_TERMS], const forced *c, const forced_fit *m
     if (st == SS_OK)
         st = linearise(&w, &l);
     for (forced_term term = 0; st == SS_OK && term < HELD_LAG; term++) {
-        const double h = step_of(&w, 0);
+        const double h = step_of(&w);
         change_term(&own.scene, term, h);
         st = run(&w, w.at, w.clear, NULL);
         own.scene = c->scene;
