@@ -362,13 +362,15 @@ is_known(const decay *d, double w, size_t n)
     return known;
 }
 
-/* The decay and the frequency of a line near *w, from its amplitudes and phases in parts of n samples. */
+/* The decay and the frequency of a line near *w, from its amplitudes and phases in parts of n samples: the decay
+ * between parts or between halves, whichever is faster, as a slip is over soon. */
 static double
 line_decay(double *w, const double *left, size_t n)
 {
     const double complex step = conj(cexp(*w * I));
     double complex back = 1;
     double sum = 0, t = 0, tt = 0, level = 0, t_level = 0, phase = 0, t_phase = 0, last = 0;
+    double half[2] = { 1e-300, 1e-300 };
     for (size_t i = 0; i < PARTS; i++) {
         double complex z = 0;
         for (size_t k = i * n / PARTS; k < (i + 1) * n / PARTS; k++, back *= step)
@@ -376,13 +378,14 @@ line_decay(double *w, const double *left, size_t n)
         double weight = creal(z * conj(z)) + 1e-300, at = (double)i, turn = carg(z);
         turn -= 2 * M_PI * round((turn - last) / (2 * M_PI));
         last = turn;
+        half[2 * i / PARTS] += weight;
         sum += weight, t += weight * at, tt += weight * at * at;
         level += weight * log(weight) / 2, t_level += weight * at * log(weight) / 2;
         phase += weight * turn, t_phase += weight * at * turn;
     }
     double spread = (tt - t * t / sum) * (double)n / PARTS;
     *w += (t_phase - t * phase / sum) / spread;
-    return fmax(-(t_level - t * level / sum) / spread, 0);
+    return fmax(fmax(-(t_level - t * level / sum) / spread, log(half[0] / half[1]) / (double)n), 0);
 }
 
 /* Of the first n samples of what is left, by how much the strongest line that is not known stands out of the

@@ -115,7 +115,6 @@ ss_blocks_track(place *at, size_t n, size_t states, const double x[], double sta
             memcpy(at[i + 1].x, at[i].x, sizeof at->x);
             memcpy(at[i + 1].p, at[i].p, sizeof at->p);
             turn(at[i + 1].p, at[i].turn, states, 0);
-            at[i + 1].p[0][0] += at[i].stir;
             for (int k = 0; k < 3; k++) {
                 at[i + 1].x[k] = at[i].shift[k] + dot(at[i].turn[k], at[i].x, 3);
                 for (int j = 0; j < 3; j++)

@@ -131,7 +131,6 @@ rates(const trial *of, const double u[UNKNOWNS], double ln_a, double rate[TRACKS
 typedef struct told {
     double y[TRACKS], rate[TRACKS], lag[2];
     double slip[TRACKS];        /* what the law does not know of the rates */
-    double local[TRACKS];       /* what the rates are more in the middle than in the whole block */
     double left;                /* what a bend leaves of an exact motion, as of a block */
 } told;
 
@@ -182,21 +181,15 @@ tell_exactly(told *out, size_t *told_blocks, const trial *of, const double u[UNK
         return SS_OK;
     double *x = malloc(end * sizeof *x);
     ss_status st = x != NULL ? ss_samples_run(&scene, order, SAMPLES_FINE, x, NULL, end, &steps) : SS_ENOMEM;
-    for (block is, near; st == SS_OK && done < n; done++) {
+    for (block is; st == SS_OK && done < n; done++) {
         size_t first = b[done].first - b->first, last = b[done].end - b->first;
         if (!ss_block_fit(&is, x, first, last, b[done].about, &of->source->beside, b[done].steps))
             break;
-        size_t length = last - first, two = (size_t)(4 * M_PI / is.rate[PHASE]);
-        size_t cut = length > two ? (length - two) / 2 : 0;
-        if (!ss_block_fit(&near, x, first + cut, last - cut, is.at, &(lines){ 0 }, 0))
-            near = is;
         double turn = is.y[PHASE] - of->w * (of->p[done].t - of->p->t);
         turn -= 2 * M_PI * round((turn - of->p[done].y[PHASE]) / (2 * M_PI));
         out[done] = (told){ .y = { is.y[LEVEL] - of->ln_a, turn }, .left = is.left };
-        for (int c = 0; c < TRACKS; c++) {
+        for (int c = 0; c < TRACKS; c++)
             out[done].rate[c] = is.rate[c] / of->unit - (c == PHASE ? of->w : 0);
-            out[done].local[c] = (near.rate[c] - is.rate[c]) / of->unit;
-        }
         rates(of, u, out[done].y[LEVEL], rate, out[done].lag);
     }
     free(x);
@@ -563,9 +556,7 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
             at[i].slip[c] = f->kind == SS_JENKINS ? SLIPPING * change
                 : c == LEVEL ? (s - f->u[S]) * pow(s / (of->w + f->u[W]), 2) : 0;      /* the next order */
             if (f->kind == SS_JENKINS) {
-                to->stir = pow(at[i].slip[c] * t, 2);
                 to->variance[1] += pow(at[i].slip[c], 2);
-                at[i].slip[c] = hypot(at[i].slip[c], at[i].local[c]);
                 at[i].lag[1] = hypot(at[i].lag[1], (at[next].lag[0] - at[from].lag[0]) * half);
             }
         }
@@ -615,8 +606,7 @@ smooth_about(mixed *sum, const trial *of, fitted *f, const block *b, double unit
             f->covariance[which[j - 3] * UNKNOWNS + which[i - 3]] = error[i] * error[j] * known->p[i][j];
     for (size_t i = 0; i < n; i++) {
         const place *level = &p[i], *phase = of->tracks > 1 ? &p[m + i] : level;
-        double mean[3] = { at[i].rate[LEVEL] + at[i].local[LEVEL] + level->mean[1],
-                           at[i].rate[PHASE] + at[i].local[PHASE] + phase->mean[1],
+        double mean[3] = { at[i].rate[LEVEL] + level->mean[1], at[i].rate[PHASE] + phase->mean[1],
                            at[i].lag[0] + level->mean[2] };
         double variance[3] = { pow(level->error[1], 2) + pow(at[i].slip[LEVEL], 2),
                                pow(phase->error[1], 2) + pow(at[i].slip[PHASE], 2),
