@@ -321,6 +321,8 @@ ss_models_measure(ss_models **out, const ss_scene *scene, const ss_trade_opts *g
     if (out == NULL || scene == NULL)
         return SS_FAIL_NULL(err);
     ss_status st = ss_trade_opts_take(&opts, given, err);
+    if (st == SS_OK && !(opts.span > 0))
+        return ss_fail(err, SS_EINVAL, "a span is more than 0 dB");
     if (st == SS_OK)
         st = ss_record_check(scene, err);
     if (st == SS_OK && ss_scene_samples(scene) == 0)
