@@ -263,7 +263,7 @@ follow(decay *d)
             return SS_OK;
         }
         if (last == NULL && -b->rate[LEVEL] * (double)length > 1.5 * FALL) {
-            at = (bend){ .s = -b->rate[LEVEL], .w = b->rate[PHASE] };   /* so fast that the block must be shorter */
+            at = (bend){ .s = -b->rate[LEVEL], .w = b->rate[PHASE] };   /* too fast for this block */
             length = block_length(d, at, 1, 0);
             if (!ss_block_fit(b, d->x, first, first + length, at, &d->beside, 0))
                 return SS_OK;

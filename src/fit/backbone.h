@@ -53,7 +53,7 @@ enum { STATES = 10, WALKS = 12 };       /* WALKS: strengths of the random walk *
 typedef struct place {          /* of a block */
     double see[3][STATES];      /* y, its rate and its bend, of the states */
     double seen[2], tie, variance[2];   /* y, and the rate less tie times y, whose errors are independent */
-    double turn[3][3], shift[3], walk[3][3];    /* to the next place: x becomes turn x + shift, with variance q walk */
+    double turn[3][3], shift[3], walk[3][3];    /* to the next place: x becomes turn x + shift, variance q walk */
     double x[STATES], p[STATES][STATES];        /* mean and variance by what this place and those before tell */
     double h[2][STATES], gain[2][STATES], news[2], sure[2];     /* of the filter's steps */
     double of_walk[STATES][WALKS][2];   /* of y, its rate, its bend and constants: mean, standard deviation */

@@ -71,8 +71,8 @@ ss_status ss_pulled_fit(pulled_fit *out, const falls *falls, const ss_scene *sce
 /* pull.c: SS_OK for a scene that is pulled and a column of the force of its spring. */
 ss_status ss_pull_check(const ss_signal *signal, size_t column, const ss_scene *scene, const ss_rank_opts *opts,
                         ss_error *err);
-/* pull_rank.c: rank the scenes of r's rows: fill these in the order of their totals, the scene that is named first, its noise
- * and its verdict. */
+/* pull_rank.c: rank the scenes of r's rows: fill these in the order of their totals, the scene that is named
+ * first, its noise and its verdict. */
 ss_status ss_pull_compare(ss_ranking *r, const ss_signal *signal, size_t column, const ss_scene *scene,
                           const ss_rank_opts *opts, ss_error *err);
 

@@ -1,4 +1,4 @@
-/* rank.c -- find the scene that explains a signal, among scenes that are forced and scenes that are pulled, and write
+/* rank.c -- find the scene that explains a signal, among scenes that are forced and scenes that are pulled; and
  * the ranking as text.
  *
  * Scenes of one kind, forced or pulled, are ranked together (forced_rank.c, pull_rank.c).  If there are both, the

@@ -28,8 +28,8 @@ typedef struct trial {
     const ss_trade_opts *how;
     ss_trade *trade;
     ss_error *err;
-    double began, estimate, done;   /* of a run [s]; the time that it would take, if it is over the budget; the part
-                                       of the whole work that is done */
+    double began, estimate, done;   /* of a run [s]; the time that it would take, if it is over the budget; the
+                                       part of the whole work that is done */
 } trial;
 
 /* The largest error of coefficients w in any scale, over the largest |W| there.  Of the translations of a scale
