@@ -15,7 +15,6 @@
 #include "find/numbers.h"
 #include "study/sweep/grid.h"
 #include "io/record.h"
-#include "motion/kind.h"
 #include "scene/key.h"
 #include "scene/scene.h"
 #include "signal/gaps.h"
@@ -384,8 +383,8 @@ conclusions_refuse_null(void **state)
     assert_refused(ss_backbone_scene(NULL, &none_found, signal, 0, 1, NULL), NULL);
     assert_refused(ss_backbone_scene(&scene, NULL, signal, 0, 1, NULL), NULL);
     assert_refused(ss_backbone_scene(&scene, &none_found, NULL, 0, 1, NULL), NULL);
-    assert_refused(ss_ridge_write(NULL, &none, NULL, NULL, SS_TSV, NULL), NULL);
-    assert_refused(ss_ridge_write(stdout, NULL, NULL, NULL, SS_TSV, NULL), NULL);
+    assert_refused(ss_ridge_write(&none, NULL, NULL, NULL, SS_TSV, NULL), NULL);
+    assert_refused(ss_ridge_write(NULL, NULL, NULL, stdout, SS_TSV, NULL), NULL);
     assert_refused(ss_plot_backbone(NULL, &none_found, signal, 0, NULL, NULL), NULL);
     assert_refused(ss_plot_backbone(stdout, NULL, signal, 0, NULL, NULL), NULL);
     assert_refused(ss_plot_backbone(stdout, &none_found, NULL, 0, NULL, NULL), NULL);
@@ -691,11 +690,11 @@ plots_refuse_null(void **state)
     assert_int_equal(ss_plot_spectrum(out, reader, y, 1, &none, &e), SS_EINVAL);
     assert_int_equal(ss_plot_spectrum(out, reader, y, 0, &opts, &e), SS_EINVAL);
     e.text[0] = '\0';
-    assert_refused(ss_spectrum_write(NULL, reader, y, 1, &opts, SS_TSV, &e), &e);
-    assert_refused(ss_spectrum_write(out, NULL, y, 1, &opts, SS_TSV, &e), &e);
-    assert_refused(ss_spectrum_write(out, reader, NULL, 1, &opts, SS_TSV, &e), &e);
-    assert_int_equal(ss_spectrum_write(out, reader, y, 1, &opts, SS_AU, &e), SS_EINVAL);
-    assert_int_equal(ss_spectrum_write(out, reader, y, 0, &opts, SS_TSV, &e), SS_EINVAL);
+    assert_refused(ss_spectrum_write(reader, y, 1, &opts, NULL, SS_TSV, &e), &e);
+    assert_refused(ss_spectrum_write(NULL, y, 1, &opts, out, SS_TSV, &e), &e);
+    assert_refused(ss_spectrum_write(reader, NULL, 1, &opts, out, SS_TSV, &e), &e);
+    assert_int_equal(ss_spectrum_write(reader, y, 1, &opts, out, SS_AU, &e), SS_EINVAL);
+    assert_int_equal(ss_spectrum_write(reader, y, 0, &opts, out, SS_TSV, &e), SS_EINVAL);
     ss_reader_free(reader);
     ss_signal_free(signal);
     const double x[16] = { 0 };

@@ -792,7 +792,7 @@ reductions(int variant)
     opts.n_over = opts.difference = variant == 2;
     if (st == SS_OK)
         st = variant == 0 ? ss_plot_spectrum(scrap, reader, column, 1, &opts, &err)
-            : variant == 3 ? ss_spectrum_write(scrap, reader, column, 1, &opts, SS_TSV, &err)
+            : variant == 3 ? ss_spectrum_write(reader, column, 1, &opts, scrap, SS_TSV, &err)
             : variant == 1 ? ss_plot_xy(scrap, reader, 0, 1, &opts, &err)
             : ss_plot_signal(scrap, reader, NULL, 0, &opts, &err);
     ss_reader_free(over);

@@ -8,7 +8,7 @@
 #include <stickslip.h>
 #include "shipped.h"
 #include "unit.h"
-#include "motion/kind.h"
+#include "scene/scene.h"
 
 enum { RATE = 2000, DURATION = 10, SAMPLES = RATE * DURATION, MAX_EVENTS = 256 };
 

@@ -5,7 +5,7 @@
 
 #include "store_file.h"
 #include "signal/noise.h"
-#include "motion/kind.h"
+#include "scene/scene.h"
 
 /* --- records ------------------------------------------------------------------------------- */
 

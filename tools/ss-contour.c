@@ -288,7 +288,7 @@ draw(drawing *d, ss_plot_opts *opts)
     if (d->kind < TOOL_STREAM)
         draw_contours(d, d->output, opts);
     else
-        tool_check(ss_ridge_write(tool_output(d->output), d->coefficients, &d->opts, opts, tool_stream(d->kind),
+        tool_check(ss_ridge_write(d->coefficients, &d->opts, opts, tool_output(d->output), tool_stream(d->kind),
                                   &tool_error));
     ss_signal_free(signal);
 }

@@ -212,7 +212,7 @@ draw_signal(const char *path, const tool_texts *name, drawing d, char *const ove
     ss_overlay *overlay = tool_read_overlay(features, SS_KIND_FEATURES);
     opts->features = overlay;
     if (d.kind >= TOOL_STREAM)
-        tool_check(ss_spectrum_write(tool_output(output), d.reader, d.column, d.n, opts, tool_stream(d.kind),
+        tool_check(ss_spectrum_write(d.reader, d.column, d.n, opts, tool_output(output), tool_stream(d.kind),
                                      &tool_error));
     else
         draw(&d, output, opts);

@@ -72,7 +72,7 @@ ss_status ss_plot_spectrum(FILE *out, ss_reader *reader, const size_t column[], 
                            ss_error *err);
 /* Write them as text: notes of the header, resolution and segments, then a row for each frequency.  ss_table_read
  * reads it (SS_KIND_SPECTRUM).  SS_EINVAL: the format holds numbers only; SS_EIO. */
-ss_status ss_spectrum_write(FILE *out, ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *opts,
+ss_status ss_spectrum_write(ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *opts, FILE *out,
                             ss_format format, ss_error *err);
 
 typedef struct ss_contour_opts {
@@ -125,8 +125,8 @@ ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
 /* Write the ridge points that such a picture marks, as rows of time and of the frequency and the amplitude of
  * the steady oscillation that has such a ridge.  ss_table_read reads them (SS_KIND_RIDGE).  SS_EINVAL: the format holds
  * numbers only. */
-ss_status ss_ridge_write(FILE *out, const ss_coefficients *coefficients, const ss_contour_opts *contour,
-                         const ss_plot_opts *opts, ss_format format, ss_error *err);
+ss_status ss_ridge_write(const ss_coefficients *coefficients, const ss_contour_opts *contour, const ss_plot_opts *opts,
+                         FILE *out, ss_format format, ss_error *err);
 
 /* Draw the work-precision diagram: the largest error of x over CPU time as a multiple of the
  * fastest row's, both logarithmic, with a line for each method and rings on the frontier.

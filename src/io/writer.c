@@ -10,7 +10,7 @@
 #include "io/format.h"
 #include "io/record.h"
 #include "signal/gaps.h"
-#include "motion/kind.h"
+#include "scene/scene.h"
 
 const char *const ss_coefficient_columns[COEFFICIENT_COLUMNS][2] = {
     { "m", "" }, { "a", "s" }, { "b", "s" }, { "f", "Hz" }, { "re", "" }, { "im", "" }, { "edge", "" } };

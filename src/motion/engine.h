@@ -82,16 +82,6 @@ ss_status ss_engine_fail_short(const engine *e, ss_error *err);
 void ss_engine_expand(engine *e);
 /* taylor.c: the state at s by a series, and the rates of change of its first two parts. */
 void ss_series_at(const series *of, double s, double q[], double dqdt[]);
-/* Take a step, see struct engine_type; SS_ERANGE if the state becomes infinite or NaN. */
-ss_status ss_engine_step(engine *e, double h_max, ss_error *err);
-/* *ends becomes 1 if the mode ends within the step just taken, *s_event after its start. */
-ss_status ss_engine_ends_within(engine *e, int *ends, double *s_event, ss_error *err);
-/* The mode ends s from now: enter the next. */
-int ss_engine_next_mode(engine *e, int still, double s, ss_event *event);
-/* The mode does not end: go to the end of the step. */
-void ss_engine_accept(engine *e);
-/* Instead of a step: the mass stands still for h. */
-void ss_engine_rest(engine *e, double h);
 
 /* run.c: own becomes the caller's options or the usual ones, see ss_options_take. */
 ss_status ss_sim_opts_take(ss_sim_opts *own, const ss_sim_opts *given, ss_error *err);

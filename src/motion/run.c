@@ -12,7 +12,6 @@
 #include "base/number.h"
 #include "base/options.h"
 #include "base/progress.h"
-#include "motion/kind.h"
 #include "motion/method.h"
 #include "motion/walk.h"
 
@@ -25,13 +24,6 @@ ss_status
 ss_sim_opts_take(ss_sim_opts *own, const ss_sim_opts *given, ss_error *err)
 {
     return ss_options_take(own, sizeof *own, &usual, given, err);
-}
-
-const char *
-ss_event_kind_name(ss_event_kind kind)
-{
-    static const char *const name[] = { "stick", "slip", "reverse" };
-    return (unsigned)kind <= SS_REVERSE ? name[kind] : "?";
 }
 
 enum { REPORT_STEPS = 256 };            /* from one report of progress to the next */

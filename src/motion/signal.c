@@ -4,7 +4,6 @@
 #include <string.h>
 #include "base/error.h"
 #include "scene/model.h"
-#include "scene/value.h"
 
 static const struct { const char *name, *unit; } column[SS_SIM_COLUMNS] = {
     { "x", "m" }, { "v", "m/s" }, { "a", "m/s^2" }, { "f", "N" }, { "s", "N" }, { "y", "m" },

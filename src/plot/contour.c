@@ -418,7 +418,7 @@ prepare(picture *p, const ss_coefficients *c, const ss_contour_opts *contour, co
 }
 
 ss_status
-ss_ridge_write(FILE *out, const ss_coefficients *c, const ss_contour_opts *contour, const ss_plot_opts *opts,
+ss_ridge_write(const ss_coefficients *c, const ss_contour_opts *contour, const ss_plot_opts *opts, FILE *out,
                ss_format format, ss_error *err)
 {
     static const char *const own_notes[] = { "columns", NULL };

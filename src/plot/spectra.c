@@ -104,7 +104,7 @@ write_row(struct rows *rows, ss_spectrum *const spectrum[], size_t k, const ss_c
 }
 
 ss_status
-ss_spectrum_write(FILE *out, ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *given,
+ss_spectrum_write(ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *given, FILE *out,
                   ss_format format, ss_error *err)
 {
     static const char *const own_notes[] = { "resolution", "segments", NULL };

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stickslip/scene.h>
+#include "base/number.h"
 
 /* ranges of numbers; all are finite */
 enum { ANY_NUMBER, NOT_NEGATIVE, POSITIVE, RATE, FROM_HALF, HALF_TO_ONE, FROM_ONE };
@@ -88,6 +89,23 @@ int ss_key_is_of_record(const char *name);
 
 const char *ss_scene_unit(const ss_scene *scene, const char *key);      /* of a number; NULL: no such number */
 int ss_model_is_linear(const ss_model *model);      /* 1: between events it has a closed form */
+
+/* --- value.c: the value of a key as text, and what it may be --------------------------------- */
+
+enum { WRONG_ROOM = 256 };
+/* Set a key that the scene's model has from text.  Returns 0, and says in `wrong` what is wrong, if it may
+ * not have this value. */
+int ss_value_read(ss_scene *scene, const scene_key *k, const char *text, char wrong[WRONG_ROOM]);
+/* The value as text, which stands in `room`, in the scene or in a constant. */
+const char *ss_value_text(const ss_scene *scene, const scene_key *k, char room[SS_NUMBER_MAX]);
+/* Returns 0, and says what is wrong, if a key may not have its value. */
+int ss_value_check(const ss_scene *scene, const scene_key *k, char wrong[WRONG_ROOM]);
+
+/* Contradictions of two keys. */
+#define TWO_BASES "base_file and base_amplitude exclude each other: the base moves by one of them"
+#define STATIC_IS_LESS "%s is less than %s, it must be at least as large"
+/* scene.c: the key of a static friction that is less than the kinetic one of its side; NULL: none. */
+const char *ss_scene_static_is_less(const ss_scene *scene);
 
 /* --- simpler.c ----------------------------------------------------------------------------- */
 

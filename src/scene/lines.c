@@ -12,7 +12,6 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "scene/model.h"
-#include "scene/value.h"
 
 /* The origin of a key, which messages name: a line of the file, or a setting. */
 struct key_origin {

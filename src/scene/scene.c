@@ -10,9 +10,15 @@
 #include "base/error.h"
 #include "scene/model.h"
 #include "scene/scene.h"
-#include "scene/value.h"
 
 const ss_scene ss_scene_defaults = { .duration = 10, .rate = 2000 };
+
+const char *
+ss_event_kind_name(ss_event_kind kind)
+{
+    static const char *const name[] = { "stick", "slip", "reverse" };
+    return (unsigned)kind <= SS_REVERSE ? name[kind] : "?";
+}
 
 size_t
 ss_scene_samples(const ss_scene *scene)

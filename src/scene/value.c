@@ -1,5 +1,4 @@
 /* value.c -- the values of keys: read from text, written as text, and checked against their ranges. */
-#include "scene/value.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -24,7 +24,7 @@
 #include "io/hdf5/h5.h"
 #include "io/format.h"
 #include "map/map.h"
-#include "motion/kind.h"
+#include "scene/scene.h"
 #include "signal/gaps.h"
 #include "signal/header.h"
 

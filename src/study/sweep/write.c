@@ -10,7 +10,7 @@
 #include "io/input.h"
 #include "io/record.h"
 #include "motion/method.h"
-#include "scene/value.h"
+#include "scene/key.h"
 #include "study/sweep/grid.h"
 
 /* Write what the rows have in common: the keys of the motion that are not varied, the axes, and the options. */
