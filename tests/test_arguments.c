@@ -249,9 +249,9 @@ simulations_refuse_null(void **state)
     assert_refused(ss_sim_header(NULL, &scene, &columns, &e), &e);
     assert_refused(ss_sim_header(&head, NULL, &columns, &e), &e);
     assert_refused(ss_sim_header(&head, &scene, NULL, &e), &e);
-    ss_sim_row(NULL, &sample, &row);
-    ss_sim_row(&columns, NULL, &row);
-    ss_sim_row(&columns, &sample, NULL);
+    ss_sim_rows(NULL, &sample, 1, &(double *){ &row });
+    ss_sim_rows(&columns, NULL, 1, &(double *){ &row });
+    ss_sim_rows(&columns, &sample, 1, NULL);
     assert_true(row == 7);
     assert_null(ss_sim_method_for(NULL, NULL));
     assert_null(ss_sim_method_name(SIZE_MAX));

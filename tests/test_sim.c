@@ -404,14 +404,15 @@ static void
 gives_the_columns_asked_for(void **state)
 {
     static const char *const wrong[] = { "", "t", "x,t", "q", "x,x", "x,", ",", "xv" };
-    const ss_sample sample = { .x = 2, .a = 4, .mode = -1 };
+    const ss_sample sample[2] = { { .x = 2, .a = 4, .mode = -1 }, { .x = 3, .a = -0.0, .mode = 1 } };
     ss_sim_columns columns;
-    double row[SS_SIM_COLUMNS];
+    double mode[2], a[2], x[2], *const column[] = { mode, a, x };
     (void)state;
     assert_int_equal(ss_sim_columns_parse(&columns, "t,mode,a,x", NULL), SS_OK);
     assert_true(columns.has_time && columns.n == 3);
-    ss_sim_row(&columns, &sample, row);
-    assert_true(row[0] == -1 && row[1] == 4 && row[2] == 2);
+    ss_sim_rows(&columns, sample, 2, column);
+    assert_true(mode[0] == -1 && a[0] == 4 && x[0] == 2 && mode[1] == 1 && x[1] == 3);
+    assert_true(a[1] == 0 && !signbit(a[1]));
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         assert_int_equal(ss_sim_columns_parse(&columns, wrong[i], NULL), SS_EINVAL);
 }

@@ -65,18 +65,14 @@ static int
 stream_samples(const ss_sample *s, size_t n, void *user)
 {
     output *o = user;
-    size_t columns = o->req->columns.n, rows;
-    double block[SS_SIM_COLUMNS][BLOCK], row[SS_SIM_COLUMNS], *column[SS_SIM_COLUMNS];
+    size_t rows;
+    double block[SS_SIM_COLUMNS][BLOCK], *column[SS_SIM_COLUMNS];
     begin(o);
-    for (size_t c = 0; c < columns; c++)
+    for (size_t c = 0; c < SS_SIM_COLUMNS; c++)
         column[c] = block[c];
     for (o->samples += n; n > 0; s += rows, n -= rows) {
         rows = n < BLOCK ? n : BLOCK;
-        for (size_t i = 0; i < rows; i++) {
-            ss_sim_row(&o->req->columns, &s[i], row);
-            for (size_t c = 0; c < columns; c++)
-                block[c][i] = row[c];
-        }
+        ss_sim_rows(&o->req->columns, s, rows, column);
         if (tool_stopping() || ss_writer_rows(o->writer, column, rows, &o->error) != SS_OK)
             return 1;
     }

@@ -61,8 +61,8 @@ ss_status ss_sim_columns_parse(ss_sim_columns *columns, const char *list, ss_err
 /* Make the header of a signal with these columns; its notes are the scene's parameters.  The caller
  * frees it with ss_header_free.  SS_EINVAL: the scene has no model or is out of range; SS_ENOMEM. */
 ss_status ss_sim_header(ss_header **head, const ss_scene *scene, const ss_sim_columns *columns, ss_error *err);
-/* Write the columns->n values of one sample to row, in that order. */
-void ss_sim_row(const ss_sim_columns *columns, const ss_sample *sample, double *row);
+/* Write these columns of n samples, in that order: the value of sample i becomes column[c][i]. */
+void ss_sim_rows(const ss_sim_columns *columns, const ss_sample *samples, size_t n, double *const column[]);
 
 /* The simple case: make a signal of the whole record, with the columns x, v, a, f, s.  The caller
  * frees it with ss_signal_free. */

@@ -166,8 +166,9 @@ append_samples(const ss_sample *s, size_t n, void *user)
 {
     sampled *t = user;
     const ss_sim_columns picked = { 0, 1, { t->pick } };
-    for (size_t i = 0; i < n && t->n < t->room; i++)
-        ss_sim_row(&picked, &s[i], &t->value[t->n++]);
+    n = n < t->room - t->n ? n : t->room - t->n;
+    ss_sim_rows(&picked, s, n, &(double *){ t->value + t->n });
+    t->n += n;
     return 0;
 }
 

@@ -24,7 +24,7 @@ enum { FORCED_KEPT = 8 };           /* the most starts that are kept */
 typedef struct forced {
     const ss_model *model;
     ss_scene scene;             /* as given, normalised */
-    int pick;                   /* the compared quantity: an index of ss_sim_row's */
+    int pick;                   /* the compared quantity: an index of ss_sim_columns' */
     double period;              /* of the base, about [s] */
     size_t n;                   /* keys that the model has */
     double own[FORCED_KEYS];    /* the scene's, as logarithms */

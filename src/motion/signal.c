@@ -43,13 +43,15 @@ ss_sim_columns_parse(ss_sim_columns *out, const char *list, ss_error *err)
 }
 
 void
-ss_sim_row(const ss_sim_columns *columns, const ss_sample *s, double *row)
+ss_sim_rows(const ss_sim_columns *columns, const ss_sample *s, size_t n, double *const to[])
 {
-    if (columns == NULL || s == NULL || row == NULL)
+    if (columns == NULL || s == NULL || to == NULL)
         return;
-    const double value[SS_SIM_COLUMNS] = { s->x, s->v, s->a, s->f, s->s, s->y, s->z, s->mode };
-    for (size_t i = 0; i < columns->n; i++)
-        row[i] = value[columns->pick[i]] + 0.0;         /* no -0 */
+    for (size_t i = 0; i < n; i++, s++) {
+        const double value[SS_SIM_COLUMNS] = { s->x, s->v, s->a, s->f, s->s, s->y, s->z, s->mode };
+        for (size_t c = 0; c < columns->n; c++)
+            to[c][i] = value[columns->pick[c]] + 0.0;   /* no -0 */
+    }
 }
 
 /* Add the scene as notes, without the rate, which every header has. */
@@ -90,21 +92,20 @@ ss_sim_header(ss_header **out, const ss_scene *scene, const ss_sim_columns *colu
 }
 
 struct collector {
-    const ss_sim_columns *columns;
-    ss_signal *signal;
-    size_t i;
+    ss_sim_columns columns;
+    size_t n, i;                /* samples, and the next */
+    double *values;
 };
 
 static int
 collect(const ss_sample *s, size_t n, void *user)
 {
     struct collector *c = user;
-    double row[SS_SIM_COLUMNS];
-    for (size_t k = 0; k < n; k++, c->i++) {
-        ss_sim_row(c->columns, &s[k], row);
-        for (size_t j = 0; j < c->columns->n; j++)
-            c->signal->values[j * c->signal->n + c->i] = row[j];
-    }
+    double *to[SS_SIM_COLUMNS];
+    for (size_t k = 0; k < c->columns.n; k++)
+        to[k] = c->values + k * c->n + c->i;
+    ss_sim_rows(&c->columns, s, n, to);
+    c->i += n;
     return 0;
 }
 
@@ -113,23 +114,25 @@ ss_sim_signal(ss_signal **out, const ss_scene *scene, ss_error *err)
 {
     if (out == NULL)
         return SS_FAIL_NULL(err);
-    const ss_sim_columns columns = { 1, 5, { 0, 1, 2, 3, 4 } };
-    struct collector c = { &columns, NULL, 0 };
+    struct collector c = { .columns = { 1, 5, { 0, 1, 2, 3, 4 } } };
     ss_header *head = NULL;
-    ss_status st = ss_sim_header(&head, scene, &columns, err);
+    ss_signal *signal = NULL;
+    ss_status st = ss_sim_header(&head, scene, &c.columns, err);
     if (st == SS_OK)
-        st = ss_signal_new(&c.signal, head, ss_scene_samples(scene), err);
+        st = ss_signal_new(&signal, head, ss_scene_samples(scene), err);
     ss_header_free(head);
     if (st != SS_OK)
         return st;
+    c.n = signal->n;
+    c.values = signal->values;
     ss_sim_opts opts;
     ss_sim_opts_init(&opts, sizeof opts);
     opts.samples = collect;
     opts.user = &c;
     st = ss_sim_run(scene, &opts, NULL, err);
     if (st == SS_OK)
-        *out = c.signal;
+        *out = signal;
     else
-        ss_signal_free(c.signal);
+        ss_signal_free(signal);
     return st;
 }

@@ -193,7 +193,7 @@ write_rows(const ss_sample *s, size_t n, void *user)
     for (size_t c = 0; c < SS_SIM_COLUMNS; c++)
         column[c] = &row[c];
     for (size_t i = 0; i < n; i++) {
-        ss_sim_row(&r->columns, &s[i], row);
+        ss_sim_rows(&r->columns, &s[i], 1, column);
         if (ss_writer_rows(r->writer, column, 1, NULL) != SS_OK)
             return 1;
     }
@@ -205,9 +205,11 @@ pick_rows(const ss_sample *s, size_t n, void *user)
 {
     rows *r = user;
     volatile double sink;
-    double row[SS_SIM_COLUMNS];
+    double row[SS_SIM_COLUMNS], *column[SS_SIM_COLUMNS];
+    for (size_t c = 0; c < SS_SIM_COLUMNS; c++)
+        column[c] = &row[c];
     for (size_t i = 0; i < n; i++) {
-        ss_sim_row(&r->columns, &s[i], row);
+        ss_sim_rows(&r->columns, &s[i], 1, column);
         sink = row[0];
         (void)sink;
     }
