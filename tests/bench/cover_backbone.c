@@ -153,8 +153,8 @@ truth(const decay *of, const decay_turn *turn, size_t turns, const double *x, si
     for (int i = 1; i < 5; i++)
         z[i] += 2 * PI * I * round((cimag(z[i - 1]) + PI - cimag(z[i])) / (2 * PI));
     double complex slope = (8 * (z[3] - z[1]) - (z[4] - z[0])) / 12 / h;
-    double bend = (creal(z[3]) - 2 * creal(z[2]) + creal(z[1])) / h / h, s = -creal(slope);
-    *f = sqrt(cimag(slope) * cimag(slope) + s * s - bend) * rate / (2 * PI);
+    double curvature = (creal(z[3]) - 2 * creal(z[2]) + creal(z[1])) / h / h, s = -creal(slope);
+    *f = sqrt(cimag(slope) * cimag(slope) + s * s - curvature) * rate / (2 * PI);
     *zeta = s / hypot(s, cimag(slope));
     return 1;
 }
