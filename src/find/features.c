@@ -40,12 +40,14 @@ find_maxima(search *s)
     const ss_scale *last = &s->map->scale[shortest];
     int l1 = s->opts->norm == SS_NORM_L1;
     double *level = malloc((last->n + 1) * sizeof *level);
-    ss_status st = level == NULL ? SS_ENOMEM
+    const stream_lesson *known = s->part->known;
+    ss_status st = level == NULL ? SS_ENOMEM : known != NULL ? SS_OK
         : ss_map_read(s->map, &(ss_map_part){ shortest, 0, last->n, NULL, level }, 1, NULL);
-    for (size_t k = 0; st == SS_OK && k < last->n; k++)
+    for (size_t k = 0; st == SS_OK && known == NULL && k < last->n; k++)
         if (!ss_gaps_near(s->gap, s->n_gaps, ss_scale_b(last, k), ROW_REACH * last->a))
             level[n++] = level[k];
-    double rms = n == 0 ? 0 : gsl_stats_select(level, 1, n, n / 2) * sqrt((l1 ? last->a : 1) / M_LN2);
+    double rms = known != NULL ? known->rms
+        : n == 0 ? 0 : gsl_stats_select(level, 1, n, n / 2) * sqrt((l1 ? last->a : 1) / M_LN2);
     out->noise = rms * sqrt(s->rate);
     free(level);
     const maxima_kind kind = { fmin(FLAT, s->opts->threshold), INFINITY, LARGER * rms / (l1 ? sqrt(last->a) : 1) };
@@ -73,6 +75,13 @@ find_maxima(search *s)
 static ss_status
 find_repetition(search *s)
 {
+    const stream_lesson *known = s->part->known;
+    if (known != NULL) {
+        s->cycles = known->cycles;
+        s->cycles.n = (size_t)((double)s->cycles.n * (double)s->n / known->length);
+        s->out->number[SS_REPETITION_FREQUENCY] = known->repetition;
+        return SS_OK;
+    }
     ss_hum hum = SS_HUM_NONE;
     ss_status st = ss_cycles_find(s->x, s->n, s->part->period * s->rate, &s->cycles);
     if (st == SS_OK && s->cycles.hum > 0)       /* it pulls the lags */
@@ -117,6 +126,9 @@ find(search *s, double *x, size_t column, ss_error *err)
     opts.fmin = s->opts->fmin > 0 ? s->opts->fmin       /* the lowest usable frequency */
         : ROW_CENTER * sqrt(2) * s->rate / (M_PI * (double)s->n) * (1 + 1e-9);
     opts.progress = (ss_progress){ report_transform, s };
+    const stream_lesson *known = s->part->known;
+    if (known != NULL)              /* ground below the oscillation joins its maxima */
+        opts.fmax = fmin(known->highest, known->label * 2);
     ss_range flat = { 0, s->rate };             /* what a filter has changed is no contact */
     ss_header_flat(s->signal->head, &flat);
     opts.fmin = fmax(opts.fmin, flat.from);
@@ -130,6 +142,7 @@ find(search *s, double *x, size_t column, ss_error *err)
     if (st != SS_OK)
         return st;
 
+    const double highest = s->map->scale[s->map->n_scales - 1].f;
     ss_gaps_bridge(x, s->n, s->rate, s->gap, s->n_gaps);        /* zeros in a gap are steep */
     for (size_t i = 0; i < s->n; i++)
         s->largest = fmax(s->largest, fabs(x[i]));
@@ -155,6 +168,11 @@ find(search *s, double *x, size_t column, ss_error *err)
         st = ss_slip_rate_find(s);
     if (st == SS_OK && s->part->period == 0)
         st = ss_numbers_find(s);
+    if (s->part->learnt != NULL)
+        *s->part->learnt = (stream_lesson){
+            .label = s->is_cleaned ? 0 : s->label, .rms = s->out->noise / sqrt(s->rate), .largest = s->largest,
+            .highest = highest, .length = (double)s->n, .slow = s->slow, .cycles = s->cycles,
+            .repetition = s->out->number[SS_REPETITION_FREQUENCY] };
     for (size_t i = 0; i < s->n && s->is_cleaned; i++)
         x[i] = s->x[i] * s->largest;
     return st == SS_OK ? st : ss_fail(err, st, "%s", ss_strerror(st));

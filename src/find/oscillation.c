@@ -222,7 +222,8 @@ ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly)
     ss_features *out = s->out;
     const double turn = 2 * M_PI / s->rate, forcing = out->number[SS_REPETITION_FREQUENCY].value;
     ringdown r = { .x = s->x, .n = s->n, .anchor = anchor, .n_anchors = out->n, .w = turn * f,
-                   .forcing = isnan(forcing) ? 0 : turn * forcing, .white = out->noise / s->largest };
+                   .forcing = isnan(forcing) ? 0 : turn * forcing, .white = out->noise / s->largest,
+                   .is = s->part->known != NULL ? s->part->known->slow : SLOW_EITHER };
     r.window = malloc((out->n + 1) * sizeof *r.window);
     r.each = malloc((out->n + 1) * sizeof *r.each);
     ss_status st = r.window != NULL && r.each != NULL ? SS_OK : SS_ENOMEM;
@@ -240,6 +241,7 @@ ss_oscillation_fit(search *s, const size_t *anchor, double f, int singly)
         else if (s->is_cleaned)
             say(out, SS_TRANSITION_FREQUENCY, "fitted to what is left when a steady hum near it is subtracted");
         report(s, &r);
+        s->slow = r.slow > 0 ? SLOW_FORCED : SLOW_LINE;
     }
     free(r.window);
     free(r.each);

@@ -33,6 +33,7 @@ ss_ringdown_clear(ringdown *r)
 {
     r->all[0] = r->all[1] = nothing;
     r->is_train = 0;
+    r->slow = 0;
     for (size_t i = 0; i < r->n_anchors; i++) {
         r->window[i] = (ss_window){ r->anchor[i], r->anchor[i] };
         r->each[i][0] = r->each[i][1] = nothing;
@@ -319,9 +320,9 @@ ss_ringdown_fit(ringdown *r)
     ss_status st = ss_varpro_init(&k.fit, r->x, room);
     if (other.window == NULL || other.each == NULL)
         st = SS_ENOMEM;
-    if (st == SS_OK)
+    if (st == SS_OK && r->is != SLOW_FORCED)
         st = fit_all(&k, r, 0);
-    if (st == SS_OK && r->forcing > 0) {
+    if (st == SS_OK && r->forcing > 0 && r->is != SLOW_LINE) {
         st = fit_all(&k, &other, r->forcing);
         for (int j = 0; j < 2; j++) {       /* where both explain it, what they differ by is an error, but for noise */
             double by = pow(r->all[j].value - other.all[j].value, 2), noise = pow(SIGMAS * r->all[j].error, 2)
@@ -333,6 +334,7 @@ ss_ringdown_fit(ringdown *r)
             memcpy(r->each, other.each, n * sizeof *r->each);
             memcpy(r->all, other.all, sizeof r->all);
             r->is_train = other.is_train;
+            r->slow = r->forcing;
         }
         for (int j = 0; j < 2; j++)
             r->all[j].error = hypot(r->all[j].error, sqrt(differ[j]));

@@ -6,6 +6,9 @@
 #include <stickslip/features.h>
 #include "find/window.h"
 
+/* What is beside the oscillation in a window: a line, or a constant and a sinusoid of the forcing. */
+typedef enum slow_part { SLOW_EITHER, SLOW_LINE, SLOW_FORCED } slow_part;
+
 typedef struct ringdown {
     /* given: */
     const double *x;            /* n samples */
@@ -16,12 +19,14 @@ typedef struct ringdown {
     size_t n_bars;
     double w;                   /* per sample: where the search starts */
     double forcing;             /* per sample; 0: it is not known */
+    slow_part is;               /* the better one if SLOW_EITHER; SLOW_FORCED needs the forcing */
     double white;               /* the rms of the white noise: what is left beyond it adds to the errors */
     /* found, with room for n_anchors: */
     ss_window *window;          /* of each anchor; empty, end = first: two periods could not be fitted */
     ss_value (*each)[2];        /* w and s of each window alone, per sample, with standard errors */
     ss_value all[2];            /* w and s of all; NaN: no window is left */
     int is_train;               /* micro-slips recur once a period, which passes for damping */
+    double slow;                /* the forcing if the slow part is a sinusoid of it, 0: it is a line */
 } ringdown;
 
 /* Fit exp(-s t) (cos w t, sin w t) plus a line to a window about each anchor, w and s shared.  Where the

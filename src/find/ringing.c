@@ -162,14 +162,15 @@ refine(search *s, const ss_maximum *swell, double f)
     for (size_t i = 0; i < out->n; i++)
         anchor[i] = (size_t)(swell[i].t * s->rate);
     ss_status st = ss_oscillation_fit(s, anchor, f, 0);
-    if (st == SS_OK && s->rings_as == OF_NOTHING) {
+    if (st == SS_OK && s->rings_as == OF_NOTHING && s->part->known == NULL) {
         const char **why = &out->number[SS_TRANSITION_FREQUENCY].why, *first = *why;
         s->must_show = 1;
         for (int third = 1; st == SS_OK && s->rings_as != OF_CONTACT && third <= 3 * OCTAVES; third++)
             st = ss_oscillation_fit(s, anchor, exp2(third / 3.) * f, 0);
-        if (s->rings_as == OF_CONTACT)
+        if (s->rings_as == OF_CONTACT) {
             know(out, SS_TRANSITION_FREQUENCY_RAW, unknown);
-        else
+            s->label = 0;
+        } else
             *why = first;
     }
     free(anchor);
@@ -190,8 +191,8 @@ ss_ringing_find(search *s, double prominence)
     ss_features *out = s->out;
     ss_maximum *swell = NULL;
     size_t n = 0;
-    double label = 0;
-    ss_status st = find_recurrent(s, prominence, &label);
+    double label = s->part->known != NULL ? s->part->known->label : 0;
+    ss_status st = label > 0 ? SS_OK : find_recurrent(s, prominence, &label);
     say(out, SS_TRANSITION_FREQUENCY, "no oscillation swells again and again");
     if (st != SS_OK || label == 0)
         return st;
@@ -212,6 +213,7 @@ ss_ringing_find(search *s, double prominence)
     }
     if (!recurs)
         out->n = out->recurring = 0;
+    s->label = recurs ? label : 0;
     if (st == SS_OK && out->recurring > 0)
         st = read_raw(s);
     if (st == SS_OK && recurs)

@@ -44,6 +44,8 @@ typedef struct search {
     size_t n_found;
     column_quantity quantity;
     const struct stream_part *part;     /* all 0: the signal is no part */
+    double label;               /* of the oscillation that recurs [Hz]; 0: none is found */
+    slow_part slow;             /* beside it */
     ss_cycles cycles;
     int is_cleaned;             /* x has lost a steady hum: it is not the column any more */
     int is_second;              /* it lost that in a first search */
@@ -83,11 +85,24 @@ cycle_rate(const search *s)
     return (ss_value){ s->rate * s->cycles.frequency.value, s->rate * s->cycles.frequency.error };
 }
 
+/* What a signal teaches about a part of it.  The label of the oscillation that recurs is 0 if there is none. */
+typedef struct stream_lesson {
+    double label, rms;          /* [Hz], noise of |W| [a^1/2 of the samples] */
+    double largest;             /* of the samples */
+    double highest;             /* label of a scale [Hz] */
+    double length;              /* [samples] */
+    slow_part slow;             /* beside the oscillation */
+    ss_cycles cycles;
+    ss_number repetition;
+} stream_lesson;
+
 /* A signal that is a part of a longer one. */
 typedef struct stream_part {
     double period;              /* [s] of the cycles of the longer one, or NaN if it does not repeat itself: of the
                                    part only the transitions are found; 0: not known */
     int is_contact;             /* what rings in the longer one is the contact's */
+    const stream_lesson *known; /* only what rings so is sought; NULL: nothing is known */
+    stream_lesson *learnt;      /* to be filled in; may be NULL */
 } stream_part;
 /* As ss_features_find. */
 ss_status ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, const ss_features_opts *opts,

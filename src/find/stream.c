@@ -1,7 +1,7 @@
 /* stream.c -- the features of a signal without end, row by row.
  *
  * The last 64 periods of the lowest frequency are kept.  Each such window is searched once, as a recording of its
- * own, for numbers and for what repeats.  Rows come from searches in between, which know the period.  They take a
+ * own, for numbers and for what repeats.  Rows come from searches in between, which know what repeats.  They take a
  * part of the window only: as many periods as show LEAST transitions, which were as good as the whole window on
  * signals with noise, where 5 were not.  Where nothing happened, a part that shows a transition is a reason to
  * search the whole window.  Each transition is written by the first search that finds its end farther back than a
@@ -22,6 +22,7 @@ enum { PERIODS = 64, FIRST = 16, LEAST = 8 };   /* in a whole window, before row
 #define DELAY 0.18              /* [s] after two periods a row is written at the latest, but for the work */
 #define BEHIND 1.25             /* periods behind the end of a transition after which it is known: a wavelet's reach */
 #define SAME 2.                 /* samples between times that are the same */
+enum { MANY = 16 };             /* windows are searched as they come, and of the others one in so many */
 
 struct mean {
     double weight, value, squares;      /* squares: weighted, about the value (West 1979) */
@@ -40,6 +41,8 @@ struct stream {
     size_t n, window, first, few, hop, behind;  /* [samples] */
     size_t part;                /* of the window, in which rows are searched */
     int is_still;               /* 1: the last whole window had no transition */
+    int is_changed;             /* 1: a part since then was not as it taught */
+    stream_lesson lesson;       /* of it */
     stream_part known;          /* to searches of a part */
     uint64_t seen, searched;    /* samples so far, and at the last search of a whole window */
     double written;             /* [s] the end of the last transition, on the source's clock */
@@ -133,11 +136,21 @@ write_known(struct stream *s, int last, ss_error *err)
     double start, until = last ? INFINITY
         : s->head->start + (double)(s->seen - s->behind) / s->head->rate;
     size_t all = s->n < s->window ? s->n : s->window;
-    int whole = last || s->seen - s->searched >= s->window;
+    size_t apart = s->windows < MANY || s->is_changed || s->known.known == NULL ? s->window : MANY * s->window;
+    int whole = last || s->seen - s->searched >= apart;
     size_t n = whole || s->part > all ? all : s->part;
     int finds_all = whole || s->known.period == 0;
-    const stream_part afresh = { 0 };
+    const stream_part afresh = { .learnt = whole ? &s->lesson : NULL };
     ss_status st = find_last(s, n, whole ? &afresh : &s->known, &f, &start, err);
+    int is_new = st == SS_OK && f->n == 0;      /* what is known is not enough for the last n samples */
+    for (size_t i = s->n - n; i < s->n; i++)
+        is_new |= fabs(s->x[s->column][i]) > TWICE * s->lesson.largest;
+    if (st == SS_OK && !whole && s->known.known != NULL && is_new) {
+        stream_part part = s->known;
+        part.known = NULL;
+        s->is_changed = 1;
+        st = find_last(s, n, &part, &f, &start, err);
+    }
     if (st == SS_OK && n < all && count_due(s, f, 1, start, until) > 0)
         st = find_last(s, 2 * n < all ? 2 * n : all, &s->known, &f, &start, err);
     if (st == SS_OK && n < all && s->is_still && count_due(s, f, 0, start, until) > 0) {
@@ -172,6 +185,8 @@ write_known(struct stream *s, int last, ss_error *err)
         add_numbers(s, f);
         s->searched = s->seen;
         s->is_still = f->n == 0;
+        s->is_changed = 0;
+        s->known.known = s->lesson.label > 0 ? &s->lesson : NULL;
         s->known.is_contact = isfinite(f->number[SS_TRANSITION_FREQUENCY].value);
         s->part = s->hop + s->behind + s->few;
         while (f->n > 0 && s->part < s->window && f->n * s->part < LEAST * s->window)

@@ -129,8 +129,8 @@ ss_status
 ss_transitions_find(search *s)
 {
     int decided = 0;
-    ss_status st = ss_force_find(s, &decided);
-    if (st == SS_OK && !decided)
+    ss_status st = s->part->known != NULL ? ss_ringing_find(s, 0) : ss_force_find(s, &decided);
+    if (st == SS_OK && !decided && s->part->known == NULL)
         st = find_transitions(s);
     else if (st == SS_OK && decided && s->out->loading != NULL)
         say(s->out, SS_TRANSITION_FREQUENCY, "it is not looked for behind the falls of a force");
