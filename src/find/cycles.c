@@ -134,12 +134,11 @@ is_peak(const double *r, size_t i)
 }
 
 /* The period that the peaks at the multiples of a lag have in common, up to last and as many as
- * most, and the height of the last of them. In *error its standard error: alone, a peak is known to
- * the sample. */
+ * most, and the height of the last of them. */
 static double
-follow(const double *r, size_t lag, double last, double most, double *height, double *error)
+follow(const double *r, size_t lag, double last, double most, double *height)
 {
-    double period = (double)lag, mm = 0, ml = 0, ll = 0, count = 0;
+    double period = (double)lag, mm = 0, ml = 0;
     for (double m = 1; m <= most && (m + 0.25) * period < last; m++) {
         const double reach = fmax(1, JITTER * period / sqrt(m));
         size_t best = (size_t)ceil(m * period - reach);
@@ -149,12 +148,11 @@ follow(const double *r, size_t lag, double last, double most, double *height, do
         double bend = r[best - 1] - 2 * r[best] + r[best + 1];
         double shift = bend < 0 ? 0.5 * (r[best - 1] - r[best + 1]) / bend : 0;
         double at = (double)best + fmax(-0.5, fmin(0.5, shift));
-        mm += m * m, ml += m * at, ll += at * at, count++;
+        mm += m * m;
+        ml += m * at;
         period = ml / mm;
         *height = r[(size_t)(at + 0.5)];
     }
-    double scatter = count > 1 ? fmax(0, ll - ml * ml / mm) / (count - 1) : 1. / 12;
-    *error = sqrt(scatter / mm);
     return period;
 }
 
@@ -174,8 +172,8 @@ first_peak(const double *r, size_t last, double least)
     size_t first = 0;
     for (size_t i = from; i < last; i++)
         if (is_peak(r, i) && r[i] >= NEARLY * highest) {
-            double height = r[i], error;
-            follow(r, i, (double)last, AGAIN, &height, &error);
+            double height = r[i];
+            follow(r, i, (double)last, AGAIN, &height);
             if (height >= 0.5 * r[i])
                 return i;
             first = first > 0 ? first : i;
@@ -184,18 +182,18 @@ first_peak(const double *r, size_t last, double least)
 }
 
 ss_status
-ss_period_find(const double *x, size_t n, ss_value *period)
+ss_period_find(const double *x, size_t n, double *period)
 {
     real_fft r = { 0 };
     double height;
-    *period = (ss_value){ NAN, NAN };
+    *period = NAN;
     if (n < 8)
         return SS_OK;
     ss_status st = autocorrelation(&r, x, n);
     const double least = fmax(LEAST, sqrt(2 * log((double)n / FALSE_ALARMS) / (double)n));
     size_t peak = st == SS_OK ? first_peak(r.x, n / 2, least) : 0;
     if (peak > 0)
-        period->value = follow(r.x, peak, MOSTLY * (double)n, INFINITY, &height, &period->error);
+        *period = follow(r.x, peak, MOSTLY * (double)n, INFINITY, &height);
     ss_real_fft_free(&r);
     return st;
 }
@@ -818,18 +816,18 @@ compare_cycles(const double *x, size_t n, double period, ss_cycles *out)
 ss_status
 ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out)
 {
-    ss_value start = { about, NAN };
+    double start = about;
     *out = repeats_not(NULL);
     ss_status st = about == 0 ? ss_period_find(x, n, &start) : SS_OK;
     if (st != SS_OK)
         return st;
-    if (isnan(start.value) || start.value < 4) {
+    if (isnan(start) || start < 4) {
         out->why = "no cycle resembles the next one";
         return SS_OK;
     }
-    st = find_at(x, n, start.value, out);
+    st = find_at(x, n, start, out);
     if (st == SS_OK && about == 0)
-        st = compare_cycles(x, n, isfinite(out->period.value) ? out->period.value : start.value, out);
+        st = compare_cycles(x, n, isfinite(out->period.value) ? out->period.value : start, out);
     if (st == SS_OK && about == 0 && isfinite(out->period.value))
         st = compare_slow(x, n, out);
     double behind = fmax(1, fmin(1 << LAGS, floor(0.25 * (double)n / out->period.value))) * out->period.value;

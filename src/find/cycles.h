@@ -31,9 +31,8 @@ typedef struct ss_cycles {
  * in samples before; NaN: nothing repeated; 0: not known. */
 ss_status ss_cycles_find(const double *x, size_t n, double about, ss_cycles *out);
 
-/* The time after which n samples repeat themselves, in samples, with its standard error; NaN: nothing repeats
- * twice. */
-ss_status ss_period_find(const double *x, size_t n, ss_value *period);
+/* The time after which n samples repeat themselves, in samples; NaN: nothing repeats twice. */
+ss_status ss_period_find(const double *x, size_t n, double *period);
 
 /* --- hum.c -------------------------------------------------------------------------------------- */
 

@@ -94,21 +94,21 @@ ss_status
 ss_cycle_find(cycle *c, char *why, size_t size, const double *x, const char *missing, size_t n,
               double rate, double frequency)
 {
-    ss_value samples = { rate / frequency, 0 };
+    double samples = rate / frequency;
     ss_status st = frequency > 0 ? SS_OK : ss_period_find(x, n, &samples);
     if (st != SS_OK)
         return st;
-    if (!(frequency > 0) && !isnan(samples.value))
-        samples.value = refine(x, missing, n, samples.value);
-    c->period = samples.value / rate;
-    if (isnan(samples.value))
+    if (!(frequency > 0) && !isnan(samples))
+        samples = refine(x, missing, n, samples);
+    c->period = samples / rate;
+    if (isnan(samples))
         snprintf(why, size, "nothing repeats in the record");
-    else if (!(samples.value >= CYCLE_LEAST))
-        ss_print_to(why, size, "%.3g samples a cycle: %d are needed", samples.value, CYCLE_LEAST);
-    else if (!(samples.value <= (double)n))
+    else if (!(samples >= CYCLE_LEAST))
+        ss_print_to(why, size, "%.3g samples a cycle: %d are needed", samples, CYCLE_LEAST);
+    else if (!(samples <= (double)n))
         ss_print_to(why, size, "the record holds less than one cycle of %.3g s", c->period);
     else
-        fold(c, why, size, x, missing, n, samples.value);
+        fold(c, why, size, x, missing, n, samples);
     c->period = why[0] == '\0' ? c->period : 0;
     return SS_OK;
 }
