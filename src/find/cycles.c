@@ -58,7 +58,6 @@
 #define WIDTH 0.2               /* relative difference of a cycle's period from the record's, at most */
 #define SPOILT 2                /* cycles that one gap may make unlike the next (gaps in test_transitions) */
 #define FADE 10.0               /* factor of the energy from the first cycle to the last */
-#define DEPTH 0.1               /* the least relative scatter of energies or means that is modulation */
 #define SLOWEST 512             /* the most cycles in a swell */
 #define ROBUST 8                /* the fewest cycles whose scatter is found from the median deviation */
 #define MANY 16                 /* cycles: fewer show no modulation; a decay that is slower does not count */
@@ -411,7 +410,7 @@ fades(const cycle *c, size_t n, double least)
 }
 
 /* Does a member of the cycles repeat itself some cycles later with a correlation of more than like, after
- * it has been different between?  Not if its scatter is below DEPTH of a scale. */
+ * it has been different between?  Not if its scatter is below LITTLE of a scale. */
 static int
 repeats(const cycle *c, size_t n, const double *field, double scale, double like, double *v)
 {
@@ -419,7 +418,7 @@ repeats(const cycle *c, size_t n, const double *field, double scale, double like
     double least = 1;
     for (size_t i = 0; i < n; i++)
         v[i] = field[i * (sizeof *c / sizeof *field)];
-    if (n < MANY || !(sqrt(moments_of(&of, 0, 0, n).a) > DEPTH * scale))
+    if (n < MANY || !(sqrt(moments_of(&of, 0, 0, n).a) > LITTLE * scale))
         return 0;
     for (size_t lag = 1; lag <= n / 2 && lag <= SLOWEST; lag++) {
         double r = correlation(&of, 0, lag, n - lag);

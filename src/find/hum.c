@@ -18,12 +18,12 @@
 #include <string.h>
 #include "base/fft.h"
 #include "base/list.h"
+#include "find/judgement.h"
 
 #define BAND 0.5                /* part of the frequency that the band extends to either side */
 #define ABOVE 10.0              /* a line's power over all others */
-#define HIDDEN 0.1              /* part of a line's power in free bins: with less it is not measured well */
 #define SEEN 0.001              /* the same: with less it is not sought */
-#define FAINT 1e-9              /* power re the strongest harmonic: rounding makes such lines */
+#define ROUNDING 1e-9              /* power re the strongest harmonic: rounding makes such lines */
 enum { LINES = 3, CYCLES = 6, PART = 2048 };    /* most lines; fewest cycles, most oscillations in a part */
 enum { REACH = 4 };             /* bins about a line that its power may fill */
 
@@ -208,7 +208,7 @@ find_lines(const spectrum *s, line found[LINES])
                 at = i;
             }
         }
-        if (tried > 0 && most * ABOVE < weakest && weakest > FAINT * strongest)
+        if (tried > 0 && most * ABOVE < weakest && weakest > ROUNDING * strongest)
             kept = tried;
         if (tried == LINES || at == s->n)
             return kept;
@@ -243,7 +243,7 @@ subtract_part(double *x, size_t n, double f, double period, ss_hum *found)
     free(s.bin);
     free(zoom.z);
     for (size_t l = 0; l < lines; l++)
-        if (hum[l].seen < HIDDEN) {
+        if (hum[l].seen < LITTLE) {     /* of its power: it is not measured well */
             *found = SS_HUM_HIDDEN;
             return SS_OK;
         }

@@ -35,7 +35,6 @@
 #define AROUND 1.5              /* periods on either side of the middle of a stretch: more may hold two events */
 #define CONTACT 0.3             /* what the sensor leaves more than the contact, in parts: less is the sensor */
 #define SHOWN 1.0               /* the same: so it is the contact, whatever else may be */
-#define LIGHT 0.1               /* damping re the frequency: a sensor that is damped more answers as a filter does */
 #define CHANCE 2.8              /* variances of a sample: noise makes so much behind each stick, as the place of the
                                    event is chosen, and of some more sticks by chance */
 #define HIDDEN 2e-4             /* noise re what an event makes: more may hide where a slip begins */
@@ -354,7 +353,8 @@ ss_identity_of(search *s, const ringdown *r, const char **why)
     ss_status st = compare_all(s, r, is_sure, 0, 1, &more);
     if (st == SS_OK && !(more >= SHOWN))
         st = is_edge(s->x, s->n, w.value / (2 * M_PI), &at_edge);
-    if (st == SS_OK && !(more >= SHOWN) && !at_edge && damping < LIGHT * w.value)
+    /* a sensor that is damped more answers as a filter does */
+    if (st == SS_OK && !(more >= SHOWN) && !at_edge && damping < LITTLE * w.value)
         st = compare_all(s, r, is_sure, 1, CORNERS, &more);
     s->rings_as = more >= SHOWN ? OF_CONTACT : at_edge ? OF_FILTER : more < CONTACT ? OF_SENSOR : OF_SOMETHING;
     /* a contact may be undamped, if that is well known; pieces of slips hide how much of a weak hum runs

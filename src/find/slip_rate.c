@@ -15,7 +15,6 @@
 
 #define AWAY (SIGMAS * SURELY)  /* standard deviations: what leaves the band of a rest by less is no motion */
 #define RARE 2.5                /* standard deviations: few samples of a rest lie beyond */
-#define PART 0.1                /* of the samples are at rest */
 
 typedef struct times {          /* at which slips, or what may be slips, begin [s] */
     double *t;
@@ -30,14 +29,14 @@ typedef struct times {          /* at which slips, or what may be slips, begin [
  * as it lasts in the band, and short beside it.  What is neither may be a short rest, or an extremum of a motion;
  * so may one whose samples are no noise about the level: it may hide a small motion, too. */
 
-/* Level and standard deviation of the samples that are at rest, from the narrowest interval with PART of all
+/* Level and standard deviation of the samples that are at rest, from the narrowest interval with LITTLE of all
  * on. */
 static ss_status
 find_level(const double *x, size_t n, double *level, double *deviation)
 {
     enum { PASSES = 12 };
     double *sorted = malloc((n + 1) * sizeof *sorted);
-    size_t held = (size_t)(PART * (double)n), best = 0;
+    size_t held = (size_t)(LITTLE * (double)n), best = 0;
     if (sorted == NULL)
         return SS_ENOMEM;
     memcpy(sorted, x, n * sizeof *x);

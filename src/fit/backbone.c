@@ -33,14 +33,12 @@ enum {
 };
 #define LONG 12.0               /* periods of a block, where noise wants it long */
 #define FLAT .02                /* of the range: what is clipped may have noise */
-#define GROWS 2.0               /* times the last amplitude: what grows again */
 #define HIT 3.0                 /* times what the blocks behind it leave: a blow is in the first
                                    block */
 #define SHORTEST 1.5            /* periods of a block */
 #define NOISY 10.0              /* dB above a floor: it matters below */
 #define HIGH 25.0               /* the same: it does not matter above */
 #define NEPER (M_LN10 / 20)     /* a decibel */
-#define MIXED 1.5               /* times what the last block leaves */
 #define FALL .35                /* of ln A in a block, at most */
 #define NEAR .15                /* of the frequency: a line so near is part of the decay */
 #define OUTSTANDING 60.0        /* times the median power: a line, as noise never is */
@@ -216,7 +214,7 @@ grows(const decay *d, size_t from, double amplitude)
         most = d->size[i] > d->size[most] ? i : most;
     for (size_t i = from; i < most; i++)
         half = d->size[i] < d->size[most] / 2 ? i : half;
-    return most < n && d->size[most] > GROWS * fmax(amplitude, d->size[from]) && most - half > SLOW * width;
+    return most < n && d->size[most] > TWICE * fmax(amplitude, d->size[from]) && most - half > SLOW * width;
 }
 
 /* --- block by block -------------------------------------------------------------------------- */
@@ -644,7 +642,7 @@ is_mixed(const decay *d)
     double n = 0;
     for (size_t i = 0; i < d->n_blocks; i++)
         n += d->block[i].free;
-    return leaves(d, d) > MIXED * n * last->left / last->free;
+    return leaves(d, d) > LARGER * n * last->left / last->free;
 }
 
 /* Find the decay of the line that is asked for, or else of the strongest, beside the next one if less than half is

@@ -29,14 +29,13 @@ enum { TAKEN = 64, EXACT_MOST = 1 << 15, NEWTON = 12 };     /* samples of the sm
 /* No mechanisms, but rivals of all; by geometry w changes as A^2, as of a pendulum, and s does not. */
 enum { TWO_MODES = SS_MECHANISMS, GEOMETRY, LAWS };
 #define LEAST_TURN .2           /* of ln A over ln x: A of x'' falls nearly as x grows where k is large */
-#define TRUST .05               /* of s: the error of what is said of it */
 #define SLIPPING .2             /* of what rates change by in half a period: the error of what a slider, which
                                    slips in a part of it, is said to do */
 #define HARMONIC .15            /* times a contact's stiffness re the spring's: the error that a sine makes */
 #define ROUNDED 1e-11           /* variance of ln A and phase of a block, at least, beside numbers of a law */
 #define GONE 1e-3               /* of the last amplitude: what a law says behind it, at least */
 #define STUCK .2                /* of ln A below where a slider sticks, its last slip is past */
-#define NEARLY 6.0              /* of BIC: the better one cannot be told */
+#define TOLD 6.0                /* of BIC: less does not tell the better one */
 #define SOFTER .5               /* of its losses c: by Masing's rules friction softens by pi/4 (1 + 2/p) c */
 #define REJECT 1e-3             /* probability of so large a chi^2 */
 
@@ -293,7 +292,7 @@ make_points(point *p, const block *b, size_t n, size_t behind, double unit, doub
         p[i].rate[PHASE] = (b[i].rate[PHASE] - w) / unit;
         for (int c = 0; c < TRACKS; c++) {
             const double *cov = b[i].cov[c];
-            double trust = TRUST * s, before = walked[c] + trust * trust * step * step;
+            double trust = SLIGHT * s, before = walked[c] + trust * trust * step * step;
             double whole = before + b[i].noise * cov[0];
             p[i].whole[c] = sqrt(whole);
             p[i].gain[c] = before / whole;
@@ -324,7 +323,7 @@ begin(const trial *of, double u[UNKNOWNS])
     for (size_t i = 0; i < of->n; i++) {
         law_at(of, only, b[i].level - ln_a, of_c, w);
         double s = b[i].at.s / unit, g = of_c[0];
-        double weight = 1 / (pow(b[i].error[LEVEL] / unit, 2) + pow(TRUST * s, 2));
+        double weight = 1 / (pow(b[i].error[LEVEL] / unit, 2) + pow(SLIGHT * s, 2));
         sum[0] += weight, sum[1] += weight * g, sum[2] += weight * g * g;
         sum[3] += weight * s, sum[4] += weight * s * g, sum[5] += weight * s * s;
     }
@@ -656,7 +655,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
             with.source = &as[order - 1];
             with.is_exact = 1;
             st = fit(&g, &with);
-            if (g.bic + NEARLY < f->bic) {
+            if (g.bic + TOLD < f->bic) {
                 *f = g;
                 of = with;
             }
@@ -670,7 +669,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     for (int k = TWO_MODES; st != SS_ENOMEM && k < LAWS && other == NULL && source->has_phase; k++) {
         fitted rival;
         st = fit_first(&rival, &of, k);
-        if (st == SS_OK && rival.bic + (rival.free > best->free ? 0 : NEARLY) < best->bic)
+        if (st == SS_OK && rival.bic + (rival.free > best->free ? 0 : TOLD) < best->bic)
             other = k == TWO_MODES ? "two modes that beat fit better"
                 : "a frequency that changes with the square of the amplitude fits better";
     }
@@ -684,7 +683,7 @@ ss_mechanism_find(ss_backbone *out, block *b, size_t n, const decay_source *sour
     double whole = 0, error[3];
     st = sum != NULL ? SS_OK : SS_ENOMEM;
     for (fitted *x = best; st == SS_OK && other == NULL && x < f + SS_MECHANISMS; x++) {
-        int is_near = x->p >= REJECT && x->bic < best->bic + NEARLY;
+        int is_near = x->p >= REJECT && x->bic < best->bic + TOLD;
         double gain = best->squares - x->squares, more = best->free - x->free;
         /* a gain of little chance makes what contains the best a rival; a loss of faint chance, what is in it none */
         if (laws[x->kind].contains >> best->kind & 1)

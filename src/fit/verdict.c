@@ -20,7 +20,6 @@
 #define AS_GOOD 0.03                /* of the least loss, or of the noise: laws that differ by less are as good */
 #define ALIKE 0.5                   /* of the best law's error: laws whose errors differ by less are as good */
 #define EXPLAINED 0.8               /* of the power, by a law that is named */
-#define BEYOND_NOISE 1.5            /* times the noise is surely left: the law's error is over half the noise */
 #define QUIET (FAINT * FAINT)       /* of the power: sensors are linear to so much */
 
 /* A residual is noise if its mean square is at most ALLOWED times the noise, plus three standard errors
@@ -111,7 +110,7 @@ ss_verdict_find(char *answer, size_t room, candidate c[], size_t n, double power
         : c[n].tied ? "no law explains more than a spring of any shape and a damper"
         : 1 - most->left < EXPLAINED ? "too little is explained"
         : most->work < LITTLE ? "friction is hardly reached"
-        : most->excess * surely > BEYOND_NOISE ? "more than noise is left" : NULL;
+        : most->excess * surely > LARGER ? "more than noise is left" : NULL;
     if (fault != NULL) {
         snprintf(answer, room, "none of these: %s; %s explains %s of the force that was held out, and leaves %s "
                  "times the noise", fault, most->name, number, ss_number_rounded(times, most->excess, 4));

@@ -6,10 +6,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stickslip/rank.h>
-
-/* Parts that decide nothing: LITTLE of something is small beside it, FAINT of it is let be. */
-#define LITTLE 0.1
-#define FAINT 0.01
+#include "find/judgement.h"
 
 /* What a fit leaves of the samples that it explains. */
 typedef struct residue {
