@@ -419,11 +419,40 @@ reads_gaps_in_any_order(void **state)
     }
 }
 
+/* By definition: an inch is 25.4 mm, a pound .45359237 kg, a kilogram-force 9.80665 N (NIST SP 811, B.6 and B.8). */
+static void
+units_have_their_size(void **state)
+{
+    static const double pound = .45359237, g = 9.80665, pi = 3.14159265358979323846;
+    const struct { const char *unit; char dimension; int per_time; double size; } of[] = {
+        { "N", 'N', 0, 1 }, { "kN", 'N', 0, 1e3 }, { "MN", 'N', 0, 1e6 }, { "mN", 'N', 0, 1e-3 }, { "uN", 'N', 0, 1e-6 },
+        { "lbf", 'N', 0, pound * g }, { "kip", 'N', 0, 1e3 * pound * g }, { "kips", 'N', 0, 1e3 * pound * g },
+        { "kgf", 'N', 0, g }, { "gf", 'N', 0, g / 1e3 }, { "dyn", 'N', 0, 1e-5 }, { "dyne", 'N', 0, 1e-5 },
+        { "m", 'm', 0, 1 }, { "cm", 'm', 0, 1e-2 }, { "mm", 'm', 0, 1e-3 }, { "um", 'm', 0, 1e-6 },
+        { "\xc2\xb5m", 'm', 0, 1e-6 }, { "\xce\xbcm", 'm', 0, 1e-6 }, { "micron", 'm', 0, 1e-6 },
+        { "microns", 'm', 0, 1e-6 }, { "nm", 'm', 0, 1e-9 }, { "in", 'm', 0, .0254 }, { "ft", 'm', 0, 12 * .0254 },
+        { "km", 'm', 0, 1e3 }, { "rad", 'r', 0, 1 }, { "deg", 'r', 0, pi / 180 },
+        { "mm/s", 'm', 1, 1e-3 }, { "in/s^2", 'm', 2, .0254 }, { "m/s2", 'm', 2, 1 }, { "m/s\xc2\xb2", 'm', 2, 1 },
+        { "cm/s/s", 'm', 2, 1e-2 }, { "kN/s", 'N', 1, 1e3 }, { "deg/s", 'r', 1, pi / 180 } };
+    static const char *const none[] = { "", "/s", "n", "Nm", "m/", "m/s^3", "mm/S", "V", "IN", "kgf/s/s/s" };
+    char dimension;
+    int per_time;
+    (void)state;
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        double size = ss_unit_size(of[i].unit, &dimension, &per_time);
+        if (!(fabs(size / of[i].size - 1) < 1e-12) || dimension != of[i].dimension || per_time != of[i].per_time)
+            fail_msg("%s: %.17g, %c, %d", of[i].unit, size, dimension, per_time);
+    }
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        assert_true(ss_unit_size(none[i], &dimension, &per_time) == 0);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_columns_by_name_and_number),
+        cmocka_unit_test(units_have_their_size),
         cmocka_unit_test(cleans_names_and_units),
         cmocka_unit_test(blanks_control_characters),
         cmocka_unit_test(numbers_the_same_name_by_what_is_free),
