@@ -276,7 +276,7 @@ tool_draw(const char *path, ss_plot_opts *opts)
 void
 tool_drawn(FILE *script, ss_status status)
 {
-    if (status == SS_EIO)
+    if (status == SS_EIO && ferror(script))     /* else a signal could not be read, and the message names its file */
         tool_die("write error: %s", strerror(errno));
     tool_check(status);
     if (picture == NULL)

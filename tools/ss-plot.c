@@ -139,7 +139,10 @@ draw_map(const char *path, const char *names, const char *line, const char *outp
     opts->curve = curve;
     tool_note("%s: %zu point%s", tool_input_name(path), table->n, tool_s(table->n));
     FILE *out = tool_draw(output, opts);
-    tool_drawn(out, ss_plot_sweep(out, table, column, n, opts, &tool_error));
+    ss_status st = ss_plot_sweep(out, table, column, n, opts, &tool_error);
+    if (st == SS_EINVAL)                        /* the choice of columns, not what stands in them */
+        tool_usage("--map %s: %s", names, tool_error.text);
+    tool_drawn(out, st);
     ss_table_free(table);
     free(curve);
 }

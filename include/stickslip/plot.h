@@ -155,8 +155,9 @@ ss_status ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size
  * One: columns 1 to n - 1, at most seven, over column 0, one panel each.  They are points if rows of the same x differ
  * (a bifurcation diagram), else a line.
  *
- * "-" is no value, and "aperiodic" a period of 0.  SS_EDATA: a drawn column has another word; SS_EINVAL: these columns
- * cannot be drawn. */
+ * "-" is no value, and "aperiodic" a period of 0.  SS_EINVAL: these are too few columns, too many, or of forms that
+ * exclude each other, or there is opts->curve over one parameter; SS_EDATA: a drawn column has another word or no value,
+ * or the rows make no grid. */
 ss_status ss_plot_sweep(FILE *out, const ss_table *table, const size_t column[], size_t n, const ss_plot_opts *opts,
                         ss_error *err);
 

@@ -73,7 +73,7 @@ ss_plot_diagram(FILE *out, const ss_table *t, const size_t drawn[], size_t n, co
     for (size_t i = 1; st == SS_OK && i < n; i++) {
         script_extent e = ss_script_extent(column[i].value, t->n);
         if (!(e.lo <= e.hi))
-            st = ss_fail(err, SS_EINVAL, "%s has no value to draw", column[i].label->name);
+            st = ss_fail(err, SS_EDATA, "%s has no value to draw", column[i].label->name);
     }
     const ss_plot_opts own = ss_map_titled(opts, t);
     if (st == SS_OK)

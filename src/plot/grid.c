@@ -30,8 +30,8 @@ ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size
             if (!unknown && !aperiodic && (end == cell || *end != '\0' || !isfinite(x)))
                 st = ss_fail(err, SS_EDATA, "row %zu, column %s: '%.40s' is not a finite number", i + 1, name,
                              cell);
-            else if (fabs(x) >= 1)
-                st = ss_script_check(name, (script_extent){ x, x }, err);
+            else if (fabs(x) >= 1 && ss_script_check(name, (script_extent){ x, x }, err) != SS_OK)
+                st = SS_EDATA;
         }
     }
     return st;
@@ -62,7 +62,7 @@ ss_map_make_axis(map_axis *a, const map_column *column, size_t n, ss_error *err)
         if (a->n == 0 || a->value[i] != a->value[a->n - 1])
             a->value[a->n++] = a->value[i];
     if (a->n < 2)
-        return ss_fail(err, SS_EINVAL, "a picture needs two values of %s at least", column->label->name);
+        return ss_fail(err, SS_EDATA, "a picture needs two values of %s at least", column->label->name);
     double lo = a->value[0], hi = a->value[a->n - 1];
     for (size_t i = 1; i < a->n; i++) {
         ss_script_include(&d, a->value[i] - a->value[i - 1]);
@@ -95,7 +95,7 @@ ss_map_make_grid(map_grid *g, map_column column[], size_t n_columns, size_t n, s
         return st;
     size_t points = g->x.n * g->y.n, *row;
     if (g->x.n > SIZE_MAX / sizeof *row / g->y.n || points > 16 * n + 100)
-        return ss_fail(err, SS_EINVAL, "the rows are no grid: %zu values of %s, %zu of %s in %zu "
+        return ss_fail(err, SS_EDATA, "the rows are no grid: %zu values of %s, %zu of %s in %zu "
                        "rows", g->x.n, column[0].label->name, g->y.n, column[1].label->name, n);
     row = malloc(points * sizeof *row);         /* of each point; SIZE_MAX: there is none */
     st = row != NULL ? SS_OK : ss_fail_memory(err, NULL);
@@ -107,7 +107,7 @@ ss_map_make_grid(map_grid *g, map_column column[], size_t n_columns, size_t n, s
             continue;
         size_t k = find(&g->y, y) * g->x.n + find(&g->x, x);
         if (row[k] != SIZE_MAX)
-            st = ss_fail(err, SS_EINVAL, "two rows with the same %s and %s: choose among them first",
+            st = ss_fail(err, SS_EDATA, "two rows with the same %s and %s: choose among them first",
                          column[0].label->name, column[1].label->name);
         row[k] = i;
     }

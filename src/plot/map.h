@@ -17,7 +17,7 @@ typedef struct map_column {
 } map_column;
 
 /* Read n columns of the rows, where "-" is NaN, and "aperiodic" a period of 0; to be freed even after a
- * failure.  SS_EDATA: there is another word. */
+ * failure.  SS_EDATA: there is another word, or a number that gnuplot cannot draw. */
 ss_status ss_map_read_columns(map_column column[], size_t n, const ss_table *t, const size_t index[],
                               ss_error *err);
 void ss_map_free_columns(map_column column[], size_t n);
