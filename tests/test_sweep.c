@@ -332,6 +332,25 @@ shooting_finds_a_resonance_that_simulation_needs_10000_cycles_for(void **state)
     assert_true(at.value[SS_PERIOD] == 1 && truth.value[SS_PERIOD] == 1);
 }
 
+/* An elastic contact that sticks throughout stays where it is: its motion is that of a second spring and damper. */
+static void
+shooting_leaves_a_contact_that_sticks_where_it_is(void **state)
+{
+    ss_scene s = read_shipped_named("compliant-light");
+    (void)state;
+    s.base_amplitude = 2e-4;
+    for (s.base_frequency = 1; s.base_frequency < 20; s.base_frequency *= 2) {
+        const ss_steady at = steady_of(&s, BIT(SS_X_MAX) | BIT(SS_AMPLITUDE) | BIT(SS_PERIOD), SS_SEARCH_SHOOT);
+        const double w = 2 * M_PI * s.base_frequency;
+        const double k = s.stiffness + ss_scene_get(&s, "contact_stiffness");
+        const double c = s.damping + ss_scene_get(&s, "contact_damping");
+        const double X = s.stiffness * s.base_amplitude / hypot(k - s.mass * w * w, c * w);
+        is_near(at.value[SS_X_MAX], X, 4e-9 * X, "x_max");
+        is_near(at.value[SS_AMPLITUDE], X, 4e-9 * X, "amplitude");
+        assert_true(at.value[SS_PERIOD] == 1);
+    }
+}
+
 /* Where alpha v is small the friction is theta' = -gamma (theta - c v), c = f_k alpha: the multipliers are
  * exp(lambda T), lambda the roots of l^3 + g l^2 + (k + g c) / m l + g k / m. */
 static void
@@ -1240,6 +1259,7 @@ main(void)
         cmocka_unit_test(multipliers_are_the_rate_of_approach),
         cmocka_unit_test(shooting_ends_a_slow_approach),
         cmocka_unit_test(shooting_finds_a_resonance_that_simulation_needs_10000_cycles_for),
+        cmocka_unit_test(shooting_leaves_a_contact_that_sticks_where_it_is),
         cmocka_unit_test(a_linear_friction_has_its_multipliers),
         cmocka_unit_test(series_have_the_multipliers_of_differences),
         cmocka_unit_test(multipliers_have_the_product_of_the_jumps),

@@ -406,9 +406,16 @@ ss_tangent_solve(const tangent *t, const double unit[D_MOST], const double r[D_M
 {
     double a[D_MOST][D_MOST], y[D_MOST], sum = 0, squares;
     for (int i = 0; i < D_MOST; i++) {
+        double most = 0;
         sum += y[i] = r[i] / unit[i];
-        for (int j = 0; j < D_MOST; j++)
+        for (int j = 0; j < D_MOST; j++) {
             sum += a[i][j] = (i == j) - t->d[i][j] * unit[j] / unit[i];
+            most = fmax(most, fabs(a[i][j]));
+        }
+        if (most <= ROUNDING) {         /* as the place of a contact that sticks throughout: it stays */
+            a[i][i] = 1;
+            y[i] = 0;
+        }
     }
     ss_status st = isfinite(sum) ? ss_least_linear(a[0], y, D_MOST, D_MOST, d, &squares, NULL) : SS_OK;
     for (int i = 0; i < D_MOST; i++)

@@ -112,8 +112,8 @@ typedef enum derivative_use {
     NEWTON, MULTIPLIERS                 /* these need more digits if there is no closed form */
 } derivative_use;
 void ss_cycles_derive(cycles *c, int n, derivative_use use, tangent *t);
-/* d = (I - t)^-1 r, computed in these units; 0 in a direction that t does not change;
- * NaN if t or r is not finite.  SS_ENOMEM. */
+/* d = (I - t)^-1 r, computed in these units; 0 of a coordinate that t does not change, and in a direction to
+ * which it adds nothing; NaN if t or r is not finite.  SS_ENOMEM. */
 ss_status ss_tangent_solve(const tangent *t, const double unit[D_MOST], const double r[D_MOST], double d[D_MOST]);
 /* The eigenvalues of a matrix of D_MOST rows and columns; the first is NaN if they are not known.  SS_ENOMEM. */
 ss_status ss_eigenvalues(const double *matrix, gsl_complex value[D_MOST]);
