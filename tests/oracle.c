@@ -1,6 +1,7 @@
 /* oracle.c -- see oracle.h. */
 #include "oracle.h"
 #include "scene/scene.h"
+#include "scene_word.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -61,7 +62,7 @@ is_alike(const ss_scene *s)
 static int
 is_total(const ss_scene *s)
 {
-    const char *word = ss_scene_word(s, "release");
+    const char *word = scene_word(s, "release");
     return word != NULL && strcmp(word, "total") == 0;
 }
 

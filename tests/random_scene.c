@@ -3,6 +3,7 @@
 
 #include "scene/model.h"
 #include "scene/scene.h"
+#include "scene_word.h"
 
 /* --- the ranges -------------------------------------------------------------------------------- */
 
@@ -95,7 +96,7 @@ hold(const ss_scene *s)
 static double
 relaxation(const ss_scene *s)
 {
-    int literal = strcmp(ss_scene_word(s, "law"), "literal") == 0;
+    int literal = strcmp(scene_word(s, "law"), "literal") == 0;
     return own_frequency(s) / (literal && s->friction > 0 ? s->friction : 1);
 }
 

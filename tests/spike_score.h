@@ -13,6 +13,7 @@
 #include <stickslip.h>
 #include "find/events.h"
 #include "shipped.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 
 enum { SCORE_EVENTS = 1000 };
@@ -104,7 +105,7 @@ score_find(const score_scene *s, double snr, unsigned long seed)
     if (x == NULL)
         exit(2);
     memcpy(x, s->a, s->n * sizeof *x);
-    if (isfinite(snr) && ss_noise_add_once(x, s->n, ss_noise_rms(x, s->n, snr), seed, NULL) != SS_OK)
+    if (isfinite(snr) && ss_noise_add_once(x, s->n, noise_rms(x, s->n, snr), seed, NULL) != SS_OK)
         exit(2);
     if (spikes_of(&found, x, s->n, s->scene.rate, NULL, 0) != SS_OK)
         exit(2);

@@ -11,6 +11,7 @@
 #include "shipped.h"
 #include "unit.h"
 #include "signal/header.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 
 static const char *const scene[] = { "coulomb", "state-variable", "compliant-heavy", "compliant-light" };
@@ -84,7 +85,7 @@ the_noise_of_scenes_is_found(void **state)
             for (int step = 0; step < 3; step++) {
                 ss_signal *signal = simulate(scene[i]);
                 ss_morlet_opts opts = ss_morlet_defaults;
-                double rms = ss_noise_rms(signal->values, signal->n, snr);
+                double rms = noise_rms(signal->values, signal->n, snr);
                 opts.step = step == 1 ? 1 : 0.25;
                 opts.dense = step == 2;
                 assert_int_equal(ss_noise_add_once(signal->values, signal->n, rms, 7, NULL), SS_OK);

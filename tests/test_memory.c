@@ -341,8 +341,8 @@ signals(int variant)
         ss_status filtered = ss_reader_of_signal(&reader, signal, NULL);
         if (filtered == SS_OK)
             filtered = ss_reader_filter(reader, &filter, NULL);
-        if (filtered == SS_OK)
-            filtered = ss_signal_of_reader(&made, reader, NULL);
+        ss_status read = reader != NULL ? ss_signal_of_reader(&made, reader, NULL) : SS_OK;
+        filtered = filtered == SS_OK ? read : filtered;
         ss_reader_free(reader);
         ss_signal_free(made);
         return filtered;
@@ -375,10 +375,9 @@ noises(int variant)
     ss_status st = ss_reader_of_signal(&reader, signal, &err);
     if (st == SS_OK)
         st = ss_reader_noise(reader, &opts, &done, &err);
-    if (st == SS_OK)
-        st = ss_reader_rows(reader, to, 4, &n, &err);
+    ss_status read = reader != NULL ? ss_reader_rows(reader, to, 4, &n, &err) : SS_OK;  /* after a failure, too */
     ss_reader_free(reader);
-    return st;
+    return st == SS_OK ? read : st;
 }
 
 static ss_status

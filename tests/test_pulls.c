@@ -8,6 +8,7 @@
 #include "new_signal.h"
 #include "pull.h"
 #include "unit.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 
 enum { RATE = 2000 };
@@ -93,7 +94,7 @@ record_by(const ss_scene *scene, const char *method, double snr, unsigned long s
                                .events = append_event, .user = &t };
     assert_int_equal(ss_sim_run(scene, &opts, NULL, NULL), SS_OK);
     double *x = t.signal->values;
-    ss_noise_add_once(x, t.n, ss_noise_rms(x, t.n, snr), seed, NULL);
+    ss_noise_add_once(x, t.n, noise_rms(x, t.n, snr), seed, NULL);
     for (size_t i = 0; i < t.n; i++)
         x[i] *= sign;
     return t;
@@ -305,7 +306,7 @@ a_bent_recovery_leaves_its_slope_open(void **state)
             x[i] = u < 1 ? 1 + (1 - exp(-bend * u)) / (1 - exp(-bend))
                 : 1 + .5 * (1 + cos(M_PI * fallen));
         }
-        ss_noise_add_once(x, signal->n, ss_noise_rms(x, signal->n, k % 2 ? 60 : 40), k + 1, NULL);
+        ss_noise_add_once(x, signal->n, noise_rms(x, signal->n, k % 2 ? 60 : 40), k + 1, NULL);
         assert_int_equal(ss_features_find(&f, signal, 0, NULL, NULL), SS_OK);
         assert_int_equal((int)f->number[SS_SLIPS].value, CYCLES);
         if (bend < .5)
@@ -815,7 +816,7 @@ medians_behind_a_slow_sensor_cover(void **state)
             record t = record_of(&s, 300, 1, 1);
             for (size_t p = 0; p < poles[k % 2]; p++)
                 smooth(t.signal->values, t.n, s.rate, corner);
-            ss_noise_add_once(t.signal->values, t.n, ss_noise_rms(t.signal->values, t.n, 40), i + 1, NULL);
+            ss_noise_add_once(t.signal->values, t.n, noise_rms(t.signal->values, t.n, 40), i + 1, NULL);
             ss_features *f = NULL;
             assert_int_equal(ss_features_find(&f, t.signal, 0, NULL, NULL), SS_OK);
             count_medians(&medians, truth, f);

@@ -8,9 +8,11 @@
 #include "fit/cycle.h"
 #include "fit/forced.h"
 #include "unit.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 #include "scene/scene.h"
+#include "scene_word.h"
 
 enum { MODELS = 4, HEAVY = 0, LIGHT, COULOMB, STATE };      /* as shipped */
 
@@ -30,7 +32,7 @@ record_of(const ss_scene *scene, double snr)
     assert_int_equal(ss_signal_select(&one, all, &a, 1, 0, all->n, NULL), SS_OK);
     ss_signal_free(all);
     if (snr < 200)
-        ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), 5, NULL);
+        ss_noise_add_once(one->values, one->n, noise_rms(one->values, one->n, snr), 5, NULL);
     return one;
 }
 
@@ -147,7 +149,7 @@ the_literal_law_is_ranked_as_the_scaled_one_that_equals_it(void **state)
     literal.duration = 0.2;
     forced c = ss_forced_of(&literal, SS_ACCELERATION, 1);
     c.scene.duration = 0.2;
-    assert_string_equal(ss_scene_word(&c.scene, "law"), "scaled");
+    assert_string_equal(scene_word(&c.scene, "law"), "scaled");
     assert_int_equal(ss_samples_run(&literal, SS_ACCELERATION, SAMPLES_FINE, x, NULL, 400, &steps),
                      SS_OK);
     assert_int_equal(ss_samples_run(&c.scene, SS_ACCELERATION, SAMPLES_FINE, y, NULL, 400, &steps),
@@ -306,8 +308,8 @@ what_no_scene_explains_is_not_named(void **state)
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         ss_signal *signal = record_of(&scene, 300);
         foreign_signal(kinds[i], signal->values, signal->n, signal->head->rate, rng);
-        double noise = ss_noise_rms(signal->values, signal->n, 40);
-        double power = pow(ss_noise_rms(signal->values, signal->n, 0), 2);
+        double noise = noise_rms(signal->values, signal->n, 40);
+        double power = pow(noise_rms(signal->values, signal->n, 0), 2);
         ss_noise_add_once(signal->values, signal->n, noise, 3, NULL);
         ss_ranking *r = rank(signal);
         double left = power * pow(10, r->row[0].value[SS_BY_RESIDUAL] / 10);
@@ -341,7 +343,7 @@ columns_that_contradict_each_other_are_not_named(void **state)
         assert_int_equal(ss_signal_select(&both, all, column, 2, 0, all->n, NULL), SS_OK);
         for (size_t c = 0; c < 2; c++)
             ss_noise_add_once(both->values + c * both->n, both->n,
-                              ss_noise_rms(both->values + c * both->n, both->n, 40), 4, NULL);
+                              noise_rms(both->values + c * both->n, both->n, 40), 4, NULL);
         opts.also[SS_DISPLACEMENT] = 0;
         assert_int_equal(ss_ranking_new(&r, both, 1, scene, 2, &opts, NULL), SS_OK);
         assert_int_equal(r->verdict, rig > 0 ? SS_UNDECIDED : SS_NAMED);
@@ -553,7 +555,7 @@ ask(forced_held of[HELD_TERMS], double *part, const ss_scene *rig, double lag_sa
     c.range[FORCED_STIFFNESS] = (ss_range){ c.own[FORCED_STIFFNESS], c.own[FORCED_STIFFNESS] };
     if (lag_samples > 0)
         lag(signal->values, signal->n, lag_samples);
-    ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, 40), 5, NULL);
+    ss_noise_add_once(signal->values, signal->n, noise_rms(signal->values, signal->n, 40), 5, NULL);
     assert_int_equal(ss_record_noise(&r, period * r.rate), SS_OK);
     assert_int_equal(ss_cycle_find(&goal, why, sizeof why, r.x, NULL, r.n, r.rate, scene.base_frequency), SS_OK);
     assert_int_equal(ss_forced_fit(&m, NULL, &c, &goal, 16, 1, &r), SS_OK);

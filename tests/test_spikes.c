@@ -13,6 +13,7 @@
 #include "unit.h"
 #include "find/events.h"
 #include "signal/gaps.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 
 #define RATE 2000.
@@ -94,7 +95,7 @@ units_and_clocks_do_not_matter(void **state)
         { 1e-9, 0, RATE }, { -1e150, 0, RATE }, { 1, 100, RATE }, { 1, 0, 1e-3 }, { 1, 0, 1e9 } };
     for (size_t k = 0; k < sizeof change / sizeof *change; k++) {
         memcpy(x, s.a, s.n * sizeof *x);
-        ss_noise_add_once(x, s.n, ss_noise_rms(x, s.n, 40), 1, NULL);
+        ss_noise_add_once(x, s.n, noise_rms(x, s.n, 40), 1, NULL);
         for (size_t i = 0; i < s.n; i++)
             x[i] = change[k].gain * x[i] + change[k].offset;
         found = find(x, s.n, change[k].rate);

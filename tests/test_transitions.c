@@ -10,6 +10,7 @@
 #include "shipped.h"
 #include "unit.h"
 #include "find/numbers.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 
@@ -35,7 +36,7 @@ features_in(const ss_scene *scene, double snr, unsigned long seed, double unit, 
     size_t column = (size_t)ss_header_column(signal->head, "a");
     double *a = signal->values + column * signal->n;
     if (isfinite(snr))
-        ss_noise_add_once(a, signal->n, ss_noise_rms(a, signal->n, snr), seed, NULL);
+        ss_noise_add_once(a, signal->n, noise_rms(a, signal->n, snr), seed, NULL);
     for (size_t i = 0; i < signal->n; i++)
         a[i] *= unit;
     signal->head->rate /= seconds;
@@ -163,7 +164,7 @@ counts_the_slips_of_a_displacement(void **state)
         size_t column = (size_t)ss_header_column(signal->head, "x"), n = signal->n;
         double *x = signal->values + column * n;
         strcpy(signal->head->column[column].unit, units[i]);
-        ss_noise_add_once(x, n, ss_noise_rms(x, n, 80), 1, NULL);
+        ss_noise_add_once(x, n, noise_rms(x, n, 80), 1, NULL);
         assert_int_equal(ss_features_find(&f, signal, column, NULL, NULL), SS_OK);
         assert_true(fabs(f->number[SS_SLIPS].value - 2 * scene.base_frequency * scene.duration) <= 1);
         assert_true(fabs(f->number[SS_SLIP_RATE].value - 2 * scene.base_frequency) < 0.01);
@@ -287,7 +288,7 @@ a_hum_is_no_undamped_contact(void **state)
             largest = fmax(largest, fabs(a[i]));
         for (size_t i = 0; i < n; i++)
             a[i] += part * largest * cos(2 * M_PI * hum * (double)i / scene.rate + phase);
-        ss_noise_add_once(a, n, ss_noise_rms(a, n, snr), 1, NULL);
+        ss_noise_add_once(a, n, noise_rms(a, n, snr), 1, NULL);
         assert_int_equal(ss_features_find(&f, signal, column, NULL, NULL), SS_OK);
         if (!isnan(f->number[SS_TRANSITION_FREQUENCY].value))
             fail_msg("a hum of %g Hz: a contact of %g Hz", hum, f->number[SS_TRANSITION_FREQUENCY].value);
@@ -535,7 +536,7 @@ check_sensor(const ss_scene *scene, double f, double quality, int k)
     size_t column = (size_t)ss_header_column(signal->head, "a"), n = signal->n;
     double *a = signal->values + column * n;
     resonate(a, n, f, quality);
-    ss_noise_add_once(a, n, ss_noise_rms(a, n, 50), 1 + (unsigned long)k, NULL);
+    ss_noise_add_once(a, n, noise_rms(a, n, 50), 1 + (unsigned long)k, NULL);
     assert_int_equal(ss_features_find(&found, signal, column, NULL, NULL), SS_OK);
     if (!isnan(found->number[SS_TRANSITION_FREQUENCY].value))
         fail_msg("%d: %g Hz", k, found->number[SS_TRANSITION_FREQUENCY].value);
@@ -583,7 +584,7 @@ a_contact_rings_behind_a_low_pass(void **state)
         size_t column = (size_t)ss_header_column(signal->head, "a"), n = signal->n;
         double *a = signal->values + column * n;
         resonate(a, n, (1 + 0.25 * (k % 2)) * w / (2 * M_PI * scene.rate), sqrt(0.5));
-        ss_noise_add_once(a, n, ss_noise_rms(a, n, 50), 1 + (unsigned long)k, NULL);
+        ss_noise_add_once(a, n, noise_rms(a, n, 50), 1 + (unsigned long)k, NULL);
         assert_int_equal(ss_features_find(&found, signal, column, NULL, NULL), SS_OK);
         const ss_number *got = &found->number[SS_TRANSITION_FREQUENCY];
         double off = (got->value - w * sqrt(1 - zeta * zeta) / (2 * M_PI)) / got->error;
@@ -611,7 +612,7 @@ the_ringing_of_a_filter_is_no_contact(void **state)
         size_t column = (size_t)ss_header_column(signal->head, "a"), n = signal->n;
         double *a = signal->values + column * n;
         filter_sharply(a, n, 0.2);
-        ss_noise_add_once(a, n, ss_noise_rms(a, n, 60), 1 + (unsigned long)k, NULL);
+        ss_noise_add_once(a, n, noise_rms(a, n, 60), 1 + (unsigned long)k, NULL);
         assert_int_equal(ss_features_find(&f, signal, column, NULL, NULL), SS_OK);
         slips += isfinite(f->number[SS_SLIP_RATE].value);
         assert_true(isnan(f->number[SS_TRANSITION_FREQUENCY].value)
@@ -900,7 +901,7 @@ check_gaps(const char *name, int is_noisy)
     size_t column = (size_t)ss_header_column(signal->head, "a");
     double *a = signal->values + column * signal->n;
     if (is_noisy)
-        ss_noise_add_once(a, signal->n, ss_noise_rms(a, signal->n, 40), 3, NULL);
+        ss_noise_add_once(a, signal->n, noise_rms(a, signal->n, 40), 3, NULL);
     signal->head->start = 7;
     assert_int_equal(ss_features_find(&whole, signal, column, NULL, NULL), SS_OK);
     assert_true(whole->n >= 15);

@@ -2,6 +2,7 @@
 #include <float.h>
 #include <math.h>
 #include "signal_text.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 
 /* --- benchmark signals --------------------------------------------------------------------- */
@@ -130,7 +131,7 @@ noise_has_the_ratio_asked_for(void **state)
     (void)state;
     for (size_t i = 0; i < N; i++)
         clean->values[i] = noisy->values[i] += 1e3;             /* a mean must not count */
-    double rms = ss_noise_rms(clean->values, N, 20);
+    double rms = noise_rms(clean->values, N, 20);
     assert_true(fabs(rms - 0.1 * 3 / sqrt(2)) <= 1e-12);
     assert_int_equal(ss_noise_add_once(noisy->values, N, rms, 1, NULL), SS_OK);
     for (size_t i = 0; i < N; i++)
@@ -183,8 +184,6 @@ noise_is_the_same_in_pieces(void **state)
     assert_memory_equal(whole, piece, sizeof whole);
     assert_int_equal(ss_noise_add_once(other, N, 2, 4, NULL), SS_OK);
     assert_true(other[0] != whole[0][0]);
-    assert_int_equal(ss_noise_add_once(other, N, -1, 4, NULL), SS_EINVAL);
-    assert_int_equal(ss_noise_add_once(other, N, NAN, 4, NULL), SS_EINVAL);
 }
 
 /* A reader of a signal in memory gives the same noise, row by row and after it has gone back, of a ratio and of an
@@ -286,23 +285,69 @@ noise_of_a_band_stays_in_it(void **state)
     }
 }
 
+/* What is refused leaves a reader as it was, with its header and all its rows. */
 static void
-bands_without_a_frequency_are_refused(void **state)
+refused_noise_changes_nothing(void **state)
 {
-    static const double wrong[][2] = { { -1, 5 }, { 5, 2 }, { 5, 1001 }, { 5.1, 5.2 }, { NAN, 5 } };
-    double x[100] = { 0 };
-    ss_error err = { 0 };
-    gsl_rng *noise;
+    enum { N = 100 };
+    const ss_range white = { NAN, NAN };
+    const struct { double snr, rms; ss_range band; int bits; } wrong[] = {
+        { NAN, 1, { -1, 5 }, 0 }, { NAN, 1, { 5, 2 }, 0 }, { NAN, 1, { 5, 1001 }, 0 },
+        { NAN, 1, { 5.1, 5.2 }, 0 }, { NAN, 1, { 5, NAN }, 0 }, { NAN, 0, { 5, 2 }, 0 },
+        { 20, NAN, { 5.1, 5.2 }, 0 }, { NAN, -1, { 0, 100 }, 0 },
+        { NAN, -1, white, 0 }, { NAN, INFINITY, white, 0 }, { 20, 1, white, 0 }, { INFINITY, NAN, white, 0 },
+        { NAN, NAN, white, 53 }, { NAN, NAN, white, -1 },
+    };
+    ss_wave_opts o = { .size = sizeof o, .rate = 2000, .duration = N / 2000., .amplitude = 3, .frequency = 70 };
+    ss_signal *clean = wave(SS_SINE, o), *read = NULL;
     (void)state;
-    ss_noise_new(&noise, 1, NULL);
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        assert_int_equal(ss_noise_add_band(noise, x, 100, 2000,
-                                           (ss_range){ wrong[i][0], wrong[i][1] }, 1, &err),
-                         SS_EINVAL);
-    assert_int_equal(ss_noise_add_band(noise, x, 100, 2000, (ss_range){ 0, 100 }, -1, &err), SS_EINVAL);
-    for (size_t i = 0; i < 100; i++)
-        assert_true(x[i] == 0);
-    gsl_rng_free(noise);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        ss_noise_opts opts;
+        ss_noise_done done = { .rms = NULL };
+        ss_reader *reader = NULL;
+        ss_error err = { 0 };
+        ss_noise_opts_init(&opts, sizeof opts);
+        opts.snr = wrong[i].snr;
+        opts.rms = wrong[i].rms;
+        opts.band = wrong[i].band;
+        opts.bits = wrong[i].bits;
+        opts.range = 1;
+        assert_int_equal(ss_reader_of_signal(&reader, clean, NULL), SS_OK);
+        if (ss_reader_noise(reader, &opts, &done, &err) != SS_EINVAL || err.text[0] == '\0')
+            fail_msg("case %zu: %s", i, err.text);
+        assert_int_equal(ss_reader_header(reader)->n_notes, clean->head->n_notes);
+        assert_int_equal(ss_signal_of_reader(&read, reader, NULL), SS_OK);
+        assert_true(read->n == N);
+        assert_memory_equal(read->values, clean->values, N * sizeof *read->values);
+        ss_signal_free(read);
+        ss_reader_free(reader);
+    }
+    ss_signal_free(clean);
+}
+
+/* A ratio needs the rows twice; a reader that cannot go back says so before it gives any. */
+static void
+a_ratio_needs_a_reader_that_goes_back(void **state)
+{
+    FILE *in = tmpfile();
+    ss_reader *reader = NULL;
+    ss_noise_opts opts;
+    ss_noise_done done = { .rms = NULL };
+    ss_error err = { 0 };
+    double x[3];
+    size_t n;
+    (void)state;
+    fputs("# stickslip signal 1\n# rate: 10\n# start: 0\n# columns: x\n1\n2\n3\n", in);
+    rewind(in);
+    ss_noise_opts_init(&opts, sizeof opts);
+    opts.snr = 20;
+    assert_int_equal(ss_reader_new(&reader, in, "in", NULL, NULL), SS_OK);
+    assert_int_equal(ss_reader_noise(reader, &opts, &done, &err), SS_EINVAL);
+    assert_string_equal(err.text, "in: its rows are not kept to be read again");
+    assert_int_equal(ss_reader_rows(reader, (double *[]){ x }, 3, &n, NULL), SS_OK);
+    assert_true(n > 0 && x[0] == 1);
+    ss_reader_free(reader);
+    fclose(in);
 }
 
 /* A ramp over more than the range: multiples of the step, the nearest, clipped; what is wrong is even
@@ -361,7 +406,8 @@ main(void)
         cmocka_unit_test(noise_is_the_same_in_pieces),
         cmocka_unit_test(a_reader_adds_the_same_noise),
         cmocka_unit_test(noise_of_a_band_stays_in_it),
-        cmocka_unit_test(bands_without_a_frequency_are_refused),
+        cmocka_unit_test(refused_noise_changes_nothing),
+        cmocka_unit_test(a_ratio_needs_a_reader_that_goes_back),
         cmocka_unit_test(a_converter_rounds_and_clips),
     };
     return cmocka_run_group_tests_name("waves", tests, NULL, NULL);

@@ -134,8 +134,8 @@ void ss_features_opts_init(ss_features_opts *opts, size_t size);
  *   at its frequency, from the onset of the oscillation to the last spike within a period of its
  *   end.
  * - Else, if the signal repeats itself: strong spikes begin transitions, weaker spikes end them.
- * - Else they are the single events of a record that is quiet elsewhere, from the first to the last sample that lies
- *   off lines through the quiet parts before and after.
+ * - Else they are the single events of a record that is quiet elsewhere, from the first to the last sample that
+ *   lies off lines through the quiet parts before and after.
  *
  * Nothing is found near gaps (the note gaps of the signal): no local maximum nearer than sqrt(2)
  * a, no spike nearer than 12 of its scales, no single event nearer than 6, no fall over a gap;
@@ -155,12 +155,13 @@ ss_status ss_features_write(const ss_features *features, const ss_signal *signal
 /* --- streams --------------------------------------------------------------------------------- */
 
 /* Write the features of a column of a signal without end, in memory for 128 periods of the lowest frequency,
- * opts->fmin, which must be given.  Each transition is written, and the caller's file flushed, when no later sample can
- * change it: at the latest two periods and 0.2 s behind its end, but for the work.  Each row tells what up to 64 periods
- * before it show, of which a search takes as many as have 8 transitions; the first rows come after 16 periods.  At the
- * end of the rows, or when opts->progress, which is called with 0, returns non-zero, the rows that are left are written,
- * and the numbers that all have in common: means over windows of 64 periods, and errors that have their scatter.
- * SS_EINVAL: there is no fmin, or it is not below half the rate; SS_ESCALE: the signal is too short for fmin. */
+ * opts->fmin, which must be given.  Each transition is written, and the caller's file flushed, when no later
+ * sample can change it: at the latest two periods and 0.2 s behind its end, but for the work.  Each row tells what
+ * up to 64 periods before it show, of which a search takes as many as have 8 transitions; the first rows come
+ * after 16 periods.  At the end of the rows, or when opts->progress, which is called with 0, returns non-zero, the
+ * rows that are left are written, and the numbers that all have in common: means over windows of 64 periods, and
+ * errors that have their scatter.  SS_EINVAL: there is no fmin, or it is not below half the rate; SS_ESCALE: the
+ * signal is too short for fmin. */
 ss_status ss_features_follow(ss_reader *reader, size_t column, const ss_features_opts *opts, FILE *out,
                              ss_format format, ss_error *err);
 

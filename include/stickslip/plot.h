@@ -38,14 +38,15 @@ typedef struct ss_plot_opts {
                                    ss_plot_spectrum, drawn as if they began with the first */
     size_t n_over;
     const char *const *name;    /* of all n_over + 1 in a legend; NULL: those of the first columns drawn */
-    int alike;                  /* 1: the others' columns are drawn over those of their names; 0, or if they have no
-                                   such column: their first column over the first panel */
+    int alike;                  /* 1: the others' columns are drawn over those of their names; 0, or if they have
+                                   no such column: their first column over the first panel */
     int difference;             /* 1: ss_plot_signal draws the first column less those over it in a panel below,
                                    by lines between their samples; the readers can go back */
     const ss_overlay *features; /* ss_plot_signal shades its transitions in every panel; NULL: none */
     double resolution;          /* [Hz] of spectra, as for ss_spectrum_new; 0: that of seven segments */
     int decibels;               /* 1: spectra are in dB re 1 unit^2/Hz; a density of 0 is then "-" in text */
-    const double *curve;        /* a map of ss_plot_sweep has this line: x, y, x, y, ..., NaN where it breaks; NULL: none */
+    const double *curve;        /* a map of ss_plot_sweep has this line: x, y, x, y, ..., NaN where it breaks;
+                                   NULL: none */
     size_t n_curve;             /* its points */
 } ss_plot_opts;
 /* All that may be NULL is, times are NaN, the style is SS_PAPER.  Where a function takes options, NULL stands
@@ -72,8 +73,8 @@ ss_status ss_plot_spectrum(FILE *out, ss_reader *reader, const size_t column[], 
                            ss_error *err);
 /* Write them as text: notes of the header, resolution and segments, then a row for each frequency.  ss_table_read
  * reads it (SS_KIND_SPECTRUM).  SS_EINVAL: the format holds numbers only; SS_EIO. */
-ss_status ss_spectrum_write(ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *opts, FILE *out,
-                            ss_format format, ss_error *err);
+ss_status ss_spectrum_write(ss_reader *reader, const size_t column[], size_t n, const ss_plot_opts *opts,
+                            FILE *out, ss_format format, ss_error *err);
 
 typedef struct ss_contour_opts {
     size_t size;                /* set by ss_contour_opts_init */
@@ -122,11 +123,11 @@ extern const char *const ss_palettes[];
  * A mark outside the span or the labels that are drawn is left out. */
 ss_status ss_plot_contour(FILE *out, const ss_coefficients *coefficients,
                           const ss_contour_opts *contour, const ss_plot_opts *opts, ss_error *err);
-/* Write the ridge points that such a picture marks, as rows of time and of the frequency and the amplitude of
- * the steady oscillation that has such a ridge.  ss_table_read reads them (SS_KIND_RIDGE).  SS_EINVAL: the format holds
- * numbers only. */
-ss_status ss_ridge_write(const ss_coefficients *coefficients, const ss_contour_opts *contour, const ss_plot_opts *opts,
-                         FILE *out, ss_format format, ss_error *err);
+/* Write the ridge points that such a picture marks, as rows of time and of the frequency and the amplitude of the
+ * steady oscillation that has such a ridge.  ss_table_read reads them (SS_KIND_RIDGE).  SS_EINVAL: the format
+ * holds numbers only. */
+ss_status ss_ridge_write(const ss_coefficients *coefficients, const ss_contour_opts *contour,
+                         const ss_plot_opts *opts, FILE *out, ss_format format, ss_error *err);
 
 /* Draw the work-precision diagram: the largest error of x over CPU time as a multiple of the
  * fastest row's, both logarithmic, with a line for each method and rings on the frontier.
@@ -150,16 +151,17 @@ ss_status ss_plot_motion(FILE *out, const ss_signal *signal, size_t motion, size
 
 /* Draw n columns of a sweep, whose notes say whether one parameter was varied or two.
  *
- * Two: columns 0 and 1 of these make a grid, and the other one or two are drawn over it.  A column with at most ten
- * different values is drawn as regions, any other as lines of equal value.
- * One: columns 1 to n - 1, at most seven, over column 0, one panel each.  They are points if rows of the same x differ
- * (a bifurcation diagram), else a line.
+ * Two: columns 0 and 1 of these make a grid, and the other one or two are drawn over it.  A column with at most
+ * ten different values is drawn as regions, any other as lines of equal value.
  *
- * "-" is no value, and "aperiodic" a period of 0.  SS_EINVAL: these are too few columns, too many, or of forms that
- * exclude each other, or there is opts->curve over one parameter; SS_EDATA: a drawn column has another word or no value,
- * or the rows make no grid. */
-ss_status ss_plot_sweep(FILE *out, const ss_table *table, const size_t column[], size_t n, const ss_plot_opts *opts,
-                        ss_error *err);
+ * One: columns 1 to n - 1, at most seven, over column 0, one panel each.  They are points if rows of the same x
+ * differ (a bifurcation diagram), else a line.
+ *
+ * "-" is no value, and "aperiodic" a period of 0.  SS_EINVAL: these are too few columns, too many, or of forms
+ * that exclude each other, or there is opts->curve over one parameter; SS_EDATA: a drawn column has another word
+ * or no value, or the rows make no grid. */
+ss_status ss_plot_sweep(FILE *out, const ss_table *table, const size_t column[], size_t n,
+                        const ss_plot_opts *opts, ss_error *err);
 
 /* Draw a free decay: its amplitude [dB] and blocks over time, and its frequency and damping ratio over amplitude,
  * with errors; what is known by the mechanism's name dashed.  SS_EINVAL: there are no rows. */

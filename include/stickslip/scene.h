@@ -80,11 +80,11 @@ typedef struct ss_event {
     int direction;      /* +1 or -1, of the slip that begins; with SS_STICK, of the slip that ended */
 } ss_event;
 
-/* Read a scene from text, in which the n settings "key=value" then replace values; settings may be NULL if
- * n is 0.  Messages call the file by name.  If in is NULL, name is that of a shipped scene ("compliant-light"), or else
- * the path of a file.  On failure *scene does not change.  SS_EDATA: a key is unknown, repeated, missing, malformed,
- * out of its range, or not one of the model's; SS_EINVAL: a setting is; SS_EIO: reading failed, or there is no such
- * scene, and err lists the shipped names. */
+/* Read a scene from text, in which the n settings "key=value" then replace values; settings may be NULL if n is 0.
+ * Messages call the file by name.  If in is NULL, name is that of a shipped scene ("compliant-light"), or else the
+ * path of a file.  On failure *scene does not change.  SS_EDATA: a key is unknown, repeated, missing, malformed,
+ * out of its range, or not one of the model's; SS_EINVAL: a setting is; SS_EIO: reading failed, or there is no
+ * such scene, and err lists the shipped names. */
 ss_status ss_scene_read(ss_scene *scene, FILE *in, const char *name, const char *const settings[], size_t n,
                         ss_error *err);
 
@@ -96,10 +96,10 @@ ss_status ss_scene_check(const ss_scene *scene, ss_error *err);
 ss_status ss_scene_write(const ss_scene *scene, FILE *out, ss_error *err);
 
 /* If the scene names a base_file, make z(t) [m] of it, the natural cubic spline through its base_column, and set
- * scene->base to *base; else *base becomes NULL.  The name is relative to the folder of scene_path, the file from which
- * the scene was read; the file is of any format that ss_reader_new opens.  Its clock is the scene's: its t = 0 is the
- * start of settling.  The caller frees *base after the last use of the scene.  SS_EDATA: the column's unit is not m, or
- * it has fewer than 3 samples; SS_ENOMEM. */
+ * scene->base to *base; else *base becomes NULL.  The name is relative to the folder of scene_path, the file from
+ * which the scene was read; the file is of any format that ss_reader_new opens.  Its clock is the scene's: its
+ * t = 0 is the start of settling.  The caller frees *base after the last use of the scene.  SS_EDATA: the column's
+ * unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
 ss_status ss_base_load(ss_base **base, ss_scene *scene, const char *scene_path, ss_error *err);
 void ss_base_free(ss_base *base);                   /* NULL is allowed */
 

@@ -91,8 +91,8 @@ typedef struct ss_read_opts {
                                    column, in constant memory; 0: they stay.  Stamps in delimited text may then
                                    have any spacing.  Frequencies above half the rate fold down.  Reading
                                    fails where there is but one row */
-    const char *time_unit;      /* where there is a column or dataset of time: unit of the column of time; NULL: the unit in the
-                                   file, or if it has none seconds, or the unit with which the stamps
+    const char *time_unit;      /* unit of the column or dataset of time, where there is one; NULL: the unit in
+                                   the file, or if it has none seconds, or the unit with which the stamps
                                    are dates of this century */
     const char *const *needed;  /* delimited text: names or numbers of the n_needed columns that the caller
                                    uses.  In the others a cell without a number is 0, with a warning for
@@ -219,9 +219,9 @@ void ss_filter_opts_init(ss_filter_opts *opts, size_t size);
  * change with the order, and the note filter, "flat LO to HI Hz, stop DB dB ...", says what passed; gaps become
  * wider by the reach of the filter.
  *
- * SS_EINVAL: an edge is not below half the rate, no frequency passes, or the filter has more than 2^24 taps.
- * Reading fails with SS_EDATA where there are fewer rows than taps, and with SS_ERANGE if a value is not
- * finite. */
+ * SS_EINVAL: an edge is not below half the rate, no frequency passes, or the filter has more than 2^24 taps; the
+ * reader is then as it was.  Reading fails with SS_EDATA where there are fewer rows than taps, and with SS_ERANGE
+ * if a value is not finite. */
 ss_status ss_reader_filter(ss_reader *reader, const ss_filter_opts *opts, ss_error *err);
 
 /* --- making and changing ------------------------------------------------------------------- */
@@ -260,12 +260,13 @@ typedef struct ss_noise_opts {
     size_t size;                /* set by ss_noise_opts_init */
     double snr;                 /* [dB] the power of each column's noise is so much below the column's variance; */
     double rms;                 /* or its standard deviation is this, >= 0.  NaN: not given */
-    ss_range band;              /* [Hz] 0 <= from <= to <= rate / 2: the noise has only these frequencies, and exactly
-                                   this power; NaN: it is white */
+    ss_range band;              /* [Hz] 0 <= from <= to <= rate / 2: the noise has only these frequencies, and
+                                   exactly this power; NaN: it is white */
     unsigned long seed;         /* the same seed gives the same noise (GSL's mt19937 and its Ziggurat) */
-    int bits;                   /* 1 ... SS_BITS_MAX: then each value becomes the output of a converter of so many bits:
-                                   the nearest multiple of the step range / 2^(bits - 1) (halfway the even one), at
-                                   least -range and at most range less one step; 0: there is no converter */
+    int bits;                   /* 1 ... SS_BITS_MAX: then each value becomes the output of a converter of so
+                                   many bits: the nearest multiple of the step range / 2^(bits - 1) (halfway the
+                                   even one), at least -range and at most range less one step; 0: there is no
+                                   converter */
     double range;               /* > 0, of the converter */
     const size_t *column;       /* n_columns indices of those that are changed; n_columns 0: all */
     size_t n_columns;
@@ -273,16 +274,19 @@ typedef struct ss_noise_opts {
 /* Neither noise nor converter, seed 1. */
 void ss_noise_opts_init(ss_noise_opts *opts, size_t size);
 
-/* What was done, as rows are read. */
+/* What was done. */
 typedef struct ss_noise_done {
-    size_t converted, clipped;  /* samples that went through the converter, and of these those beyond its range */
-    double *rms;                /* NULL, or room for the rms of each column's noise; NaN for one that gets none */
+    size_t converted, clipped;  /* samples, as rows are read, that went through the converter, and those beyond its
+                                   range among them; 0 after going back */
+    double *rms;                /* set by the caller: NULL, or room for the rms of each column's noise, which is
+                                   known before rows are read; NaN for one that gets none */
 } ss_noise_done;
 
-/* Make a reader that is at its first row give its rows with noise added, as a converter gives them, or both in this
- * order; *done must live as long.  The notes noise and converter say so.  A ratio takes one reading more, so the
- * reader must be one that can go back; with a band all rows are read into memory.  SS_EINVAL: an option is out of its
- * range, or no frequency of the record lies in the band.  Reading fails with SS_ERANGE if a sum is not finite. */
+/* Make a reader that is at its first row give its rows with noise added, as a converter gives them, or both in
+ * this order; *done must live as long as the reader.  The notes noise and converter say so.  A ratio takes one
+ * reading more, so the reader must be one that can go back; with a band all rows are read into memory.  SS_EINVAL:
+ * an option is out of its range, no frequency of the record lies in the band, or the reader cannot go back; it is
+ * then as it was.  Reading fails with SS_ERANGE if a sum is not finite. */
 ss_status ss_reader_noise(ss_reader *reader, const ss_noise_opts *opts, ss_noise_done *done, ss_error *err);
 
 SS_END_DECLARATIONS

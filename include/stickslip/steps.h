@@ -58,10 +58,10 @@ void ss_steps_opts_init(ss_steps_opts *opts, size_t size);      /* no normal, 0,
 /* Fit both laws to each step in speed of a load point, from the columns `load` (a unit of length) and `friction`.
  * The last column of the signal holds the times of its rows, see ss_read_opts.stamps.
  *
- * A hold and the slide behind it are one step.  The slider begins in a steady slide and has no inertia.  The
- * load point moves on lines that meet between rows, or as recorded; of more than 4096 rows means are taken.
- * SS_EDATA: the unit is not one of length, a value is not finite, or there is no step; SS_ENOMEM.  opts may be NULL.
- * The caller frees *out with ss_steps_free. */
+ * A hold and the slide behind it are one step.  The slider begins in a steady slide and has no inertia.  The load
+ * point moves on lines that meet between rows, or as recorded; of more than 4096 rows means are taken.  SS_EINVAL:
+ * there is no such column, or stiffness is negative or not finite; SS_EDATA: the unit is not one of length, a value
+ * is not finite, or there is no step; SS_ENOMEM.  opts may be NULL.  The caller frees *out with ss_steps_free. */
 ss_status ss_steps_find(ss_steps **out, const ss_signal *signal, size_t load, size_t friction,
                         const ss_steps_opts *opts, ss_error *err);
 void ss_steps_free(ss_steps *steps);            /* NULL is allowed */

@@ -207,8 +207,6 @@ ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, c
     ss_features_opts opts;
     ss_span *gap = NULL;
     size_t n_gaps = 0;
-    if (out == NULL || signal == NULL)
-        return SS_FAIL_NULL(err);
     ss_status st = ss_options_take(&opts, sizeof opts, &defaults, given, err);
     if (st == SS_OK)
         st = check(signal, column, &opts, err);
@@ -260,7 +258,8 @@ ss_status
 ss_features_find(ss_features **out, const ss_signal *signal, size_t column, const ss_features_opts *opts,
                  ss_error *err)
 {
-    return ss_features_of_part(out, signal, column, opts, &(stream_part){ 0 }, err);
+    return out != NULL && signal != NULL ? ss_features_of_part(out, signal, column, opts, &(stream_part){ 0 }, err)
+        : SS_FAIL_NULL(err);
 }
 
 void

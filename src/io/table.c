@@ -124,7 +124,7 @@ ss_table_note(const ss_table *table, const char *key)
 int
 ss_table_column(const ss_table *table, const char *name)
 {
-    for (size_t c = 0; table != NULL && name != NULL && c < table->n_columns; c++)
+    for (size_t c = 0; c < table->n_columns; c++)
         if (strcmp(table->column[c].name, name) == 0)
             return (int)c;
     return -1;
@@ -133,7 +133,7 @@ ss_table_column(const ss_table *table, const char *name)
 double
 ss_table_number(const ss_table *table, size_t row, size_t column)
 {
-    if (table == NULL || row >= table->n || column >= table->n_columns)
+    if (row >= table->n || column >= table->n_columns)
         return NAN;
     const char *cell = table->cell[row * table->n_columns + column];
     char *end;

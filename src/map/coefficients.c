@@ -30,8 +30,6 @@ ss_coefficients_free(ss_coefficients *map)
 int
 ss_coefficients_edge(const ss_coefficients *map, size_t i, size_t k)
 {
-    if (map == NULL || i >= map->n_scales)
-        return 1;
     return wavelet_edge(&map->scale[i], k, map->n, map->head->rate, map->head->start, map->gap, map->n_gaps);
 }
 

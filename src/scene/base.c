@@ -15,8 +15,6 @@
 ss_status
 ss_base_new(ss_base **out, const ss_signal *signal, size_t column, ss_error *err)
 {
-    if (out == NULL || signal == NULL || column >= signal->head->n_columns)
-        return SS_FAIL_NULL(err);
     const ss_column *c = &signal->head->column[column];
     if (*c->unit != '\0' && strcmp(c->unit, "m") != 0)
         return ss_fail(err, SS_EDATA, "column %s is in %s, but a base must be in m", c->name, c->unit);

@@ -10,6 +10,5 @@ const ss_model *ss_model_at(size_t i);              /* NULL after the last */
  * SS_EDATA: the column's unit is not m, or it has fewer than 3 samples; SS_ENOMEM. */
 ss_status ss_base_new(ss_base **base, const ss_signal *signal, size_t column, ss_error *err);
 const char *ss_event_kind_name(ss_event_kind kind);     /* "stick", "slip", "reverse" */
-const char *ss_scene_word(const ss_scene *scene, const char *key);     /* of a word; NULL: no such key */
 
 #endif

@@ -46,8 +46,6 @@ step(ss_scene *scene, size_t i)
 const char *
 ss_scene_simpler(ss_scene *out, const ss_scene *scene, size_t i)
 {
-    if (out == NULL || scene == NULL || scene->model == NULL)
-        return NULL;
     for (size_t k = 0;; k++) {
         ss_scene simpler = *scene;
         const char *name = step(&simpler, k);

@@ -195,13 +195,6 @@ ss_scene_unit(const ss_scene *scene, const char *key)
     return k != NULL && is_number(k) ? k->unit : NULL;
 }
 
-const char *
-ss_scene_word(const ss_scene *scene, const char *key)
-{
-    const scene_key *k = key_of(scene, key, NULL);
-    return k != NULL && ss_key_word(k, 0) != NULL ? word_of(scene, k) : NULL;
-}
-
 ss_status
 ss_scene_set(ss_scene *scene, const char *key, double value, ss_error *err)
 {

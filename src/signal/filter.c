@@ -434,7 +434,11 @@ ss_source_filter(ss_source **s, const ss_filter_opts *opts, ss_error *err)
     if (st == SS_OK)
         st = change_header(f->base.head, &d, fmax(o.stop, LEAST_STOP));
     free(d.tap);
+    if (st != SS_OK) {
+        ss_source_unwrap(s);
+        return st == SS_ENOMEM ? ss_fail_memory(err, (*s)->name) : st;
+    }
     uint64_t length = f->base.length;
     f->base.length = length == UINT64_MAX ? length : length > d.n - 1 ? length - (d.n - 1) : 0;
-    return st == SS_ENOMEM ? ss_fail_memory(err, f->base.name) : st;
+    return SS_OK;
 }

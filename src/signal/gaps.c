@@ -194,8 +194,6 @@ read_span(ss_span *span, char **p)
 ss_status
 ss_header_gaps(ss_span **out, size_t *n, const ss_header *head, ss_error *err)
 {
-    if (out == NULL || n == NULL || head == NULL)
-        return SS_FAIL_NULL(err);
     const char *text = ss_header_find_note(head, key);
     size_t room = 0;
     *out = NULL;

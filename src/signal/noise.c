@@ -59,11 +59,6 @@ ss_noise_add_band(gsl_rng *noise, double *x, size_t n, double rate, ss_range ban
 {
     size_t m = 2;
     double square = 0, lo = band.from, hi = band.to;
-    if (!(rms >= 0 && isfinite(rms)) || !(rate > 0) || n > SIZE_MAX / 64)
-        return ss_fail(err, SS_EINVAL, "the rms of noise must be 0 or more");
-    if (!(lo >= 0 && lo <= hi && hi <= rate / 2))
-        return ss_fail(err, SS_EINVAL, "band %g to %g Hz: not between 0 and half the rate, %g Hz",
-                       lo, hi, rate / 2);
     while (m < n)
         m *= 2;
     real_fft f;
@@ -99,10 +94,6 @@ ss_status
 ss_noise_add_once(double *x, size_t n, double rms, unsigned long seed, ss_error *err)
 {
     gsl_rng *noise = NULL;
-    if (x == NULL && n > 0)
-        return SS_FAIL_NULL(err);
-    if (!(rms >= 0 && isfinite(rms)))
-        return ss_fail(err, SS_EINVAL, "the rms of noise must be 0 or more");
     ss_status st = ss_noise_new(&noise, seed, err);
     if (st == SS_OK)
         st = ss_noise_add(noise, &x, 1, n, &rms, err);
@@ -124,14 +115,6 @@ double
 ss_variance_noise(const ss_variance *v, double snr_db)
 {
     return v->n > 0 ? (double)sqrtl(v->square / v->n) * pow(10, -snr_db / 20) : 0;
-}
-
-double
-ss_noise_rms(const double *x, size_t n, double snr_db)
-{
-    ss_variance v = { .n = 0 };
-    ss_variance_add(&v, x, n);
-    return ss_variance_noise(&v, snr_db);
 }
 
 ss_status
@@ -175,6 +158,8 @@ read_whole(ss_source **s, ss_signal **signal, ss_error *err)
     static const struct source_calls calls = { .rewind = hold_whole, .free = free_whole };
     struct whole *w = ss_source_wrap(s, sizeof *w, &calls, err);
     ss_status st = w != NULL ? ss_source_all(&w->signal, w->base.inner, err) : SS_ENOMEM;
+    if (w != NULL && st != SS_OK)
+        ss_source_unwrap(s);
     if (st != SS_OK)
         return st;
     *signal = w->signal;
@@ -272,6 +257,42 @@ note_noise(ss_header *head, const ss_noise_opts *o)
     return st == SS_OK ? ss_header_note(head, "clipped", NULL, NULL) : st;  /* that was of another converter */
 }
 
+/* Find the noise of each column; that of a band is added to the whole record now. */
+static ss_status
+begin_noise(struct noisy *y, ss_signal *whole, size_t piece, ss_error *err)
+{
+    const ss_noise_opts *o = &y->opts;
+    const size_t columns = y->base.head->n_columns;
+    const int is_ratio = !isnan(o->snr), is_noisy = is_ratio || !isnan(o->rms);
+    y->rms = calloc(columns + 1, sizeof *y->rms);
+    y->chosen = calloc(columns + 1, sizeof *y->chosen);
+    y->x = ss_columns_new(columns, piece);
+    ss_status st = y->rms != NULL && y->chosen != NULL && y->x != NULL ? ss_noise_new(&y->noise, o->seed, err)
+        : SS_ENOMEM;
+    if (st == SS_OK)
+        st = note_noise(y->base.head, o);
+    if (st != SS_OK)
+        return ss_fail_memory(err, y->base.name);
+    y->base.made = *y->x;
+    y->base.apart = piece;
+    if (is_ratio)
+        st = find_levels(y, err);
+    for (size_t c = 0; c < columns; c++)
+        y->chosen[c] = o->n_columns == 0;
+    for (size_t i = 0; i < o->n_columns; i++)
+        y->chosen[o->column[i]] = 1;
+    for (size_t c = 0; st == SS_OK && c < columns; c++) {
+        double rms = !is_noisy || y->chosen[c] == 0 ? 0 : is_ratio ? y->rms[c] : o->rms;
+        y->rms[c] = whole != NULL ? 0 : rms;
+        if (whole != NULL && rms > 0)
+            st = ss_noise_add_band(y->noise, whole->values + c * whole->n, whole->n, whole->head->rate, o->band,
+                                   rms, err);
+        if (y->done->rms != NULL)
+            y->done->rms[c] = is_noisy && y->chosen[c] > 0 ? rms : NAN;
+    }
+    return st;
+}
+
 ss_status
 ss_source_noise(ss_source **s, const ss_noise_opts *opts, ss_noise_done *done, ss_error *err)
 {
@@ -279,13 +300,17 @@ ss_source_noise(ss_source **s, const ss_noise_opts *opts, ss_noise_done *done, s
     ss_noise_opts o;
     ss_signal *whole = NULL;
     const size_t columns = (*s)->head->n_columns, piece = ss_source_piece(*s);
+    const double most = (*s)->head->rate / 2;
     ss_status st = ss_options_take(&o, sizeof o, &defaults, opts, err);
-    int is_noisy = !isnan(o.snr) || !isnan(o.rms), is_band = is_noisy && !isnan(o.band.from);
     if (st != SS_OK)
         return st;
+    const int is_band = (!isnan(o.snr) || !isnan(o.rms)) && !isnan(o.band.from);
     if ((!isnan(o.snr) && !isnan(o.rms)) || isinf(o.snr) || o.rms < 0 || isinf(o.rms)
         || (o.column == NULL && o.n_columns > 0))
         return ss_fail(err, SS_EINVAL, "noise has either a ratio in dB or an rms of 0 or more");
+    if (is_band && !(o.band.from >= 0 && o.band.from <= o.band.to && o.band.to <= most))
+        return ss_fail(err, SS_EINVAL, "band %g to %g Hz: not between 0 and half the rate, %g Hz", o.band.from,
+                       o.band.to, most);
     if (o.bits != 0)
         st = ss_quantise(NULL, 0, o.bits, o.range, NULL, err);
     for (size_t i = 0; st == SS_OK && i < o.n_columns; i++)
@@ -301,30 +326,8 @@ ss_source_noise(ss_source **s, const ss_noise_opts *opts, ss_noise_done *done, s
     y->opts = o;
     y->done = done;
     *done = (ss_noise_done){ .rms = done->rms };
-    y->rms = calloc(columns + 1, sizeof *y->rms);
-    y->chosen = calloc(columns + 1, sizeof *y->chosen);
-    y->x = ss_columns_new(columns, piece);
-    st = y->rms != NULL && y->chosen != NULL && y->x != NULL ? ss_noise_new(&y->noise, o.seed, err) : SS_ENOMEM;
-    if (st == SS_OK)
-        st = note_noise(y->base.head, &o);
+    st = begin_noise(y, whole, piece, err);
     if (st != SS_OK)
-        return ss_fail_memory(err, y->base.name);
-    y->base.made = *y->x;
-    y->base.apart = piece;
-    if (!isnan(o.snr))
-        st = find_levels(y, err);
-    for (size_t c = 0; c < columns; c++)
-        y->chosen[c] = o.n_columns == 0;
-    for (size_t i = 0; i < o.n_columns; i++)
-        y->chosen[o.column[i]] = 1;
-    for (size_t c = 0; st == SS_OK && c < columns; c++) {
-        double rms = !is_noisy || y->chosen[c] == 0 ? 0 : isnan(o.snr) ? o.rms : y->rms[c];
-        y->rms[c] = is_band ? 0 : rms;
-        if (is_band && rms > 0)
-            st = ss_noise_add_band(y->noise, whole->values + c * whole->n, whole->n, whole->head->rate, o.band, rms,
-                                   err);
-        if (done->rms != NULL)
-            done->rms[c] = is_noisy && y->chosen[c] > 0 ? rms : NAN;
-    }
+        ss_source_unwrap(s);
     return st;
 }

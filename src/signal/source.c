@@ -45,6 +45,15 @@ ss_source_wrap(ss_source **s, size_t size, const struct source_calls *calls, ss_
 }
 
 void
+ss_source_unwrap(ss_source **s)
+{
+    ss_source *outer = *s;
+    *s = outer->inner;
+    outer->inner = NULL;
+    ss_source_free(outer);
+}
+
+void
 ss_source_free(ss_source *s)
 {
     while (s != NULL) {
@@ -151,11 +160,7 @@ ss_signal_select(ss_signal **out, const ss_signal *signal, const size_t *column,
                  size_t first, size_t end, ss_error *err)
 {
     ss_header *head;
-    if (out == NULL || signal == NULL)
-        return SS_FAIL_NULL(err);
     *out = NULL;
-    if (first > end || end > signal->n)
-        return ss_fail(err, SS_EINVAL, "rows %zu to %zu are not among the %zu", first, end, signal->n);
     ss_status st = ss_header_select(&head, signal->head, column, n_columns, first, err);
     if (st != SS_OK)
         return st;

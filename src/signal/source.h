@@ -40,6 +40,8 @@ struct source {
 void *ss_source_new(size_t size, const struct source_calls *calls, const char *name, ss_error *err);
 /* Wrap *s, whose header is copied, and let *s be the new one.  Returns it; NULL: no memory, *s stays. */
 void *ss_source_wrap(ss_source **s, size_t size, const struct source_calls *calls, ss_error *err);
+/* Let *s be the inner one again, and free the outer one. */
+void ss_source_unwrap(ss_source **s);
 void ss_source_free(ss_source *s);                 /* with the inner ones; NULL is allowed */
 
 ss_status ss_source_rows(ss_source *s, double *const column[], size_t max, size_t *n, ss_error *err);

@@ -49,8 +49,6 @@ add_segment(ss_welch *w)
 ss_status
 ss_welch_new(ss_welch **out, size_t n, double rate, double resolution, ss_error *err)
 {
-    if (out == NULL)
-        return SS_FAIL_NULL(err);
     *out = NULL;
     if (n < LEAST)
         return ss_fail(err, SS_EINVAL, "a spectrum needs at least %d samples, not %zu", LEAST, n);
@@ -81,8 +79,6 @@ ss_welch_new(ss_welch **out, size_t n, double rate, double resolution, ss_error 
 ss_status
 ss_welch_add(ss_welch *w, const double *x, size_t n, ss_error *err)
 {
-    if (w == NULL || x == NULL)
-        return SS_FAIL_NULL(err);
     for (size_t i = 0; i < n; i++) {
         w->n++;
         if (!isfinite(x[i]))
@@ -101,8 +97,6 @@ ss_welch_add(ss_welch *w, const double *x, size_t n, ss_error *err)
 ss_status
 ss_welch_end(ss_spectrum **out, ss_welch *w, ss_error *err)
 {
-    if (out == NULL || w == NULL || w->sum == NULL)
-        return SS_FAIL_NULL(err);
     *out = NULL;
     if (w->sum->segments == 0)
         return ss_fail(err, SS_EINVAL, "a spectrum needs at least %zu samples, not %zu", w->length, w->n);

@@ -12,6 +12,7 @@
 
 #include <stickslip.h>
 #include "../shipped.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 
@@ -72,7 +73,7 @@ static inline ss_signal *
 bench_noisy_column(const ss_scene *scene, size_t column, double snr, unsigned long seed)
 {
     ss_signal *one = bench_column(scene, column);
-    ss_noise_add_once(one->values, one->n, ss_noise_rms(one->values, one->n, snr), seed, NULL);
+    ss_noise_add_once(one->values, one->n, noise_rms(one->values, one->n, snr), seed, NULL);
     return one;
 }
 

@@ -6,6 +6,7 @@
  * usage: bench_features [SEEDS] */
 #include <gsl/gsl_errno.h>
 #include "bench.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 
@@ -37,7 +38,7 @@ features_of(const ss_signal *clean, double snr, unsigned long seed, const ss_sce
     if (ss_signal_select(&signal, clean, &column, 1, 0, clean->n, NULL) != SS_OK)
         exit(1);
     if (isfinite(snr))
-        ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, snr), seed, NULL);
+        ss_noise_add_once(signal->values, signal->n, noise_rms(signal->values, signal->n, snr), seed, NULL);
     if (ss_features_find(&out, signal, 0, &opts, NULL) != SS_OK)
         exit(1);
     ss_signal_free(signal);

@@ -15,6 +15,7 @@
 #include <gsl/gsl_rng.h>
 #include "../foreign.h"
 #include "bench.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 
 typedef struct tally {
@@ -70,7 +71,7 @@ sensed_column(const ss_scene *scene, double cut_off, double snr, unsigned long s
             g->values[i / FINE] = y;
         y += part * (f->values[i] - y);
     }
-    ss_noise_add_once(g->values, g->n, ss_noise_rms(g->values, g->n, snr), seed, NULL);
+    ss_noise_add_once(g->values, g->n, noise_rms(g->values, g->n, snr), seed, NULL);
     ss_signal_free(f);
     return g;
 }

@@ -15,6 +15,7 @@
 #include <gsl/gsl_rng.h>
 #include "../foreign.h"
 #include "bench.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 
 enum { MODELS = 4 };
@@ -53,7 +54,7 @@ answer(tally *t, ss_signal *g, const ss_scene shipped[MODELS], double snr, unsig
 {
     ss_ranking *r = NULL;
     ss_error err;
-    double clean = pow(ss_noise_rms(g->values, g->n, 0), 2), noise = clean * pow(10, -snr / 10);
+    double clean = pow(noise_rms(g->values, g->n, 0), 2), noise = clean * pow(10, -snr / 10);
     ss_noise_add_once(g->values, g->n, sqrt(noise), seed, NULL);
     double began = bench_seconds();
     if (ss_ranking_new(&r, g, 0, shipped, MODELS, NULL, &err) != SS_OK) {

@@ -7,6 +7,7 @@
 #include "map/map.h"
 #include "bench.h"
 #include "signal/header.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 
 enum { ROUNDS = 2, SAMPLES = 1000000, SECONDS = 60 };
@@ -69,7 +70,7 @@ bowed_string(void)
     ss_signal *signal = wave(SS_SINE, SOUND_RATE, SECONDS);
     for (size_t i = 0; i < signal->n; i++)
         signal->values[i] = 2 * fmod((double)i * PITCH / SOUND_RATE, 1) - 1;
-    ss_noise_add_once(signal->values, signal->n, ss_noise_rms(signal->values, signal->n, 40), 1, NULL);
+    ss_noise_add_once(signal->values, signal->n, noise_rms(signal->values, signal->n, 40), 1, NULL);
     return signal;
 }
 
@@ -86,7 +87,7 @@ acceleration(const char *name, double snr)
         exit(1);
     ss_signal_free(all);
     if (isfinite(snr))
-        ss_noise_add_once(a->values, a->n, ss_noise_rms(a->values, a->n, snr), 1, NULL);
+        ss_noise_add_once(a->values, a->n, noise_rms(a->values, a->n, snr), 1, NULL);
     return a;
 }
 

@@ -17,6 +17,7 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include "bench.h"
+#include "noise_rms.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 #include "scene/scene.h"
@@ -50,7 +51,7 @@ typedef struct condition {
 static void
 add_noise(double *x, size_t n, const draw *d, double snr)
 {
-    ss_noise_add_once(x, n, ss_noise_rms(x, n, snr), d->number, NULL);
+    ss_noise_add_once(x, n, noise_rms(x, n, snr), d->number, NULL);
 }
 
 static double
@@ -85,7 +86,7 @@ add_pink(double *x, size_t n, const draw *d, double snr)
             sum += b[k] = pole[k] * b[k] + gain[k] * w[i];
         w[i] = sum;
     }
-    double scale = ss_noise_rms(x, n, snr) / ss_noise_rms(w, n, 0);
+    double scale = noise_rms(x, n, snr) / noise_rms(w, n, 0);
     for (size_t i = 0; i < n; i++)
         x[i] += scale * w[i];
     free(w);
@@ -124,7 +125,7 @@ low_pass(double *x, size_t n, const draw *d, double re_contact)
 static void
 add_hum(double *x, size_t n, const draw *d, double level)
 {
-    double amplitude = M_SQRT2 * ss_noise_rms(x, n, -level), w = 2 * M_PI * d->hum * d->f / d->scene.rate;
+    double amplitude = M_SQRT2 * noise_rms(x, n, -level), w = 2 * M_PI * d->hum * d->f / d->scene.rate;
     for (size_t i = 0; i < n; i++)
         x[i] += amplitude * sin(w * (double)i + 1);
     add_noise(x, n, d, 40);

@@ -32,6 +32,7 @@
 #include "../random_scene.h"
 #include "scene/key.h"
 #include "scene/scene.h"
+#include "scene_word.h"
 
 /* --- numbers ------------------------------------------------------------------------------------
  * Balls of a pool.  A function that needs room for a moment ends with used = what it was. */
@@ -202,7 +203,7 @@ static num
 contact_force(const rig *r, num q, num v)
 {
     num force = mul(r->contact, q);
-    return strcmp(ss_scene_word(r->scene, "release"), "total") == 0 ? add(force, mul(r->damper, v)) : force;
+    return strcmp(scene_word(r->scene, "release"), "total") == 0 ? add(force, mul(r->damper, v)) : force;
 }
 
 /* What friction has to hold of a mass that moves with the surface, and its first three derivatives. */
@@ -405,7 +406,7 @@ slip_from(const rig *r, vary t, vary x, vary v, int direction, int flat)
 static mode
 microstick_from(const rig *r, vary t, vary x, int y)
 {
-    const char *release = ss_scene_word(r->scene, "release");
+    const char *release = scene_word(r->scene, "release");
     int total = release != NULL && strcmp(release, "total") == 0 && ss_scene_get(r->scene, "contact_damping") > 0;
     int at_limit = y != 0 && r->scene->static_friction <= r->scene->friction;
     vary start = constant(scale(y, r->deflection)), x_ref = sum(x, constant(minus(start.value)));

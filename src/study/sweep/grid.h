@@ -12,7 +12,8 @@ ss_status ss_sweep_points(const ss_sweep_opts *opts, size_t *n, ss_error *err);
 /* The values of the axes at this point of the grid, whose last axis varies fastest. */
 void ss_sweep_values(const ss_sweep_opts *opts, size_t index, double value[]);
 
-/* SS_EINVAL if this is impossible for the scene: it lacks a measure, or an option is out of its range. */
+/* SS_EINVAL if these, which are complete, are impossible for the scene: it lacks a measure, or one is out of its
+ * range. */
 ss_status ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err);
 
 #endif

@@ -77,8 +77,8 @@ method_of(const ss_steady_opts *opts, const ss_scene *scene)
     return how;
 }
 
-static ss_status
-check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err)
+ss_status
+ss_steady_check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err)
 {
     const struct method *given;
     const ss_model *m = scene->model;
@@ -108,16 +108,6 @@ check(const ss_steady_opts *opts, const ss_scene *scene, ss_error *err)
         return ss_fail(err, SS_EINVAL, "shooting does not wait for the motion to settle: it leaves "
                        "no cycles to count");
     return SS_OK;
-}
-
-ss_status
-ss_steady_check(const ss_steady_opts *given, const ss_scene *scene, ss_error *err)
-{
-    ss_steady_opts opts;
-    if (scene == NULL)
-        return SS_FAIL_NULL(err);
-    ss_status st = ss_options_take(&opts, sizeof opts, &usual, given, err);
-    return st == SS_OK ? check(&opts, scene, err) : st;
 }
 
 /* --- the model in the limit ------------------------------------------------------------------ */
@@ -233,7 +223,7 @@ ss_steady_find(ss_steady *out, const ss_scene *scene, const ss_steady_opts *give
     out->n_strobes = 0;
     st = ss_scene_check(scene, err);
     if (st == SS_OK)
-        st = check(opts, scene, err);
+        st = ss_steady_check(opts, scene, err);
     if (st != SS_OK)
         return st;
     finder f = { .c = { .scene = scene, .opts = opts, .err = err, .how = method_of(opts, scene) }, .out = out };
