@@ -55,6 +55,27 @@ find_bars(const search *s, int events, double f, ss_window **out, size_t *n_bars
     return SS_OK;
 }
 
+/* Two periods into the longest stretch without jumps and kinks from sample `anchor` to sample `next`: the stick
+ * behind a train of micro-slips. */
+static size_t
+stick_behind(const search *s, size_t anchor, size_t next, double f)
+{
+    const ss_spikes *found = s->out->spikes;
+    double from = (double)anchor / s->rate - 1 / f, end = (double)next / s->rate - 1 / f, longest = 0;
+    double moved = (double)anchor;
+    for (size_t k = ss_list_from(found->spike, found->n, sizeof *found->spike, from); from < end; k++) {
+        if (k < found->n && !cuts(&found->spike[k], f))
+            continue;
+        double to = k < found->n ? fmin(found->spike[k].t, end) : end;
+        if (to - from > longest) {
+            longest = to - from;
+            moved = (from + 2 / f) * s->rate;
+        }
+        from = to;
+    }
+    return (size_t)moved;
+}
+
 /* --- is it one oscillation? -------------------------------------------------------------------- */
 
 /* Is the fit within an octave of the frequency f [Hz] one of a damped oscillation in sticks: the reason why not,
@@ -114,13 +135,15 @@ fit_singly(search *s, ringdown *r, double f)
 
 /* Fit all sticks together, in the first of these ways that is ringing.  A jump larger than the oscillation
  * passes for the strongest oscillation in a window over it; a smaller one does little harm.  So windows are
- * moved behind what a slip leaves in a filter, and kept off jumps and kinks.  A train of micro-slips stays one,
- * however it is barred.  Where a filter rounds all jumps and kinks, a stick lies between slips. */
+ * moved behind what a slip leaves in a filter; kept off jumps and kinks; and moved behind trains of these.  A
+ * train of micro-slips stays one, however it is barred: only the stick behind it may ring.  Where a filter rounds all
+ * jumps and kinks, a stick lies between slips. */
 static ss_status
 fit_together(search *s, ringdown *r, double f)
 {
     static const struct { int off_events; double behind; } way[] = {    /* behind the anchors, in periods; */
         { 0, 0 }, { 0, 2 }, { 0, 5 }, { 1, 0 }, { 1, 2 }, { 1, 5 },
+        { 1, NAN },                                                     /* NAN: in the longest stick there */
         { 0, INFINITY },                                                /* halfway to the next anchor */
     };
     const size_t *anchor = r->anchor, n = r->n_anchors, cycles = r->forcing > 0 ? s->cycles.n : n;
@@ -130,17 +153,20 @@ fit_together(search *s, ringdown *r, double f)
     ss_status st = moved != NULL ? SS_OK : SS_ENOMEM;
     *why = "";
     for (size_t k = 0; k < sizeof way / sizeof *way && st == SS_OK && *why != NULL; k++) {
+        int in_stick = isnan(way[k].behind);
         if (k == 0 || way[k].off_events != way[k - 1].off_events) {
             free(bar);
             bar = NULL;
             st = find_bars(s, way[k].off_events, f, &bar, &r->n_bars);
         }
         int is_barred = r->n_bars > s->n_gaps;
-        if (st != SS_OK || (way[k].off_events && !is_barred) || r->is_train)
+        if (st != SS_OK || (way[k].off_events && !is_barred && !in_stick)
+            || (r->is_train && !(is_barred && in_stick)))
             continue;
         for (size_t i = 0; i < n; i++) {
             const size_t next = i + 1 < n ? anchor[i + 1] : s->n;
-            moved[i] = isinf(way[k].behind) ? anchor[i] + (next - anchor[i]) / 2
+            moved[i] = in_stick ? stick_behind(s, anchor[i], next, f)
+                : isinf(way[k].behind) ? anchor[i] + (next - anchor[i]) / 2
                 : anchor[i] + (size_t)(way[k].behind / f * s->rate);
             moved[i] = moved[i] < s->n ? moved[i] : s->n - 1;
         }
