@@ -11,7 +11,7 @@
 
 SS_BEGIN_DECLARATIONS
 
-/* The quantity of a signal, in the order of the columns of ss_sim_row.  SS_SPRING is the force of
+/* The quantity of a signal, in the order of the columns of ss_sim_columns.  SS_SPRING is the force of
  * the spring, k (z - x). */
 typedef enum ss_quantity {
     SS_DISPLACEMENT, SS_VELOCITY, SS_ACCELERATION, SS_FORCE, SS_SPRING

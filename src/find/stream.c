@@ -34,7 +34,6 @@ struct stream {
     size_t column;
     ss_features_opts opts;
     struct rows rows;
-    ss_format format;
     unsigned has;               /* of what numbers need; 0 before the first row */
     int begun;
     double **x;                 /* the last samples of each column, n of them, in room for twice as many */

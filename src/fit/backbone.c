@@ -343,18 +343,17 @@ settle(decay *d)
 
 /* --- lines beside it ------------------------------------------------------------------------- */
 
-/* 1: a line at w may be the decay itself or a harmonic of it, or one that is known. */
+/* 1: a line at w may be the decay itself, or is one that is known. */
 static int
 is_known(const decay *d, double w, size_t n)
 {
     double width = 12 / (double)n, lo = INFINITY, hi = 0;
     double blocks = 2 * M_PI * (double)d->n_blocks / (double)(d->block[d->n_blocks - 1].end - d->block->first);
-    int known = 0;
     for (size_t i = 0; i < d->n_blocks; i++) {
         lo = fmin(lo, d->block[i].at.w);
         hi = fmax(hi, d->block[i].at.w);
     }
-    known |= w > lo * (1 - NEAR) - width && w < hi * (1 + NEAR) + width;
+    int known = w > lo * (1 - NEAR) - width && w < hi * (1 + NEAR) + width;
     for (size_t i = 0; i < d->beside.n; i++)
         known |= fabs(w - d->beside.w[i]) < fmax(4 * d->beside.s[i] + width, blocks);
     return known;
