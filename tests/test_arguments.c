@@ -145,12 +145,10 @@ headers_and_samples_refuse_null(void **state)
     ss_header *head = NULL, *copy;
     assert_int_equal(ss_header_new(&head, 1, 0, NULL), SS_OK);
     ss_signal *signal = NULL;
-    ss_span *gap;
     ss_noise_opts noise;
     ss_noise_done done = { .rms = NULL };
     ss_reader *reader = NULL;
     double x[2] = { 1, 2 };
-    size_t n;
     ss_error e = { 0 };
     (void)state;
     assert_null(ss_header_find_note(NULL, "key"));

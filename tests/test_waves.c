@@ -385,6 +385,10 @@ a_converter_rounds_and_clips(void **state)
             assert_true(fabs(square / (double)inside / (step * step / 12) - 1)
                         <= (bits > 11 ? 0.05 : 1e-2));
     }
+    size_t none = 0;
+    x[0] = NAN;
+    assert_int_equal(ss_quantise(x, 1, 8, 1, &none, NULL), SS_OK);
+    assert_true(isnan(x[0]) && none == 0);
     assert_int_equal(ss_quantise(x, N, 0, 1, NULL, NULL), SS_EINVAL);
     assert_int_equal(ss_quantise(x, N, 53, 1, NULL, NULL), SS_EINVAL);
     assert_int_equal(ss_quantise(x, N, 8, 0, NULL, NULL), SS_EINVAL);

@@ -55,8 +55,9 @@ void ss_plot_opts_init(ss_plot_opts *opts, size_t size);
 
 /* Draw the n columns of these indices over time, one panel each (figure 1); with n = 0 all columns.
  *
- * A signal may have any length: it is read to its end, and in memory that does not grow.  Of a column of more
- * than 2048 values in the span, the smallest and the largest of each of 1024 blocks or more are drawn. */
+ * A signal may have any length: it is read to its end, from the row on at which the reader is, and in memory that
+ * does not grow.  Of a column of more than 2048 values in the span, the smallest and the largest of each of 1024
+ * blocks or more are drawn. */
 ss_status ss_plot_signal(FILE *out, ss_reader *reader, const size_t column[], size_t n,
                          const ss_plot_opts *opts, ss_error *err);
 /* Draw column y over column x: a phase plane or a friction loop.  Of opts->over, the columns of the same names are

@@ -126,8 +126,8 @@ ss_quantise(double *x, size_t n, int bits, double range, size_t *clipped, ss_err
     if (!(step > 0 && isfinite(range)))
         return ss_fail(err, SS_EINVAL, "range %g has no steps of %d bits", range, bits);
     for (size_t i = 0; i < n; i++) {
-        double code = rint(x[i] / step), kept = fmin(fmax(code, -codes), codes - 1);
-        *clipped += kept != code;
+        double code = rint(x[i] / step), kept = code < -codes ? -codes : code >= codes ? codes - 1 : code;
+        *clipped += kept < code || kept > code;         /* NaN stays, as no converter had it */
         x[i] = step * kept + 0.0;     /* no -0 */
     }
     return SS_OK;
