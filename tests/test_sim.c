@@ -347,7 +347,8 @@ records_begin_where_the_motion_starts(void **state)
                 ss_scene_set(&s, "stribeck_velocity", .1, NULL);
                 ss_scene_set(&s, "exponent", 1, NULL);
                 ss_scene_set(&s, "beta_fraction", .7, NULL);
-                s.static_friction = strcmp(ss_model_name(model), "lugre") == 0 ? 1.5 * s.friction : s.static_friction;
+                if (strcmp(ss_model_name(model), "lugre") == 0)
+                    s.static_friction = 1.5 * s.friction;
             }
             if (s.base_velocity == 0)
                 s.surface_velocity = belt;
