@@ -346,11 +346,31 @@ names_and_units_tell_the_quantity(void **state)
             fail_msg("'%s' in '%s' is no %d", row[i].name, row[i].unit, row[i].is);
 }
 
+/* An empty record has features that can be written. */
+static void
+an_empty_record_has_no_spikes(void **state)
+{
+    ss_signal *signal = new_signal(0, 1000, 0, "a", "");
+    ss_features *found = NULL;
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    (void)state;
+    assert_int_equal(ss_features_find(&found, signal, 0, NULL, NULL), SS_OK);
+    assert_int_equal(ss_features_write(found, signal, 0, NULL, out, SS_TSV, NULL), SS_OK);
+    fclose(out);
+    assert_non_null(strstr(text, "# spikes: none, the recording is too short\n"));
+    free(text);
+    ss_features_free(found);
+    ss_signal_free(signal);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(prominence_is_the_fall_to_the_highest_saddle),
+        cmocka_unit_test(an_empty_record_has_no_spikes),
         cmocka_unit_test(long_maps_have_no_seams),
         cmocka_unit_test(levels_are_over_the_largest_outside_the_cone),
         cmocka_unit_test(slopes_plateaus_and_borders_are_no_maxima),

@@ -43,8 +43,8 @@ typedef struct ss_spikes {
                                    shortest scale shows them.  0: there is no spike */
     int conclusive;             /* 1: floor <= -6, so that a spike half as strong as the strongest is
                                    seen; 0: too much noise to count or to group spikes */
-    const char *verdict;        /* constant text: "counted", or why they are not: there is too much noise, or the
-                                   signal is smooth */
+    const char *verdict;        /* constant text: "counted", or why they are not: there is too much noise, the
+                                   signal is smooth, or the recording is too short */
 } ss_spikes;
 
 SS_END_DECLARATIONS

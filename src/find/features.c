@@ -243,6 +243,8 @@ ss_features_of_part(ss_features **out, const ss_signal *signal, size_t column, c
     }
     if (st == SS_OK && found->spikes == NULL && (found->spikes = calloc(1, sizeof *found->spikes)) == NULL)
         st = ss_fail_memory(err, NULL);
+    if (st == SS_OK && found->spikes->verdict == NULL)
+        found->spikes->verdict = "none, the recording is too short";
     free(gap);
     free(x);
     if (st != SS_OK) {

@@ -240,19 +240,24 @@ find_levels(struct noisy *y, ss_error *err)
 static ss_status
 note_noise(ss_header *head, const ss_noise_opts *o)
 {
-    char text[256] = "", band[128] = "";
-    int is_ratio = !isnan(o->snr);
+    char text[256], band[128] = "", number[SS_NUMBER_MAX], to[SS_NUMBER_MAX];
+    const int is_ratio = !isnan(o->snr);
     ss_status st = SS_OK;
-    if (!isnan(o->band.from))
-        ss_print_to(band, sizeof band, ", %.17g to %.17g Hz", o->band.from, o->band.to);
+    if (!isnan(o->band.from)) {
+        ss_number_format(number, o->band.from);
+        ss_number_format(to, o->band.to);
+        snprintf(band, sizeof band, ", %s to %s Hz", number, to);
+    }
     if (is_ratio || !isnan(o->rms)) {
-        ss_print_to(text, sizeof text, is_ratio ? "snr %.17g dB%s, seed %lu" : "rms %.17g%s, seed %lu",
-                    is_ratio ? o->snr : o->rms, band, o->seed);
+        ss_number_format(number, is_ratio ? o->snr : o->rms);
+        snprintf(text, sizeof text, "%s %s%s%s, seed %lu", is_ratio ? "snr" : "rms", number, is_ratio ? " dB" : "",
+                 band, o->seed);
         st = ss_header_note(head, "noise", text, NULL);
     }
     if (o->bits == 0 || st != SS_OK)
         return st;
-    ss_print_to(text, sizeof text, "%d bits, range %.17g", o->bits, o->range);
+    ss_number_format(number, o->range);
+    snprintf(text, sizeof text, "%d bits, range %s", o->bits, number);
     st = ss_header_note(head, "converter", text, NULL);
     return st == SS_OK ? ss_header_note(head, "clipped", NULL, NULL) : st;  /* that was of another converter */
 }
