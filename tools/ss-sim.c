@@ -121,9 +121,14 @@ set_base(ss_scene *scene, const char *given)
         *colon = '\0';
         column = colon + 1;
     }
-    const char *slash = strrchr(path, '/');
-    snprintf(scene->base_file, sizeof scene->base_file, "%s", slash != NULL ? slash + 1 : path);
-    snprintf(scene->base_column, sizeof scene->base_column, "%s", column);
+    const char *slash = strrchr(path, '/'), *file = slash != NULL ? slash + 1 : path;
+    if (strlen(column) >= sizeof scene->base_column)
+        tool_usage("--base: the name of the column is longer than %zu bytes; its number stands for it, too",
+                   sizeof scene->base_column - 1);
+    if (strlen(file) >= sizeof scene->base_file)
+        tool_usage("--base: '%s' is longer than %zu bytes", file, sizeof scene->base_file - 1);
+    strcpy(scene->base_file, file);
+    strcpy(scene->base_column, column);
     tool_check_base(ss_base_load(&base, scene, tool_reads(path), &tool_error));
     scene->base_amplitude = scene->base_frequency = scene->phase = 0;
     free(path);

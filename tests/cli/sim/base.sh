@@ -20,6 +20,7 @@ refused ss-sim -s duration=7 folder/my.scene
 refused ss-sim -m exact folder/my.scene
 refused ss-sim -b folder/z.tsv:y coulomb
 refused ss-sim -b folder/none.tsv coulomb
+refused ss-sim -b folder/z.tsv:aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa coulomb
 refused ss-sim -s base_file=none.tsv folder/my.scene
 refused ss-sim -b folder/z.tsv -o folder/z.tsv coulomb
 refused ss-sim -o folder/z.tsv folder/my.scene
