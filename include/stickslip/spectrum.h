@@ -19,7 +19,10 @@ typedef struct ss_spectrum {
     size_t segments;            /* each of 2 (n - 1) samples, a power of 2 */
 } ss_spectrum;
 
-/* Estimate the spectrum of n >= 16 samples.  The segments are the longest whose bandwidth is at
+/* Of columns of any length, as a reader gives them, ss_spectrum_write and ss_plot_spectrum of stickslip/plot.h write
+ * and draw spectra.
+ *
+ * Estimate the spectrum of n >= 16 samples.  The segments are the longest whose bandwidth is at
  * least resolution [Hz]; with 0 there are at least seven, of at most 2^22 samples.  SS_EINVAL: a sample is
  * not finite, or the resolution is not within 1.5 rate / n ... 1.5 rate / 16; SS_ERANGE: a density is not
  * finite. */
