@@ -2,7 +2,7 @@
 #ifndef STICKSLIP_STATUS_H
 #define STICKSLIP_STATUS_H
 
-#define SS_VERSION "0.1.0"
+#define SS_VERSION "1.0.0"
 
 /* What stands between SS_BEGIN_DECLARATIONS and SS_END_DECLARATIONS has C linkage and is visible
  * outside the shared library.  The library's own headers do not use them, so it hides the rest. */

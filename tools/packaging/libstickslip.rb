@@ -2,7 +2,7 @@
 class Libstickslip < Formula
   desc "Stick-slip oscillators and the wavelets of their signals"
   homepage "https://github.com/libstickslip/libstickslip"
-  url "https://github.com/libstickslip/libstickslip/releases/download/v0.1.0/libstickslip-0.1.0.tar.gz"
+  url "https://github.com/libstickslip/libstickslip/releases/download/v1.0.0/libstickslip-1.0.0.tar.gz"
   sha256 "0000000000000000000000000000000000000000000000000000000000000000"
   license "GPL-3.0-or-later"
 

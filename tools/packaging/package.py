@@ -6,10 +6,10 @@ class Libstickslip(MakefilePackage):
     """Simulate stick-slip oscillators, take Morlet wavelet coefficients of their signals, measure the contact."""
 
     homepage = "https://github.com/libstickslip/libstickslip"
-    url = "https://github.com/libstickslip/libstickslip/releases/download/v0.1.0/libstickslip-0.1.0.tar.gz"
+    url = "https://github.com/libstickslip/libstickslip/releases/download/v1.0.0/libstickslip-1.0.0.tar.gz"
     license("GPL-3.0-or-later")
 
-    version("0.1.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
+    version("1.0.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
 
     depends_on("c", type="build")
     depends_on("pkgconfig", type="build")
