@@ -12,7 +12,7 @@
 
 #include <stickslip.h>
 #include "../shipped.h"
-#include "noise_rms.h"
+#include "../noise_rms.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 

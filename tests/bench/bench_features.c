@@ -6,7 +6,7 @@
  * usage: bench_features [SEEDS] */
 #include <gsl/gsl_errno.h>
 #include "bench.h"
-#include "noise_rms.h"
+#include "../noise_rms.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 

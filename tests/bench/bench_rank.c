@@ -15,7 +15,7 @@
 #include <gsl/gsl_rng.h>
 #include "../foreign.h"
 #include "bench.h"
-#include "noise_rms.h"
+#include "../noise_rms.h"
 #include "signal/noise.h"
 
 enum { MODELS = 4 };

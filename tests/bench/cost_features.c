@@ -7,7 +7,7 @@
 #include "map/map.h"
 #include "bench.h"
 #include "signal/header.h"
-#include "noise_rms.h"
+#include "../noise_rms.h"
 #include "signal/noise.h"
 
 enum { ROUNDS = 2, SAMPLES = 1000000, SECONDS = 60 };

@@ -17,7 +17,7 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include "bench.h"
-#include "noise_rms.h"
+#include "../noise_rms.h"
 #include "signal/noise.h"
 #include "signal/header.h"
 #include "scene/scene.h"

@@ -32,7 +32,7 @@
 #include "../random_scene.h"
 #include "scene/key.h"
 #include "scene/scene.h"
-#include "scene_word.h"
+#include "../scene_word.h"
 
 /* --- numbers ------------------------------------------------------------------------------------
  * Balls of a pool.  A function that needs room for a moment ends with used = what it was. */
