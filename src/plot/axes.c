@@ -11,7 +11,7 @@
 #include "signal/header.h"
 
 #define DECADES 8               /* powers of ten that stand at an axis, at most */
-#define TITLE_ROOM 34.0         /* [ems] */
+#define TITLE_ROOM 26.0         /* [ems]; a title stands over the panels, which leave more room on the left */
 #define X_ROOM 30.0             /* of a label below the horizontal axis */
 #define SMALL 0.6               /* letters too small to read */
 #define TWO_LINES 0.8           /* letters of two lines, which leave tics their room */

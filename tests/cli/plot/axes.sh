@@ -65,3 +65,5 @@ awk '!/^#/ && NF > 2 { printf "%.7f %.9f\n", $2, $3 }' diagram.tsv
 # microseconds, as gnuplot writes them
 command -v gnuplot > /dev/null || exit 0
 { echo 'set terminal dumb 99,40'; cat fast.gp; } | gnuplot 2> /dev/null | grep -o 'time / .*s'
+# a title that would reach beyond the page stands in two lines
+ss-sim -s damping=1 -s base_amplitude=0 -s x0=.01 -s duration=.1 -s settle=0 compliant-light | ss-plot | grep '^set title'
