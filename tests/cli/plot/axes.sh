@@ -62,8 +62,8 @@ offset=$(sed -n 's/.*set label 1 .* \\342\\210\\222 \([0-9.]*\) m.*/\1/p' diagra
 sed -n '/^\$panel1 /,/^EOD/p' diagram.gp | awk -v offset="$offset" 'NF == 2 { printf "%.7f %.9f\n", 1.28 + 1e-6 * $1, offset + 1e-6 * $2 }'
 awk '!/^#/ && NF > 2 { printf "%.7f %.9f\n", $2, $3 }' diagram.tsv
 
+# a title that would reach beyond the page stands in two lines
+ss-sim -s damping=1 -s base_amplitude=0 -s x0=.01 -s duration=.1 -s settle=0 compliant-light | ss-plot | grep '^set title'
 # microseconds, as gnuplot writes them
 command -v gnuplot > /dev/null || exit 0
 { echo 'set terminal dumb 99,40'; cat fast.gp; } | gnuplot 2> /dev/null | grep -o 'time / .*s'
-# a title that would reach beyond the page stands in two lines
-ss-sim -s damping=1 -s base_amplitude=0 -s x0=.01 -s duration=.1 -s settle=0 compliant-light | ss-plot | grep '^set title'
