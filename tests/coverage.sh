@@ -4,7 +4,7 @@
 # A line that is compiled more than once, as in a header or for several processors (base/versions.h), has run if
 # it ran in one of them.
 #
-# The other 1.4 % are: a third, failures of memory, of files and of HDF5, of which test_memory, test_store_failures and
+# The other 1.2 % are: a third, failures of memory, of files and of HDF5, of which test_memory, test_store_failures and
 # cli/all/full-disk bring about those that lie at a place of their own; a third, refusals and reasons of fits and searches for
 # records that no test has; and arguments that no tool gives, and numbers at the ends of double precision.
 set -eu
