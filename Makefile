@@ -16,7 +16,7 @@
 #   make install uninstall  PREFIX=/usr/local DESTDIR=
 #   make site               the manual as HTML, under build/site; needs mandoc
 #   make dist               libstickslip-VERSION.tar.gz of what is committed, under build/
-#   make version NEW=1.0.0  writes another version wherever it stands (CONTRIBUTING.md: A release)
+#   make version NEW=1.1.0  writes another version wherever it stands (CONTRIBUTING.md: A release)
 #   make deps               install what all of this needs; INSTALL_DEPS=0: say what is missing only
 #   make clean
 #
@@ -343,9 +343,8 @@ dist:
 	@mkdir -p $(BUILD)
 	git archive --prefix=libstickslip-$(VERSION)/ HEAD | gzip -n9 > $(BUILD)/libstickslip-$(VERSION).tar.gz
 
-# Every place that names the version.  Symbols keep the version that first had them, once one is released.
-VERSIONED := include/stickslip/status.h CITATION.cff CHANGELOG.md debian/changelog $(wildcard tools/packaging/*) \
-	$(if $(filter 0.%,$(VERSION)),debian/libstickslip1.symbols)
+# Every place that names the version, but for changelogs and symbols, which keep the version that first had them.
+VERSIONED := include/stickslip/status.h CITATION.cff $(wildcard tools/packaging/*)
 version:
 	for f in $(VERSIONED); do sed 's/$(subst .,[.],$(VERSION))/$(NEW)/g' $$f > version.new && cat version.new > $$f || exit 1; done
 	rm version.new
