@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 #include <stickslip.h>
 #include "map/map.h"
 #include "shipped.h"

@@ -11,7 +11,6 @@
  * as long as steps by them gain half of what they predict.  A fit ends by fresh slopes only. */
 #include "base/least.h"
 
-#include <float.h>
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>

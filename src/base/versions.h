@@ -2,7 +2,6 @@
 #ifndef VERSIONS_H
 #define VERSIONS_H
 
-#include <stdlib.h>             /* for __GLIBC__ */
 
 #if defined(__GNUC__) && !defined(__clang__)
 #define FAST __attribute__((optimize("O3")))

@@ -15,7 +15,6 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include "find/medians.h"
 #include "signal/gaps.h"
 

@@ -5,7 +5,6 @@
 #include "find/search.h"
 #include "signal/gaps.h"
 
-
 /* Convert omega and s, per sample, to Hz and damping ratio. */
 static void
 set_oscillation(const ss_value fit[2], double rate, ss_value *frequency, ss_value *ratio)

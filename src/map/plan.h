@@ -2,7 +2,6 @@
 #ifndef PLAN_H
 #define PLAN_H
 
-#include <float.h>
 #include <stddef.h>
 #include <stickslip/morlet.h>
 #include "map/map.h"

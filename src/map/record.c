@@ -1,5 +1,6 @@
 /* record.c -- prepare the input of both engines: check the samples, subtract their trend, and scale
  * them so that nothing overflows or underflows. */
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -8,7 +8,6 @@
  * its error, nothing compared with the promise. */
 #include <limits.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include "base/error.h"
 #include "map/fft/blocks.h"

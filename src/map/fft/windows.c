@@ -4,7 +4,6 @@
  * blocks.c says what a window is, and how large the error.  Window i of a level begins at its sample
  * (i - 1) hop, and window 0 makes only samples before the record's first, which the next level has. */
 #include <fftw3.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/versions.h"
